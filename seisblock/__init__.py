@@ -1,0 +1,33 @@
+"""seisblock: what ground motion does to objects that nobody bolted down."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "Component": "seisblock.records",
+    "Motion": "seisblock.records",
+    "Record": "seisblock.records",
+    "motion_of": "seisblock.records",
+    "read": "seisblock.readers",
+    "Response": "seisblock.results",
+}
+
+__all__ = ["__version__", *_HOME]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first asked for (PEP 562)."""
+    if name not in _HOME:
+        raise AttributeError(f"module 'seisblock' has no attribute {name!r}")
+    value = getattr(importlib.import_module(_HOME[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """List the public names."""
+    return sorted(__all__)

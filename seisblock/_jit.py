@@ -1,0 +1,90 @@
+"""The one place where numba options live: how a kernel is compiled, cached, and switched off."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+ENABLED = os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
+"""Whether kernels are compiled; ``NUMBA_DISABLE_JIT=1`` runs them as plain Python."""
+
+
+def _source_digest() -> str:
+    """Return a digest of every file that defines kernels.
+
+    A cached kernel that calls a kernel of another file is not invalidated by numba when that other
+    file changes; a cache directory named after all kernel sources is never stale.
+    """
+    digest = hashlib.sha256(sys.version.encode())
+    root = Path(__file__).parent
+    for folder in ("dynamics", "solvers"):
+        for path in sorted((root / folder).glob("*.py")):
+            digest.update(path.read_bytes())
+    digest.update(Path(__file__).read_bytes())
+    return digest.hexdigest()[:16]
+
+
+@functools.cache
+def cache_directory() -> Path:
+    """Return the directory of compiled kernels of this very source: ``SEISBLOCK_CACHE_DIR``, else the user's cache."""
+    chosen = os.environ.get("SEISBLOCK_CACHE_DIR")
+    if chosen:
+        base = Path(chosen)
+    elif sys.platform == "win32":
+        base = Path(os.environ.get("LOCALAPPDATA", Path.home())) / "seisblock"
+    elif sys.platform == "darwin":
+        base = Path.home() / "Library" / "Caches" / "seisblock"
+    else:
+        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "seisblock"
+    return base / _source_digest()
+
+
+def _prepare_cache() -> bool:
+    """Make the cache directory; return whether it can be written."""
+    directory = cache_directory()
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    if not os.access(directory, os.W_OK):
+        return False
+    if not any(directory.rglob("*.nbi")) and sys.stderr is not None and not os.environ.get("SEISBLOCK_QUIET"):
+        print("seisblock: compiling its kernels once, a few seconds...", file=sys.stderr, flush=True)
+    return True
+
+
+_CACHE = _prepare_cache() if ENABLED else False
+
+
+def kernel(signature: Any, *, inline: bool = False) -> Callable[[Function], Function]:
+    """Compile a function for one explicit signature, cached, without the GIL and without ``fastmath``.
+
+    Parameters
+    ----------
+    signature : numba signature
+        Explicit, so that the kernel compiles once, caches, and can travel as a function pointer.
+    inline : bool
+        Ask LLVM to inline it into every caller.
+    """
+
+    def decorate(function: Function) -> Function:
+        if not ENABLED:
+            return function
+        import numba
+
+        # numba asks where to cache while it decorates; what the caller's own kernels use stays as it was
+        before = numba.config.CACHE_DIR
+        numba.config.CACHE_DIR = str(cache_directory()) if _CACHE else before
+        try:
+            return numba.njit(signature, cache=_CACHE, nogil=True, error_model="numpy", forceinline=inline)(function)  # type: ignore[no-any-return]
+        finally:
+            numba.config.CACHE_DIR = before
+
+    return decorate

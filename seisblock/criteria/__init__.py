@@ -1,0 +1,1 @@
+"""Closed forms: each a cited formula."""

@@ -1,0 +1,55 @@
+"""What can go wrong, one tree; each class is also the builtin a naive caller would catch."""
+
+from __future__ import annotations
+
+
+class SeisblockError(Exception):
+    """Root of every error that seisblock raises on purpose."""
+
+    exit_code = 3
+
+
+class InputError(SeisblockError, ValueError):
+    """Something the user gave cannot be used."""
+
+
+class ParameterError(InputError):
+    """A number or an option lies outside what the model admits."""
+
+
+class UnitError(InputError):
+    """A unit is unknown, or a number that needs one came without."""
+
+
+class RecordError(InputError):
+    """A record cannot be read or does not hold what is asked of it."""
+
+
+class RecordNotFoundError(RecordError, FileNotFoundError):
+    """No file, and no bundled sample, of that name."""
+
+
+class RecordFormatError(RecordError):
+    """The file is there, but it is not what its format promises."""
+
+
+class ComponentError(RecordError, LookupError):
+    """The record has no such component, station or level."""
+
+
+class BodyError(InputError):
+    """The description of a body is incomplete or contradicts itself."""
+
+
+class OutputError(SeisblockError, OSError):
+    """An output file cannot be written."""
+
+
+class SolverError(SeisblockError, ArithmeticError):
+    """A solver gave up: the answer would not be one."""
+
+    exit_code = 4
+
+
+class SeisblockWarning(UserWarning):
+    """Something the user should know, although the answer stands."""

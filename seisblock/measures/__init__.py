@@ -1,0 +1,1 @@
+"""One number per record: peaks, equivalent frequencies, durations, intensities."""

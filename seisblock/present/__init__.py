@@ -1,0 +1,1 @@
+"""What one sees: tables, figures, animations, documents."""

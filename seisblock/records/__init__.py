@@ -1,0 +1,6 @@
+"""What was measured: records, motions, and the processing between them."""
+
+from seisblock.records.motion import Motion, motion_of
+from seisblock.records.record import Component, Record
+
+__all__ = ["Component", "Motion", "Record", "motion_of"]

@@ -1,0 +1,163 @@
+"""A record as it was read: station, start, components, and what was done to it since."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+
+import numpy as np
+
+from seisblock.errors import ComponentError, RecordError
+from seisblock.typing import ArrayLike, FloatArray
+
+HORIZONTAL_AZIMUTHS = {"NS": 0.0, "EW": 90.0}
+"""Azimuth, in degrees clockwise from north, of the positive direction of the two standard horizontals."""
+
+VERTICAL = "UD"
+"""Code of the vertical component, positive up."""
+
+
+def frozen(values: ArrayLike) -> FloatArray:
+    """Return `values` as a read-only, C-contiguous float64 array, copied only when it must be."""
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if array.flags.writeable:
+        array = array.view() if array is not values else array.copy()
+        array.flags.writeable = False
+    return array
+
+
+@dataclass(frozen=True, eq=False)
+class Component:
+    """One component of ground acceleration.
+
+    Parameters
+    ----------
+    code : str
+        ``NS``, ``EW`` or ``UD`` (positive north, east, up), else the name the file gives.
+    acceleration : (n,) array, m/s^2
+        Ground acceleration; kept read-only.
+    azimuth_deg : float or None
+        Azimuth of the positive direction, degrees clockwise from north; None when vertical or unknown.
+    """
+
+    code: str
+    acceleration: FloatArray
+    azimuth_deg: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "acceleration", frozen(self.acceleration))
+        if self.acceleration.ndim != 1:
+            raise RecordError(f"component {self.code}: expected one row of samples, found {self.acceleration.ndim} dimensions")
+        if self.azimuth_deg is None and self.code in HORIZONTAL_AZIMUTHS:
+            object.__setattr__(self, "azimuth_deg", HORIZONTAL_AZIMUTHS[self.code])
+
+    @property
+    def is_vertical(self) -> bool:
+        """Whether this is the vertical component."""
+        return self.code == VERTICAL
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """A strong-motion record of one station.
+
+    Parameters
+    ----------
+    components : sequence of Component
+        All of one length; codes are unique.
+    dt : float, s
+        Sampling interval.
+    station : str
+        Code or name of the station, empty when unknown.
+    start : datetime or None
+        Time of the first sample as read, UTC.
+    offset_s : float, s
+        Time of the first sample held here after the first sample as read (cutting a window moves it).
+    source, sha256, format : str
+        File, digest of its bytes, and name of the format it was read as.
+    history : tuple of str
+        What was done to the samples since they were read, oldest first.
+    metadata : mapping
+        What else the header said (epicentre, magnitude, header's own maximum...).
+    """
+
+    components: tuple[Component, ...]
+    dt: float
+    station: str = ""
+    start: datetime | None = None
+    offset_s: float = 0.0
+    source: str = ""
+    sha256: str = ""
+    format: str = ""
+    history: tuple[str, ...] = ()
+    metadata: dict[str, object] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "components", tuple(self.components))
+        where = f"{self.source or 'record'}: "
+        if not self.components:
+            raise RecordError(where + "there is no component in it")
+        if not (np.isfinite(self.dt) and self.dt > 0):
+            raise RecordError(where + f"the sampling interval must be positive, found {self.dt} s")
+        lengths = {c.code: c.acceleration.size for c in self.components}
+        if len(lengths) != len(self.components):
+            raise RecordError(where + f"component codes repeat: {', '.join(c.code for c in self.components)}")
+        if len(set(lengths.values())) != 1:
+            found = ", ".join(f"{code} {n}" for code, n in lengths.items())
+            raise RecordError(where + f"components differ in length ({found} samples): give files of one recording")
+        if self.samples < 2:
+            raise RecordError(where + f"needs at least 2 samples, found {self.samples}")
+        for component in self.components:
+            bad = np.flatnonzero(~np.isfinite(component.acceleration))
+            if bad.size:
+                raise RecordError(
+                    where + f"component {component.code} holds {bad.size} samples that are not numbers, the first at index {bad[0]}"
+                )
+
+    @property
+    def samples(self) -> int:
+        """Number of samples of each component."""
+        return int(self.components[0].acceleration.size)
+
+    @property
+    def duration_s(self) -> float:
+        """Time from the first to the last sample, s."""
+        return (self.samples - 1) * self.dt
+
+    @property
+    def time(self) -> FloatArray:
+        """Times of the samples, (n,), s after the first sample as read."""
+        return self.offset_s + self.dt * np.arange(self.samples)
+
+    @property
+    def codes(self) -> tuple[str, ...]:
+        """Codes of the components, in the order of the file."""
+        return tuple(c.code for c in self.components)
+
+    @property
+    def horizontals(self) -> tuple[Component, ...]:
+        """The components that are not vertical."""
+        return tuple(c for c in self.components if not c.is_vertical)
+
+    @property
+    def vertical(self) -> Component | None:
+        """The vertical component, or None."""
+        return next((c for c in self.components if c.is_vertical), None)
+
+    def component(self, code: str) -> Component:
+        """Return the component of that code.
+
+        Raises
+        ------
+        ComponentError
+            If there is none; the message lists those there are.
+        """
+        for candidate in self.components:
+            if candidate.code.upper() == code.upper():
+                return candidate
+        raise ComponentError(f"{self.source or 'record'}: no component {code!r}; it has {', '.join(self.codes)}")
+
+    def with_components(self, components: Sequence[Component], did: str, **changes: object) -> Record:
+        """Return a record with other samples, and `did` added to its history."""
+        return replace(self, components=tuple(components), history=(*self.history, did), **changes)  # type: ignore[arg-type]

@@ -1,0 +1,120 @@
+"""The literature: one entry per key, used by docstrings, ``seisblock cite`` and every JSON document."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Reference:
+    """One published source."""
+
+    key: str
+    authors: str
+    year: int
+    title: str
+    where: str
+    kind: str = "article"
+    doi: str = ""
+
+    def text(self) -> str:
+        """Return the reference as one line of a bibliography."""
+        tail = f" doi:{self.doi}" if self.doi else ""
+        return f"{self.authors} ({self.year}). {self.title}. {self.where}.{tail}"
+
+    def bibtex(self) -> str:
+        """Return the reference as a BibTeX entry."""
+        container = {"article": "journal", "book": "publisher", "techreport": "institution"}.get(self.kind, "howpublished")
+        fields = {"author": self.authors, "year": str(self.year), "title": self.title, container: self.where, "doi": self.doi}
+        body = ",\n".join(f"  {name} = {{{value}}}" for name, value in fields.items() if value)
+        return f"@{self.kind}{{{self.key},\n{body}\n}}"
+
+
+_ALL = (
+    Reference(
+        "Sugimoto2017",
+        "Sugimoto, K. and Taniguchi, T. and Mukaibo, K. and Ono, Y.",
+        2017,
+        "Explanation of jumping behavior of Chozu-sha in view of dynamics of discontinuous system",
+        "Journal of Structural Engineering A, JSCE, 63A (in Japanese)",
+    ),
+    Reference(
+        "Tsutsui",
+        "Tsutsui, M. and Yamao, T.",
+        2020,
+        "A study on the rocking of rectangular blocks (in Japanese)",
+        "JSCE Annual Meeting",
+        kind="misc",
+    ),
+    Reference(
+        "Furukawa2009",
+        "Furukawa, A. and others",
+        2009,
+        "Proposal of an overturning criterion of gravestones during earthquakes (in Japanese)",
+        "Proc. 30th JSCE Earthquake Engineering Symposium",
+    ),
+    Reference(
+        "Fujino1978",
+        "Fujino, Y. and Sasaki, Y. and Hakuno, M.",
+        1978,
+        "Slip of a friction-controlled mass excited by earthquake motions (in Japanese)",
+        "Bulletin of the Earthquake Research Institute, University of Tokyo, 53",
+    ),
+    Reference(
+        "Okumura1987",
+        "Okumura, A.",
+        1987,
+        "Uplift of a rigid block supported by springs at its corners under harmonic ground motion (in Japanese)",
+        "see the paper's own heading",
+    ),
+    Reference(
+        "Housner1963",
+        "Housner, G. W.",
+        1963,
+        "The behavior of inverted pendulum structures during earthquakes",
+        "Bulletin of the Seismological Society of America, 53(2), 403-417",
+    ),
+    Reference(
+        "Zhang2001",
+        "Zhang, J. and Makris, N.",
+        2001,
+        "Rocking response of free-standing blocks under cycloidal pulses",
+        "Journal of Engineering Mechanics, 127(5), 473-483",
+        doi="10.1061/(ASCE)0733-9399(2001)127:5(473)",
+    ),
+    Reference(
+        "Newmark1965",
+        "Newmark, N. M.",
+        1965,
+        "Effects of earthquakes on dams and embankments",
+        "Geotechnique, 15(2), 139-160",
+        doi="10.1680/geot.1965.15.2.139",
+    ),
+    Reference(
+        "Ishiyama1982",
+        "Ishiyama, Y.",
+        1982,
+        "Motions of rigid bodies and criteria for overturning by earthquake excitations",
+        "Earthquake Engineering and Structural Dynamics, 10(5), 635-650",
+        doi="10.1002/eqe.4290100502",
+    ),
+    Reference(
+        "Arias1970",
+        "Arias, A.",
+        1970,
+        "A measure of earthquake intensity",
+        "Seismic Design for Nuclear Power Plants, MIT Press, 438-483",
+        kind="book",
+    ),
+    Reference(
+        "JMA1996",
+        "Japan Meteorological Agency",
+        1996,
+        "Shindo wo shiru (Understanding seismic intensity), method of the instrumental intensity",
+        "Gyosei, Tokyo (in Japanese)",
+        kind="book",
+    ),
+)
+
+REFERENCES = {reference.key: reference for reference in _ALL}
+"""Every reference by its key."""

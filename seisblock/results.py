@@ -1,0 +1,149 @@
+"""What a solver answers: phases, events, channels and an outcome, in one immutable response."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from enum import IntEnum
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+
+from seisblock.records.motion import Motion
+from seisblock.typing import FloatArray
+
+Outcome = TypeVar("Outcome", covariant=True)
+
+
+class Status(IntEnum):
+    """How an integration ended; every compiled kernel returns one of these, never an exception."""
+
+    RECORD_ENDED = 0
+    STOPPED = 1
+    TOO_MANY_EVENTS = 2
+    CHATTERING = 3
+    NOT_FINITE = 4
+    STEP_TOO_SMALL = 5
+
+
+@dataclass(frozen=True)
+class Phase:
+    """A stretch of time spent in one mode, times in s from the record's first sample."""
+
+    name: str
+    start_s: float
+    end_s: float
+
+    @property
+    def duration_s(self) -> float:
+        """Length of the phase, s."""
+        return self.end_s - self.start_s
+
+
+@dataclass(frozen=True, eq=False)
+class Event:
+    """A change of mode, with the state on both sides of it.
+
+    Parameters
+    ----------
+    name : str
+        What happened (``impact``, ``slip start``...).
+    time_s : float, s
+        Time from the record's first sample.
+    before, after : (n_state,) array
+        State just before and just after, in the model's order and units.
+    """
+
+    name: str
+    time_s: float
+    before: FloatArray
+    after: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Channel:
+    """One quantity against time.
+
+    Parameters
+    ----------
+    name : str
+        Identifier (``rotation``), also the column's name in files together with the unit.
+    unit : str
+        SI unit, ``1`` when it has none.
+    values : (n,) array
+        One value per entry of the response's time axis.
+    symbol : str
+        The paper's letter, for axis labels.
+    """
+
+    name: str
+    unit: str
+    values: FloatArray
+    symbol: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Response(Generic[Outcome]):
+    """The answer of a solver to one motion.
+
+    Parameters
+    ----------
+    model : str
+        Name of the solver.
+    outcome : dataclass
+        The numbers a user asks for; its fields are the keys of the JSON document.
+    motion, body : Motion, object
+        What shook, and what stood there.
+    time : (n,) array, s
+        Times from the record's first sample: the samples, and both sides of each event where the model logs them.
+    channels : tuple of Channel
+        Quantities on that axis; displacements are relative to the ground unless the name says otherwise.
+    phases, events : tuple
+        In the order of time.
+    options : mapping
+        Everything else that determines the answer, SI.
+    status : Status
+        How the integration ended.
+    warnings : tuple of str
+        What the user should know before believing the numbers.
+    citations : tuple of str
+        Keys of the papers relied on.
+    """
+
+    model: str
+    outcome: Outcome
+    motion: Motion
+    body: Any
+    time: FloatArray
+    channels: tuple[Channel, ...] = ()
+    phases: tuple[Phase, ...] = ()
+    events: tuple[Event, ...] = ()
+    options: Mapping[str, Any] = field(default_factory=dict)
+    status: Status = Status.RECORD_ENDED
+    warnings: tuple[str, ...] = ()
+    citations: tuple[str, ...] = ()
+
+    def __getitem__(self, name: str) -> FloatArray:
+        """Return the values of a channel by name."""
+        for channel in self.channels:
+            if channel.name == name:
+                return channel.values
+        raise KeyError(f"no channel {name!r}; there are {', '.join(c.name for c in self.channels)}")
+
+    def summary(self) -> dict[str, Any]:
+        """Return the outcome as a plain dictionary, with the component first."""
+        return {"component": self.motion.name, **asdict(self.outcome)}  # type: ignore[call-overload]
+
+    def to_columns(self) -> dict[str, FloatArray]:
+        """Return the time axis and every channel as columns named ``name_unit``, for tables and files."""
+        columns = {"time_s": self.time}
+        for channel in self.channels:
+            suffix = "" if channel.unit == "1" else "_" + channel.unit.replace("/", "_").replace("^", "")
+            columns[channel.name + suffix] = np.asarray(channel.values)
+        return columns
+
+    def to_dataframe(self) -> Any:
+        """Return the columns as a pandas DataFrame (pandas must be installed)."""
+        import pandas as pd
+
+        return pd.DataFrame(self.to_columns())

@@ -1,0 +1,1 @@
+"""One model per file: from a motion and a body to a response."""

@@ -1,0 +1,1 @@
+"""Many runs: spectra, fragility, overturning rates, inverse estimates, batches."""

@@ -1,0 +1,116 @@
+"""Units at the border: SI inside, and one place that knows what the others are worth."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from seisblock.errors import ParameterError, UnitError
+
+STANDARD_GRAVITY = 9.80665
+"""Standard acceleration of gravity, m/s^2 (CGPM 1901)."""
+
+GAL = 0.01
+"""One gal (cm/s^2) in m/s^2."""
+
+KINE = 0.01
+"""One kine (cm/s) in m/s."""
+
+SUN = 0.0303
+"""One sun in m: 1/33 m rounded as masons use it, 30.3 mm ([Furukawa2009]_, table 1)."""
+
+SHAKU = 10 * SUN
+"""One shaku in m, ten sun."""
+
+ACCELERATION_UNITS = {
+    "gal": GAL,
+    "cm/s2": GAL,
+    "cm/s^2": GAL,
+    "cm/s/s": GAL,
+    "cm/sec2": GAL,
+    "cm/sec/sec": GAL,
+    "mm/s2": 1e-3,
+    "mm/s^2": 1e-3,
+    "m/s2": 1.0,
+    "m/s^2": 1.0,
+    "m/s/s": 1.0,
+    "g": STANDARD_GRAVITY,
+}
+
+LENGTH_UNITS = {
+    "m": 1.0,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "km": 1e3,
+    "sun": SUN,
+    "寸": SUN,
+    "shaku": SHAKU,
+    "尺": SHAKU,
+    "in": 0.0254,
+    "ft": 0.3048,
+}
+
+MASS_UNITS = {"kg": 1.0, "t": 1e3, "g": 1e-3}
+
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*\Z")
+
+
+def acceleration_unit(name: str) -> float:
+    """Return the value of an acceleration unit in m/s^2.
+
+    Raises
+    ------
+    UnitError
+        If the unit is not one of ``ACCELERATION_UNITS``.
+    """
+    factor = ACCELERATION_UNITS.get(name.strip().lower())
+    if factor is None:
+        raise UnitError(f"unknown unit of acceleration {name!r}: give gal, m/s2 or g")
+    return factor
+
+
+def parse_length(text: str | float, *, what: str = "length") -> float:
+    """Return a length in metres from a number (metres) or a text such as ``24cm`` or ``8sun``.
+
+    Parameters
+    ----------
+    text : str or float
+        A bare number is in metres.
+    what : str
+        What the length is, for the message.
+
+    Raises
+    ------
+    UnitError
+        If the unit is unknown.
+    ParameterError
+        If the text holds no number.
+
+    Examples
+    --------
+    >>> parse_length("8sun")
+    0.2424
+    """
+    return _parse(text, LENGTH_UNITS, "m", what)
+
+
+def parse_mass(text: str | float, *, what: str = "mass") -> float:
+    """Return a mass in kilograms from a number (kg) or a text such as ``1.3t``."""
+    return _parse(text, MASS_UNITS, "kg", what)
+
+
+def _parse(text: str | float, table: dict[str, float], default: str, what: str) -> float:
+    """Read a number with an optional unit from `table`."""
+    if isinstance(text, (int, float)):
+        value, unit = float(text), ""
+    else:
+        match = _NUMBER.match(text)
+        if match is None:
+            raise ParameterError(f"{what} {text!r} is not a number with a unit: write for example 0.24, 24cm or 8sun")
+        value, unit = float(match[1]), match[2]
+    factor = table.get(unit or default)
+    if factor is None:
+        raise UnitError(f"{what} {text!r} has the unknown unit {unit!r}: use one of {', '.join(table)}")
+    if not math.isfinite(value):
+        raise ParameterError(f"{what} must be finite, not {text!r}")
+    return round(value * factor, 15) if unit else value
