@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,7 +50,9 @@ class Motion:
             raise ParameterError("a motion must hold finite numbers only")
 
     @classmethod
-    def from_arrays(cls, horizontal: ArrayLike, dt: float, *, vertical: ArrayLike | None = None, name: str = "", start_s: float = 0.0) -> Motion:
+    def from_arrays(
+        cls, horizontal: ArrayLike, dt: float, *, vertical: ArrayLike | None = None, name: str = "", start_s: float = 0.0
+    ) -> Motion:
         """Return a motion from a horizontal and an optional vertical acceleration, (n,), m/s^2."""
         along = np.asarray(horizontal, dtype=np.float64)
         rows = np.zeros((3, along.size))
@@ -84,7 +87,7 @@ class Motion:
     @property
     def time(self) -> FloatArray:
         """Times of the samples, (n,), s after the record's first sample."""
-        return self.start_s + self.dt * np.arange(self.samples)
+        return self.start_s + self.dt * np.arange(self.samples, dtype=np.float64)
 
 
 def motion_of(record: Record, component: str) -> Motion:
@@ -144,7 +147,8 @@ def _oriented_pair(record: Record) -> tuple[Component, Component]:
     oriented = [c for c in record.horizontals if c.azimuth_deg is not None]
     if len(oriented) < 2:
         raise ComponentError(
-            f"{record.source or 'record'}: turning to an azimuth needs two horizontal components of known direction; it has {', '.join(record.codes)}"
+            f"{record.source or 'record'}: turning to an azimuth needs two horizontal components of known direction; "
+            f"it has {', '.join(record.codes)}"
         )
     return oriented[0], oriented[1]
 
@@ -156,9 +160,9 @@ def _resolve(pair: tuple[Component, Component], azimuth_deg: float) -> FloatArra
     for component in pair:
         if component.azimuth_deg == azimuth_deg % 360.0:
             return component.acceleration
-    a, b, t = np.deg2rad([first.azimuth_deg, second.azimuth_deg, azimuth_deg])  # type: ignore[list-item]
-    span = np.sin(b - a)
+    a, b, t = (math.radians(angle or 0.0) for angle in (first.azimuth_deg, second.azimuth_deg, azimuth_deg))
+    span = math.sin(b - a)
     if abs(span) < 1e-6:
         raise ComponentError("the two horizontal components are parallel: no other direction follows from them")
     # north/east of the ground from its two projections, then projected on the azimuth
-    return first.acceleration * (np.sin(b - t) / span) + second.acceleration * (np.sin(t - a) / span)
+    return first.acceleration * (math.sin(b - t) / span) + second.acceleration * (math.sin(t - a) / span)

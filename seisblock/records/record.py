@@ -128,7 +128,7 @@ class Record:
     @property
     def time(self) -> FloatArray:
         """Times of the samples, (n,), s after the first sample as read."""
-        return self.offset_s + self.dt * np.arange(self.samples)
+        return self.offset_s + self.dt * np.arange(self.samples, dtype=np.float64)
 
     @property
     def codes(self) -> tuple[str, ...]:

@@ -33,7 +33,8 @@ class Case:
     expected : float
         The paper's value, or that of the independent derivation.
     tolerance : float
-        Largest admissible absolute difference, in `unit`; chosen from the print (half its last digit), a closed form, or a stated reading error.
+        Largest admissible absolute difference, in `unit`: half the last digit printed, a closed form's round-off, or a
+        stated reading error.
     compute : callable
         Returns the program's value, a float in `unit`.
     status : "holds" or "differs"

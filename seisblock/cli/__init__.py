@@ -1,0 +1,80 @@
+"""The command line: a thin shell whose one job is to be polite.
+
+``main`` is a click group that imports a command's module only when that command is asked for, so that
+``seisblock --help`` loads nothing heavy. It is also the only place that catches :class:`SeisblockError`.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import click
+
+from seisblock import __version__
+from seisblock.errors import SeisblockError
+
+COMMANDS: dict[str, tuple[str, str]] = {}
+"""Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
+
+INTERRUPTED = 130
+BROKEN_PIPE = 141
+
+
+class SeisblockGroup(click.Group):
+    """A group that loads commands lazily and turns errors into one sentence and an exit code."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names in the order in which a user meets them."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import the module of one command."""
+        if cmd_name not in COMMANDS:
+            return None
+        module, attribute = COMMANDS[cmd_name][0].split(":")
+        command: click.Command = getattr(importlib.import_module(module), attribute)
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the list of commands without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
+
+    def main(self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any) -> Any:  # type: ignore[override]
+        """Run the command; errors of the user become a message on stderr and an exit code."""
+        try:
+            return super().main(args, prog_name or "seisblock", **extra)
+        except BrokenPipeError:
+            # the reader went away (| head): nothing to say, and nothing may be flushed at exit
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            sys.exit(BROKEN_PIPE)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Invoke the command and report what the user can mend."""
+        try:
+            result = super().invoke(ctx)
+            sys.stdout.flush()
+            return result
+        except SeisblockError as error:
+            click.secho(f"seisblock: {error}", fg="red", err=True)
+            ctx.exit(error.exit_code)
+        except KeyboardInterrupt:
+            click.echo("\nseisblock: interrupted; no file was changed", err=True)
+            ctx.exit(INTERRUPTED)
+
+
+@click.group(cls=SeisblockGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(__version__, prog_name="seisblock")
+def main() -> None:
+    """Tell what ground motion does to objects that nobody bolted down.
+
+    RECORD is any strong-motion file: JMA CSV, K-NET or KiK-net (one file of the set, or the downloaded bundle), PEER AT2,
+    plain CSV, or anything ObsPy reads. Left out, a bundled sample record is used.
+    """
+
+
+__all__ = ["COMMANDS", "main"]
