@@ -24,8 +24,8 @@ def _source_digest() -> str:
     """
     digest = hashlib.sha256(sys.version.encode())
     root = Path(__file__).parent
-    for folder in ("dynamics", "solvers"):
-        for path in sorted((root / folder).glob("*.py")):
+    for folder in ("dynamics", "measures", "solvers"):
+        for path in sorted((root / folder).rglob("*.py")):
             digest.update(path.read_bytes())
     digest.update(Path(__file__).read_bytes())
     return digest.hexdigest()[:16]
@@ -61,6 +61,13 @@ def _prepare_cache() -> bool:
 
 
 _CACHE = _prepare_cache() if ENABLED else False
+
+
+def types() -> Any:
+    """Return numba's type names, for signatures."""
+    from numba import types as numba_types
+
+    return numba_types
 
 
 def kernel(signature: Any, *, inline: bool = False) -> Callable[[Function], Function]:

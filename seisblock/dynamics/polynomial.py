@@ -1,0 +1,139 @@
+"""Polynomials in time: value, shift, and the first crossing that cannot be missed.
+
+Coefficients stand in ascending order, ``c[k]`` multiplies ``t**k``. A guard (a slack, positive while a mode is
+admissible) is such a polynomial, so whether it stays positive over a step is decided by bounds on its
+coefficients, not by looking at a few instants.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from seisblock._jit import kernel, types
+
+_t = types()
+_VECTOR = _t.Array(_t.float64, 1, "C")
+
+ROUND_OFF = 1e-14
+"""A polynomial is taken as zero where it is below this share of the sum of its terms."""
+
+NEVER = -1.0
+"""Answer of :func:`first_crossing` when there is none."""
+
+
+@kernel(_t.float64(_VECTOR, _t.int64, _t.float64), inline=True)
+def evaluate(c, degree, t):
+    """Return the value of a polynomial at `t` (Horner)."""
+    value = c[degree]
+    for k in range(degree - 1, -1, -1):
+        value = value * t + c[k]
+    return value
+
+
+@kernel(_t.void(_VECTOR, _t.int64, _t.float64), inline=True)
+def shift(c, degree, t):
+    """Move the origin of a polynomial to `t`, in place (Taylor shift by synthetic division)."""
+    for first in range(degree):
+        for k in range(degree - 1, first - 1, -1):
+            c[k] += t * c[k + 1]
+
+
+@kernel(_t.float64(_VECTOR, _t.int64, _t.float64), inline=True)
+def lower_bound(c, degree, h):
+    """Return a lower bound of a polynomial on [0, h]: its chord's lower end less all higher terms."""
+    if degree == 0:
+        return c[0]
+    bound = min(c[0], c[0] + c[1] * h)
+    power = h
+    for k in range(2, degree + 1):
+        power *= h
+        bound -= abs(c[k]) * power
+    return bound
+
+
+@kernel(_t.float64(_VECTOR, _t.int64, _t.float64))
+def _root_between(c, degree, high):
+    """Return the root in [0, high] of a polynomial that falls from positive to negative there (Newton inside a bracket)."""
+    low = 0.0
+    t = high
+    for _ in range(100):
+        value = c[degree]
+        slope = 0.0
+        for k in range(degree - 1, -1, -1):
+            slope = slope * t + value
+            value = value * t + c[k]
+        if value > 0.0:
+            low = t
+        else:
+            high = t
+        step = value / slope if slope != 0.0 else 0.0
+        following = t - step
+        if not (low < following < high):
+            following = 0.5 * (low + high)
+        if following == t or high - low <= 2.3e-16 * high:
+            return following
+        if abs(following - t) <= 1.2e-16 * following:
+            return following
+        t = following
+    return t
+
+
+@kernel(_t.float64(_VECTOR, _t.int64, _t.float64, _VECTOR, _VECTOR))
+def first_crossing(g, degree, h, q, d):
+    """Return the first time in [0, h] from which a polynomial is negative, or NEVER.
+
+    A zero that is only touched is no crossing, and leading coefficients that are round-off are zeros: a guard
+    that a reset has just left at zero is judged by the first term that means something, which is the half-open
+    rule (t0, t0 + h]. Zero is returned when the polynomial is negative, or becomes negative, at once.
+
+    Parameters
+    ----------
+    g : (degree + 1,) array
+        Coefficients, left unchanged.
+    degree : int
+    h : float
+        Length of the step, positive.
+    q, d : (>= degree + 1,) arrays
+        Scratch.
+    """
+    if lower_bound(g, degree, h) > 0.0:
+        return NEVER
+    total = 0.0
+    power = 1.0
+    for k in range(degree + 1):
+        total += abs(g[k]) * power
+        power *= h
+    if not total < np.inf:
+        return NEVER
+    noise = ROUND_OFF * total
+    lead = 0
+    power = 1.0
+    while lead <= degree and abs(g[lead]) * power <= noise:
+        lead += 1
+        power *= h
+    if lead > degree:
+        return NEVER
+    if g[lead] < 0.0:
+        return 0.0
+    n = degree - lead
+    for k in range(n + 1):
+        q[k] = g[lead + k]
+    # what is left is positive at zero: march over [0, h], halving where the bounds cannot tell
+    noise = ROUND_OFF * total / power
+    start = 0.0
+    width = h
+    smallest = 1e-14 * h
+    while start < h:
+        if lower_bound(q, n, width) <= -noise:
+            for k in range(n):
+                d[k] = -(k + 1) * q[k + 1]
+            monotone = n > 0 and lower_bound(d, n - 1, width) > 0.0
+            if not monotone and width > smallest:
+                width *= 0.5
+                continue
+            if evaluate(q, n, width) < -noise:
+                return min(start + _root_between(q, n, width), h)
+        shift(q, n, width)
+        start += width
+        width = h - start
+    return NEVER

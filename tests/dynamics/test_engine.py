@@ -1,0 +1,120 @@
+"""The engine gives the known answers of models that have one."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.special import ellipk
+
+from seisblock.dynamics import Instant, follow
+from seisblock.errors import SolverError
+from seisblock.records import Motion
+from seisblock.results import Status
+from tests.dynamics.toy_models import BALL, FLIP, PENDULUM, SLED
+
+pytestmark = pytest.mark.kernel
+
+STILL = Motion.from_arrays(np.zeros(301), 0.01)
+
+
+def test_bouncing_ball_bounces_in_a_geometric_series():
+    """Bounce k comes at t1 + 2 t1 (e + ... + e^k), to round-off."""
+    g, e = 9.8, 0.7
+    answer = follow(BALL, STILL, [g, e, 1e-6], [1.0, 0.0], 0)
+    first = np.sqrt(2 / g)
+    expected = [first + 2 * first * sum(e**j for j in range(1, k + 1)) for k in range(answer.n_changes)]
+    assert answer.status == Status.STOPPED
+    assert answer.n_changes > 30
+    np.testing.assert_allclose([change.time for change in answer.changes], expected, rtol=0, atol=1e-14)
+
+
+def test_bouncing_ball_rises_to_e_squared_between_samples():
+    """The extremum between bounces is the exact one, not that of a sample."""
+    answer = follow(BALL, STILL, [9.8, 0.7, 1e-6], [0.0, 3.0], 0)
+    assert answer.extrema[0, 0] == pytest.approx(3.0**2 / (2 * 9.8), rel=1e-14)
+    assert answer.extrema[0, 1] == pytest.approx(3.0 / 9.8, rel=1e-7)
+
+
+def test_pendulum_period_is_the_elliptic_integral():
+    """A series that does not end is converged to round-off: T = 4 K(sin(a/2)) / w."""
+    amplitude, w2 = 2.0, 20.0
+    period = 4 * ellipk(np.sin(amplitude / 2) ** 2) / np.sqrt(w2)
+    dt = period / 150
+    motion = Motion.from_arrays(np.zeros(301), dt)
+    answer = follow(PENDULUM, motion, [w2], [amplitude, 0.0], 0)
+    np.testing.assert_allclose(answer.final, [amplitude, 0.0], atol=3e-12)
+
+
+def test_pendulum_agrees_with_an_independent_integrator():
+    """DOP853 at 1e-13 gives the same end."""
+    answer = follow(PENDULUM, STILL, [20.0], [1.0, 0.3], 0)
+    other = solve_ivp(lambda _, y: [y[1], -20 * np.sin(y[0])], (0, 3), [1.0, 0.3], method="DOP853", rtol=1e-13, atol=1e-14)
+    np.testing.assert_allclose(answer.final, other.y[:, -1], atol=1e-11)
+
+
+def test_long_steps_are_cut_until_the_series_converges():
+    """With one sample per 1.5 s the step rule cuts the step; the answer stays."""
+    coarse = follow(PENDULUM, Motion.from_arrays(np.zeros(3), 1.5), [20.0], [1.0, 0.3], 0)
+    fine = follow(PENDULUM, STILL, [20.0], [1.0, 0.3], 0)
+    np.testing.assert_allclose(coarse.final, fine.final, atol=1e-11)
+
+
+def test_piecewise_linear_input_is_integrated_exactly():
+    """A free sled under a linear ramp follows its cubic, whatever the samples."""
+    ramp = Motion.from_arrays(np.linspace(0.0, 3.0, 4), 1.0)
+    answer = follow(SLED, ramp, [0.0], [0.0, 0.0], 1)
+    assert answer.final[0] == pytest.approx(-(3.0**3) / 6, rel=1e-15)
+
+
+def test_equality_does_not_fire():
+    """A guard that is touched, over one sample or over a plateau, does not end the mode."""
+    plateau = Motion.from_arrays([0.0, 0.3, 0.3, 0.3, 0.0, 0.3, 0.0], 0.1)
+    assert follow(SLED, plateau, [0.3], [0.0, 0.0], 0).n_changes == 0
+    assert follow(SLED, plateau, [0.3 - 1e-9], [0.0, 0.0], 0).n_changes > 0
+
+
+def test_start_inside_a_sample():
+    """Starting at an instant inside a sample continues the same trajectory."""
+    ramp = Motion.from_arrays([0.0, 1.0, -2.0, 0.5], 0.5)
+    whole = follow(SLED, ramp, [0.0], [0.0, 0.0], 1, start=Instant(1, 0.0))
+    half = follow(SLED, ramp, [0.0], [0.0, 0.0], 1, start=Instant(1, 0.2))
+    a0, slope = 1.0 - 6.0 * 0.2, -6.0
+    h = 0.3
+    u1, v1 = -(a0 * h**2 / 2 + slope * h**3 / 6), -(a0 * h + slope * h**2 / 2)
+    rest = follow(SLED, ramp, [0.0], [u1, v1], 1, start=Instant(2, 0.0))
+    np.testing.assert_allclose(half.final, rest.final, rtol=1e-14)
+    assert half.first == 2
+    assert whole.first == 1
+
+
+def test_chattering_is_reported_not_looped():
+    """Two modes that return to each other at one instant are an error with its time."""
+    with pytest.raises(SolverError, match="two modes"):
+        follow(FLIP, STILL, [], [0.0], 0)
+
+
+def test_mirror():
+    """The mirrored motion gives the mirrored answer, bit by bit."""
+    rng = np.random.default_rng(1)
+    a = rng.normal(size=200)
+    left = follow(SLED, Motion.from_arrays(a, 0.02), [0.4], [0.0, 0.0], 0)
+    right = follow(SLED, Motion.from_arrays(-a, 0.02), [0.4], [0.0, 0.0], 0)
+    np.testing.assert_array_equal(left.final, -right.final)
+    np.testing.assert_array_equal(left.states[left.first :], -right.states[right.first :])
+
+
+def test_table_holds_both_limits_of_each_event_in_order_of_time():
+    """Times never fall, and every event stands twice."""
+    answer = follow(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
+    time, states, _ = answer.table()
+    assert np.all(np.diff(time) >= 0)
+    assert time.size == answer.end.sample + 1 + 2 * answer.n_changes
+    np.testing.assert_array_equal(states[-1], answer.changes[-1].after)
+
+
+def test_ensembles_need_keep_nothing():
+    """Without path and events the end and the extrema are the same."""
+    kept = follow(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0)
+    bare = follow(BALL, STILL, [9.8, 0.7, 1e-3], [1.0, 0.0], 0, keep_path=False, keep_events=False)
+    assert bare.n_changes == kept.n_changes
+    np.testing.assert_array_equal(bare.extrema, kept.extrema)
+    np.testing.assert_array_equal(bare.final, kept.final)
