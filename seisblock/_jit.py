@@ -12,6 +12,9 @@ from typing import Any, TypeVar
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
+announce: Callable[[str], None] | None = None
+"""Called once with one line before a first compilation; the command line sets it."""
+
 ENABLED = os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 """Whether kernels are compiled; ``NUMBA_DISABLE_JIT=1`` runs them as plain Python."""
 
@@ -46,7 +49,8 @@ def cache_directory() -> Path:
     return base / _source_digest()
 
 
-def _prepare_cache() -> bool:
+@functools.cache
+def _cache_is_usable() -> bool:
     """Make the cache directory; return whether it can be written."""
     directory = cache_directory()
     try:
@@ -55,12 +59,9 @@ def _prepare_cache() -> bool:
         return False
     if not os.access(directory, os.W_OK):
         return False
-    if not any(directory.rglob("*.nbi")) and sys.stderr is not None and not os.environ.get("SEISBLOCK_QUIET"):
-        print("seisblock: compiling its kernels once, a few seconds...", file=sys.stderr, flush=True)
+    if announce is not None and not any(directory.rglob("*.nbi")):
+        announce("compiling the kernels, once; a few seconds...")
     return True
-
-
-_CACHE = _prepare_cache() if ENABLED else False
 
 
 def types() -> Any:
@@ -88,9 +89,10 @@ def kernel(signature: Any, *, inline: bool = False) -> Callable[[Function], Func
 
         # numba asks where to cache while it decorates; what the caller's own kernels use stays as it was
         before = numba.config.CACHE_DIR
-        numba.config.CACHE_DIR = str(cache_directory()) if _CACHE else before
+        cache = _cache_is_usable()
+        numba.config.CACHE_DIR = str(cache_directory()) if cache else before
         try:
-            return numba.njit(signature, cache=_CACHE, nogil=True, error_model="numpy", forceinline=inline)(function)  # type: ignore[no-any-return]
+            return numba.njit(signature, cache=cache, nogil=True, error_model="numpy", forceinline=inline)(function)  # type: ignore[no-any-return]
         finally:
             numba.config.CACHE_DIR = before
 

@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from seisblock.records.motion import Motion
-from seisblock.typing import FloatArray
+from seisblock.typing import FloatArray, IntArray
 
 Outcome = TypeVar("Outcome", covariant=True)
 
@@ -129,6 +129,19 @@ class Response(Generic[Outcome]):
             if channel.name == name:
                 return channel.values
         raise KeyError(f"no channel {name!r}; there are {', '.join(c.name for c in self.channels)}")
+
+    def phase_of_row(self) -> IntArray:
+        """Return, for each entry of the time axis, the index of its phase, (n,).
+
+        Where an event stands twice, the first of the pair belongs to the phase it ends.
+        """
+        if not self.phases:
+            return np.zeros(self.time.size, dtype=np.int64)
+        starts = np.array([phase.start_s for phase in self.phases])
+        index = np.clip(np.searchsorted(starts, self.time, side="right") - 1, 0, None)
+        first_of_pair = np.append(self.time[1:] == self.time[:-1], False)
+        ends_one = first_of_pair & (self.time == starts[index]) & (index > 0)
+        return (index - ends_one).astype(np.int64)
 
     def summary(self) -> dict[str, Any]:
         """Return the outcome as a plain dictionary, with the component first."""

@@ -14,7 +14,8 @@ from typing import Any
 
 import click
 
-from seisblock import __version__
+from seisblock import __version__, _jit
+from seisblock.cli.talk import say
 from seisblock.errors import SeisblockError
 
 COMMANDS: dict[str, tuple[str, str]] = {}
@@ -55,6 +56,7 @@ class SeisblockGroup(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""
+        _jit.announce = say
         try:
             result = super().invoke(ctx)
             sys.stdout.flush()
@@ -65,6 +67,8 @@ class SeisblockGroup(click.Group):
         except KeyboardInterrupt:
             click.echo("\nseisblock: interrupted; no file was changed", err=True)
             ctx.exit(INTERRUPTED)
+        finally:
+            _jit.announce = None
 
 
 @click.group(cls=SeisblockGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

@@ -1,0 +1,128 @@
+"""Options that mean the same everywhere: one decorator for the record, one for the output."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import click
+
+from seisblock.cli.command import option
+from seisblock.cli.talk import quietly
+from seisblock.cli.types import WINDOW
+from seisblock.units import STANDARD_GRAVITY
+
+Function = Callable[..., Any]
+
+
+@dataclass(frozen=True)
+class Source:
+    """Which record, and what is done to it before it is used."""
+
+    record: tuple[str, ...]
+    component: tuple[str, ...]
+    scale: float | None
+    target_pga: float | None
+    window: tuple[float | None, float | None] | None
+    highpass: float | None
+    demean: bool | None
+    format: str | None
+    units: str | None
+    dt: float | None
+    station: str | None
+    level: str | None
+
+
+@dataclass(frozen=True)
+class Output:
+    """Where the answer goes, and in which form."""
+
+    json: bool
+    csv: Path | None
+    plot: Path | None
+    animate: Path | None
+    gal: bool
+    quiet: bool
+
+
+def _positive(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
+    """Refuse what is not a positive number."""
+    if value is not None and not 0.0 < value < float("inf"):
+        raise click.BadParameter(f"must be a positive number, found {value}", ctx, param)
+    return value
+
+
+def _finite(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
+    """Refuse what is not a finite number."""
+    if value is not None and not abs(value) < float("inf"):
+        raise click.BadParameter(f"must be a finite number, found {value}", ctx, param)
+    return value
+
+
+def _components(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...]:
+    """Accept the option repeated, and lists with commas."""
+    return tuple(part.strip() for text in value for part in text.split(",") if part.strip())
+
+
+_RECORD_OPTIONS = (
+    click.argument("record", nargs=-1, metavar="[RECORD]..."),
+    option("--component", multiple=True, callback=_components, metavar="NS|EW|UD|all|DEGREES", section="Record",
+           help="Component, or azimuth in degrees clockwise from north; may be repeated. [default: all that apply]"),
+    option("--scale", type=float, callback=_finite, section="Record", help="Factor on all components. [default: 1]"),
+    option("--target-pga", type=float, callback=_positive, metavar="GAL", section="Record",
+           help="Scale so that the largest PGA of the components solved is this, gal."),
+    option("--window", type=WINDOW, section="Record", help="Use this stretch only, s from the record's first sample."),
+    option("--highpass", type=float, callback=_positive, metavar="HZ", section="Record",
+           help="Zero-phase high-pass (4th-order Butterworth) before anything else, Hz. [default: none]"),
+    option("--demean/--no-demean", default=None, section="Record",
+           help="Remove the mean of each component. [default: for K-NET/KiK-net, whose counts carry an offset]"),
+    option("--format", section="Record", help="Format of the file. [default: recognised from its content]"),
+    option("--units", section="Record", metavar="gal|m/s2|g", help="Unit of the numbers, where the file does not say."),
+    option("--dt", type=float, callback=_positive, section="Record", metavar="S",
+           help="Sampling interval, where the file does not say, s."),
+    option("--station", section="Record", help="Station code, in a bundle that holds several."),
+    option("--level", type=click.Choice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
+)  # fmt: skip
+
+_OUTPUT_OPTIONS = (
+    option("--json", is_flag=True, section="Output", help="One JSON document on stdout, SI units."),
+    option("--csv", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the time history, SI units."),
+    option("--plot", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Draw the figure: .png, .svg or .pdf."),
+    option("--animate", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Draw the animation: .gif, .mp4 or .html."),
+    option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables. [default: gal]"),
+    option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors."),
+)  # fmt: skip
+
+
+def record_options(function: Function) -> Function:
+    """Give a command RECORD and the options that select and prepare it; it receives one ``source``."""
+    return _collected(function, _RECORD_OPTIONS, Source, "source")
+
+
+def output_options(function: Function) -> Function:
+    """Give a command the options that say where the answer goes; it receives one ``output``."""
+    return _collected(function, _OUTPUT_OPTIONS, Output, "output")
+
+
+def gravity_option(function: Function) -> Function:
+    """Give a command ``--gravity``."""
+    return option("--gravity", type=float, default=STANDARD_GRAVITY, show_default=True, callback=_positive, metavar="M/S2",
+                  help="Acceleration of gravity, m/s^2.")(function)  # fmt: skip
+
+
+def _collected(function: Function, declarations: tuple[Any, ...], kind: Any, name: str) -> Function:
+    """Gather a family of options into one argument."""
+    names = [field.name for field in fields(kind)]
+
+    @functools.wraps(function)
+    def gathered(*args: Any, **kwargs: Any) -> Any:
+        chosen = kind(**{key: kwargs.pop(key) for key in names})
+        with quietly(getattr(chosen, "quiet", None)):
+            return function(*args, **{name: chosen}, **kwargs)
+
+    for declare in reversed(declarations):
+        gathered = declare(gathered)
+    return gathered

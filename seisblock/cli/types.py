@@ -1,0 +1,109 @@
+"""What an option's text may be: lengths with units, ranges, windows."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import click
+
+from seisblock.errors import InputError
+from seisblock.units import parse_length, parse_mass
+
+MOST_VALUES = 1_000_000
+"""Longest range that is taken for what the user meant."""
+
+
+class Length(click.ParamType):
+    """A length: metres, or a number with a unit (``24cm``, ``8sun``)."""
+
+    name = "length"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return metres."""
+        try:
+            return parse_length(value)
+        except InputError as error:
+            self.fail(str(error), param, ctx)
+
+
+class Mass(click.ParamType):
+    """A mass: kilograms, or a number with a unit (``1.3t``)."""
+
+    name = "mass"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return kilograms."""
+        try:
+            return parse_mass(value)
+        except InputError as error:
+            self.fail(str(error), param, ctx)
+
+
+class Floats(click.ParamType):
+    """One number, a list ``a,b,c``, or a range ``first:last:step`` that includes its last value."""
+
+    name = "number|list|range"
+
+    def __init__(self, *, unit: Any = None) -> None:
+        self.unit = unit
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+        """Return the values, in the order given."""
+        if isinstance(value, tuple):
+            return value
+        if isinstance(value, (int, float)):
+            return (float(value),)
+        try:
+            return tuple(x for part in value.split(",") for x in self._range(part, param, ctx))
+        except ValueError:
+            self.fail(f"{value!r} is not a number, a list a,b,c or a range first:last:step", param, ctx)
+
+    def _range(self, text: str, param: click.Parameter | None, ctx: click.Context | None) -> list[float]:
+        """Return the values of one part of the list."""
+        pieces = [self._number(piece) for piece in text.split(":")]
+        if len(pieces) == 1:
+            return pieces
+        if len(pieces) != 3:
+            raise ValueError(text)
+        first, last, step = pieces
+        if step == 0 or (last - first) * step < 0:
+            self.fail(f"{text!r}: the step does not lead from the first value to the last", param, ctx)
+        count = math.floor((last - first) / step + 1e-9) + 1
+        if count > MOST_VALUES:
+            self.fail(f"{text!r} has {count} values; at most {MOST_VALUES}", param, ctx)
+        return [round(first + i * step, 12) for i in range(count)]
+
+    def _number(self, text: str) -> float:
+        """Return one finite number."""
+        value = float(self.unit(text)) if self.unit else float(text)
+        if not math.isfinite(value):
+            raise ValueError(text)
+        return value
+
+
+class Window(click.ParamType):
+    """A stretch of time ``T0:T1`` in seconds from the record's first sample; either end may be left out."""
+
+    name = "t0:t1"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float | None, float | None]:
+        """Return both ends, None where left out."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            first, last = (float(piece) if piece.strip() else None for piece in value.split(":"))
+        except ValueError:
+            self.fail(f"{value!r} is not a window T0:T1 in seconds, for example 20:35", param, ctx)
+        if any(end is not None and not math.isfinite(end) for end in (first, last)):
+            self.fail(f"{value!r}: both ends must be finite", param, ctx)
+        if first is not None and last is not None and last <= first:
+            self.fail(f"{value!r} ends before it begins", param, ctx)
+        return first, last
+
+
+LENGTH = Length()
+MASS = Mass()
+FLOATS = Floats()
+LENGTHS = Floats(unit=parse_length)
+WINDOW = Window()

@@ -1,0 +1,114 @@
+"""One style for every figure: grey for the input, one accent for the response, shaded bands for phases."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from seisblock.errors import OutputError
+from seisblock.present.files import replacing
+from seisblock.results import Phase
+from seisblock.typing import FloatArray
+
+INPUT = "0.45"
+ACCENT = "#c0392b"
+SECOND = "#1f5a8c"
+THRESHOLD = "0.15"
+BANDS = ("#f4d9c6", "#cfe3d4", "#d5dcef", "#efe3b8", "#e3d3e8")
+"""Colours of phases; light enough that curves stay readable, different in grey."""
+
+MOST_POINTS = 4000
+"""A curve longer than this is reduced to the extrema of its bins, so that no peak is lost."""
+
+SUFFIXES = (".png", ".svg", ".pdf")
+
+
+def new_figure(
+    rows: int, *, width: float = 8.0, height: float | None = None, title: str = "", columns: int = 1, **layout: Any
+) -> tuple[Figure, list[Axes]]:
+    """Return a figure with stacked panels that share the time axis unless told otherwise."""
+    figure = Figure(figsize=(width, height or 1.2 + 1.75 * rows), dpi=110, layout="constrained")
+    FigureCanvasAgg(figure)
+    share = layout.pop("sharex", columns == 1)
+    axes = figure.subplots(rows, columns, sharex=share, squeeze=False, **layout)
+    flat = [axis for row in axes for axis in row]
+    for axis in flat:
+        axis.grid(True, color="0.9", linewidth=0.6)
+        axis.set_axisbelow(True)
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.tick_params(labelsize=8)
+    if title:
+        figure.suptitle(title, fontsize=10, x=0.01, ha="left")
+    return figure, flat
+
+
+def label(axis: Axes, x: str = "", y: str = "") -> None:
+    """Label axes as symbol (unit)."""
+    if x:
+        axis.set_xlabel(x, fontsize=9)
+    if y:
+        axis.set_ylabel(y, fontsize=9)
+
+
+def curve(axis: Axes, time: FloatArray, values: FloatArray, **style: Any) -> None:
+    """Draw a curve with every peak in it, however long it is."""
+    axis.plot(*thin(time, values), **{"linewidth": 0.9, **style})
+
+
+def thin(time: FloatArray, values: FloatArray, most: int = MOST_POINTS) -> tuple[FloatArray, FloatArray]:
+    """Return a curve of at most so many points that keeps each bin's minimum and maximum, in their order of time."""
+    n = time.size
+    if n <= most:
+        return time, values
+    bins = most // 2
+    edges = np.linspace(0, n, bins + 1).astype(np.int64)
+    keep = np.empty((bins, 2), dtype=np.int64)
+    for i in range(bins):
+        part = values[edges[i] : edges[i + 1]]
+        low, high = int(part.argmin()), int(part.argmax())
+        keep[i] = edges[i] + np.array(sorted((low, high)))
+    index = np.unique(np.concatenate([[0], keep.ravel(), [n - 1]]))
+    return time[index], values[index]
+
+
+def shade(axis: Axes, phases: Iterable[Phase], colours: dict[str, str], *, names: bool = False) -> None:
+    """Shade the phases that have a colour, and name each kind once when asked to."""
+    named: set[str] = set()
+    for phase in phases:
+        if phase.name in colours:
+            text = phase.name if names and phase.name not in named else None
+            named.add(phase.name)
+            axis.axvspan(phase.start_s, phase.end_s, color=colours[phase.name], linewidth=0, alpha=0.8, label=text)
+
+
+def threshold(axis: Axes, levels: Sequence[float], text: str = "") -> None:
+    """Draw horizontal thresholds."""
+    for index, level in enumerate(levels):
+        axis.axhline(level, color=THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label=text if text and index == 0 else None)
+
+
+def legend(axis: Axes, **placement: Any) -> None:
+    """Add a small legend when there is something to name."""
+    if axis.get_legend_handles_labels()[0]:
+        axis.legend(fontsize=7, frameon=False, ncols=4, **{"loc": "upper right", **placement})
+
+
+def save(figure: Figure, path: Path | str) -> None:
+    """Write a figure, whole or not at all; the suffix decides the format.
+
+    Raises
+    ------
+    OutputError
+        If the suffix is none of .png, .svg, .pdf, or the file cannot be written.
+    """
+    target = Path(path)
+    if target.suffix.lower() not in SUFFIXES:
+        raise OutputError(f"cannot draw {target}: the name must end in {', '.join(SUFFIXES)}")
+    with replacing(target) as temporary:
+        figure.savefig(temporary, format=target.suffix[1:].lower())

@@ -1,0 +1,82 @@
+"""Tables for people: one console, one style, units in the heading."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from seisblock.records import Record
+from seisblock.units import GAL
+
+NOTHING = "-"
+"""What stands where there is no number."""
+
+
+def console(*, stderr: bool = False) -> Console:
+    """Return a console on the present stdout or stderr; colours obey NO_COLOR and pipes."""
+    return Console(stderr=stderr, highlight=False, soft_wrap=False)
+
+
+def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = "") -> Table:
+    """Return a table: the first column is text, numbers are right-aligned.
+
+    Parameters
+    ----------
+    title : str
+    columns : sequence of str
+        Headings; a unit stands in round brackets.
+    rows : sequence of rows
+        Texts, or numbers that :func:`number` formats.
+    caption : str
+    """
+    made = Table(title=title, caption=caption or None, box=SIMPLE_HEAD, title_justify="left", caption_justify="left", pad_edge=False)
+    for index, heading in enumerate(columns):
+        made.add_column(heading, justify="left" if index == 0 else "right", overflow="fold")
+    for row in rows:
+        made.add_row(*(cell if isinstance(cell, (str, Text)) else number(cell) for cell in row))
+    return made
+
+
+def number(value: Any, digits: int = 4) -> str:
+    """Return a number with so many significant digits, a truth as yes or no, nothing as a dash."""
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return NOTHING
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int):
+        return str(value)
+    size = abs(float(value))
+    if size != 0.0 and (size < 1e-3 or size >= 1e6):
+        return f"{value:.{digits - 1}e}"
+    decimals = digits if size == 0.0 else max(digits - 1 - math.floor(math.log10(size)), 0)
+    return f"{value:.{min(decimals, digits)}f}"
+
+
+def seconds(value: float | None) -> str:
+    """Return a time to the millisecond."""
+    return NOTHING if value is None else f"{value:.3f}"
+
+
+def acceleration(value: float | None, *, gal: bool) -> str:
+    """Return an acceleration given in m/s^2 in the unit asked for."""
+    return NOTHING if value is None else (f"{value / GAL:.1f}" if gal else f"{value:.4f}")
+
+
+def acceleration_unit(*, gal: bool) -> str:
+    """Return the name of the unit in which accelerations are shown."""
+    return "gal" if gal else "m/s²"
+
+
+def record_line(record: Record) -> Text:
+    """Return one line that says which record an answer is about."""
+    start = record.start.strftime("%Y-%m-%d %H:%M:%S UTC") if record.start else "start unknown"
+    name = record.station or record.source or "record"
+    line = Text(f"{name}  {start}  {record.samples} samples, {1 / record.dt:g} Hz, {record.format}", style="bold")
+    done = "; ".join(record.history) or "as read"
+    return line.append(f"\n{done}", style="dim not bold")
