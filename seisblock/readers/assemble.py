@@ -1,0 +1,131 @@
+"""Which parts are one recording, and how they become one record."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from seisblock.errors import ComponentError, RecordError
+from seisblock.records import Component, Record
+
+LEVELS = ("surface", "borehole")
+_ORDER = {"NS": 0, "EW": 1, "UD": 2}
+CUT_TOLERANCE = 0.05
+"""How much longer than the shortest, relatively, a component of a PEER set may be: they start together and end at will."""
+
+
+def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, level: str | None = None) -> Record:
+    """Return the one record that parts make: of one station, level, start and sampling.
+
+    Parameters
+    ----------
+    name : str
+        Of the source, for messages.
+    parts : sequence of Record
+        One or several components each, at least one part.
+    station : str or None
+        Station to take when the parts come from several.
+    level : {"surface", "borehole"} or None
+        Sensor of a KiK-net station; None is the surface when there is one.
+
+    Raises
+    ------
+    ComponentError
+        If the station or level is missing, or several stations leave the choice open.
+    RecordError
+        If the parts are not one recording.
+    """
+    chosen, told = _at_level(name, _of_station(name, parts, station), level)
+    starts = sorted({str(p.start or p.metadata.get("event", "")) for p in chosen})
+    if len(starts) > 1:
+        raise RecordError(f"{name}: not one recording, the starts differ ({', '.join(starts)}): read these files one by one")
+    intervals = sorted({p.dt for p in chosen})
+    if len(intervals) > 1:
+        found = ", ".join(f"{dt:g} s" for dt in intervals)
+        raise RecordError(f"{name}: the sampling intervals differ ({found}): give files of one recording")
+    components = [c for part in chosen for c in part.components]
+    history = dict.fromkeys(line for part in chosen for line in part.history)
+    if chosen[0].format == "AT2":
+        components, cut = _cut_to_shortest(components)
+        history.update(dict.fromkeys(cut))
+    components.sort(key=lambda c: _ORDER.get(c.code, len(_ORDER)))
+    first = chosen[0]
+    return replace(
+        first,
+        components=tuple(components),
+        source=name,
+        history=(*told, *history),
+        metadata=_merged_metadata(chosen),
+    )
+
+
+def continues(parts: Sequence[Record], others: Sequence[Record]) -> bool:
+    """Return whether the one component of a file belongs to the recording that other files began: same station and start (or event)."""
+    if len(parts) != 1 or len(parts[0].components) != 1:
+        return False
+    part, first = parts[0], others[0]
+    named = bool(part.station) and (part.start is not None or bool(part.metadata.get("event")))
+    same = (part.station, part.start, part.metadata.get("event"), part.dt, part.format)
+    if not named or same != (first.station, first.start, first.metadata.get("event"), first.dt, first.format):
+        return False
+    held = {(other.metadata.get("level"), code) for other in others for code in other.codes}
+    return (part.metadata.get("level"), part.codes[0]) not in held
+
+
+def _of_station(name: str, parts: Sequence[Record], station: str | None) -> Sequence[Record]:
+    """Return the parts of one station."""
+    stations = list(dict.fromkeys(p.station for p in parts))
+    listed = ", ".join(s or "(unnamed)" for s in stations)
+    if station is not None:
+        wanted = station.strip().lower()
+        chosen = [p for p in parts if wanted in (p.station.lower(), str(p.metadata.get("station_name", "")).lower())]
+        if not chosen:
+            raise ComponentError(f"{name}: no station {station!r}; it holds {listed}")
+        return chosen
+    if len(stations) > 1:
+        raise ComponentError(f"{name} holds {len(stations)} stations: choose one with --station: {listed}")
+    return parts
+
+
+def _at_level(name: str, parts: Sequence[Record], level: str | None) -> tuple[Sequence[Record], tuple[str, ...]]:
+    """Return the parts of one KiK-net sensor and a line for the history; parts of other networks pass."""
+    levels = {str(p.metadata["level"]) for p in parts if "level" in p.metadata}
+    if level is not None and level not in LEVELS:
+        raise ComponentError(f"unknown level {level!r}: give surface or borehole")
+    if not levels:
+        if level == "borehole":
+            raise ComponentError(f"{name} has no borehole sensor: only KiK-net stations have one; leave --level out")
+        return parts, ()
+    taken = level or ("surface" if "surface" in levels else "borehole")
+    chosen = [p for p in parts if p.metadata.get("level") == taken]
+    if not chosen:
+        raise ComponentError(f"{name} holds no {taken} components, only {', '.join(sorted(levels))}")
+    why = "as asked" if level else "the default" if len(levels) > 1 else "the only one given"
+    return chosen, (f"took the {taken} sensor of the KiK-net station ({why})",)
+
+
+def _cut_to_shortest(components: Sequence[Component]) -> tuple[list[Component], list[str]]:
+    """Return components of one length when they differ a little at the end, and what was cut."""
+    lengths = [c.acceleration.size for c in components]
+    shortest = min(lengths)
+    if max(lengths) == shortest or max(lengths) > (1.0 + CUT_TOLERANCE) * shortest:
+        return list(components), []
+    told = ", ".join(f"{c.code} {n}" for c, n in zip(components, lengths, strict=True))
+    cut = [replace(c, acceleration=c.acceleration[:shortest]) for c in components]
+    return cut, [f"cut all components to the shortest, {shortest} samples (the files hold {told})"]
+
+
+def _merged_metadata(parts: Sequence[Record]) -> dict[str, object]:
+    """Return what the headers say together; what each component has of its own is gathered."""
+    merged: dict[str, object] = {}
+    for part in parts:
+        for key, value in part.metadata.items():
+            if key == "warnings" and isinstance(value, tuple):
+                before = merged.get(key, ())
+                merged[key] = (*(before if isinstance(before, tuple) else ()), *value)
+            elif isinstance(value, dict):
+                held = merged.get(key)
+                merged[key] = {**(held if isinstance(held, dict) else {}), **value}
+            else:
+                merged.setdefault(key, value)
+    return merged

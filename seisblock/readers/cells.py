@@ -1,0 +1,125 @@
+"""From lines of text to exact numbers, and to the line number when they are none."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from typing import NoReturn
+
+import numpy as np
+
+from seisblock.errors import RecordFormatError
+from seisblock.typing import FloatArray
+from seisblock.units import ACCELERATION_UNITS
+
+_SHIFTS = {0.01: 2, 1e-3: 3}
+"""Decimal places between a unit and m/s^2."""
+
+
+def to_si(values: FloatArray, unit: str) -> FloatArray:
+    """Return accelerations in m/s^2; for gal and mm/s^2 the decimal point moves, so that 306.21 gal is 3.0621 m/s^2 to the last bit."""
+    factor = ACCELERATION_UNITS[unit]
+    if factor == 1.0:
+        return values
+    if factor not in _SHIFTS:
+        return values * factor
+    for places in (3, 6):  # decimals that files are written with
+        whole = np.rint(values * 10.0**places)
+        if np.abs(whole).max() < 2**53 and np.array_equal(whole / 10.0**places, values):
+            return whole / 10.0 ** (places + _SHIFTS[factor])
+    return values / 10.0 ** _SHIFTS[factor]
+
+
+def columns_of(
+    name: str, lines: Sequence[str], first_line: int, columns: Mapping[str, int], width: int, separator: str | None = ","
+) -> FloatArray:
+    """Return chosen columns of a table as rows, shape (number of columns, lines).
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for messages.
+    lines : sequence of str
+        The table; blank lines are skipped.
+    first_line : int
+        Number of ``lines[0]`` in the file, counted from 1.
+    columns : mapping of str to int
+        Label (for messages) and index of each column wanted.
+    width : int
+        Number of columns the header announces; further cells must be blank.
+    separator : str or None
+        Between cells; None is any run of blanks.
+
+    Raises
+    ------
+    RecordFormatError
+        If there is no line, or a cell is missing, is text or is not finite; the message names the line.
+    """
+    if not any(line.strip() for line in lines):
+        raise RecordFormatError(f"{name} ends after its header (line {first_line - 1}): there are no samples in it")
+    table = _fast(lines, columns, separator) if _is_even(lines, separator) else None
+    if table is None or not np.isfinite(table).all():
+        table = _careful(name, lines, first_line, columns, width, separator)
+    return np.ascontiguousarray(table.T)
+
+
+def _is_even(lines: Sequence[str], separator: str | None) -> bool:
+    """Return whether every line has as many separators as the first, so that no cell can have slipped sideways."""
+    if separator is None:
+        return True  # checked by the width of the table
+    text = "\n".join(lines)
+    filled = text.count("\n") + 1 - sum(1 for line in lines if not line)
+    return text.count(separator) == lines[0].count(separator) * filled
+
+
+def _fast(lines: Sequence[str], columns: Mapping[str, int], separator: str | None) -> FloatArray | None:
+    """Return the table through numpy's own parser, or None when it stumbles."""
+    indices = list(columns.values())
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            if separator is None:
+                return np.loadtxt(lines, comments=None, ndmin=2)[:, indices]
+            return np.loadtxt(lines, delimiter=separator, comments=None, usecols=indices, ndmin=2)
+        except (ValueError, IndexError):
+            return None
+
+
+def _careful(
+    name: str, lines: Sequence[str], first_line: int, columns: Mapping[str, int], width: int, separator: str | None
+) -> FloatArray:
+    """Return the table cell by cell, naming the first line that is wrong."""
+    rows: list[list[float]] = []
+    last = len(lines)
+    while last and not lines[last - 1].strip(" \t" + (separator or "")):
+        last -= 1  # a spreadsheet's empty rows at the end
+    for offset, line in enumerate(lines[:last]):
+        if not line.strip():
+            continue
+        cells = line.split(separator)
+        if any(cell.strip() for cell in cells[width:]):
+            fail(name, first_line + offset, f"expected {width} cells, found {len(cells)}")
+        rows.append([_number(name, first_line + offset, label, cells, index) for label, index in columns.items()])
+    return np.array(rows, dtype=np.float64)
+
+
+def _number(name: str, line: int, label: str, cells: Sequence[str], index: int) -> float:
+    """Return the number in one cell."""
+    cell = cells[index].strip() if index < len(cells) else ""
+    try:
+        value = float(cell)
+    except ValueError:
+        value = float("nan")
+        if cell:
+            fail(name, line, f"expected a number in column {label}, found {cell!r}")
+    if not cell:
+        fail(name, line, f"the cell of column {label} is empty")
+    if not isfinite(value):
+        fail(name, line, f"column {label} holds {cell!r}, which is no acceleration")
+    return value
+
+
+def fail(name: str, line: int, what: str) -> NoReturn:
+    """Raise the error that a line of a file deserves."""
+    raise RecordFormatError(f"{name}, line {line}: {what}; correct the file or cut it before that line")

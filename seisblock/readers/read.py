@@ -1,0 +1,132 @@
+"""From a name, or several, to a record or several."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from os import PathLike
+
+from seisblock.errors import ParameterError
+from seisblock.readers.assemble import assemble, continues
+from seisblock.readers.dispatch import Options, parts_of
+from seisblock.readers.source import Blob, Source, digest, load
+from seisblock.records import Record
+
+
+def read(
+    source: Source | Sequence[Source],
+    *,
+    format: str | None = None,  # noqa: A002 - the word users know from obspy
+    units: str | None = None,
+    dt: float | None = None,
+    station: str | None = None,
+    level: str | None = None,
+) -> Record:
+    """Return the record in a file, in the files of one recording, or among the bundled samples.
+
+    The samples are kept as the file has them, converted to m/s^2: no mean is removed. ``metadata["carries_offset"]`` is True for the
+    formats whose samples carry an instrument's offset (K-NET and KiK-net), where a caller should remove it.
+
+    Parameters
+    ----------
+    source : path, or sequence of paths
+        A file of any format told below, or the name of a bundled sample. One component of a three-file set (K-NET, KiK-net, PEER AT2)
+        stands for its siblings beside it. Several paths are read as ONE record.
+    format : str or None
+        ``JMA-CSV``, ``KNET``, ``KIKNET``, ``KNET-CSV``, ``AT2``, ``CSV``, or ``OBSPY:`` and a format of obspy. None: the content decides.
+    units : {"gal", "m/s2", "mm/s2", "g"} or None
+        Of files that do not name theirs.
+    dt : float or None, s
+        Sampling interval of files that do not tell theirs.
+    station : str or None
+        Code of the station to take from a bundle of several.
+    level : {"surface", "borehole"} or None
+        Sensor of a KiK-net station; the surface by default.
+
+    Returns
+    -------
+    Record
+        Components ``NS``, ``EW``, ``UD`` (positive north, east, up) where the file tells them, else under the file's own names or
+        azimuths in degrees clockwise from north; start in UTC; ``sha256`` of the bytes of all files in order.
+
+    Raises
+    ------
+    RecordNotFoundError
+        If there is no such file or sample.
+    RecordFormatError
+        If the content breaks its format; the message names the line.
+    UnitError, ParameterError
+        If a unit or the sampling interval is missing or contradicts the file.
+    ComponentError
+        If a station or level is missing or must be chosen.
+
+    Examples
+    --------
+    >>> record = read("synthetic_jma.csv")
+    >>> record.codes, record.dt, record.samples
+    (('NS', 'EW', 'UD'), 0.01, 6000)
+    """
+    options = Options(format, units, dt, station, level)
+    sources: list[Source] = [source] if isinstance(source, (str, PathLike)) else list(source)
+    if not sources:
+        raise ParameterError("no file was named: give at least one record")
+    return _record_of([_open(s, options) for s in sources], options)
+
+
+def read_all(
+    sources: Iterable[Source],
+    *,
+    format: str | None = None,  # noqa: A002
+    units: str | None = None,
+    dt: float | None = None,
+    station: str | None = None,
+    level: str | None = None,
+) -> list[Record]:
+    """Return the records in several files: those that share a station and a start are one record.
+
+    Parameters
+    ----------
+    sources : iterable of paths
+        In any order; records come in the order of their first file. A file that shares its recording with no other is read as by `read`.
+    format, units, dt, station, level
+        As for `read`.
+
+    Raises
+    ------
+    InputError
+        As `read` does.
+    """
+    options = Options(format, units, dt, station, level)
+    groups: list[list[Opened]] = []
+    for name in dict.fromkeys(str(s) for s in sources):
+        opened = _open(name, options)
+        home = next((g for g in groups if continues(opened.parts, [part for other in g for part in other.parts])), None)
+        if home is None:
+            groups.append([opened])
+        else:
+            home.append(opened)
+    return [_record_of(g, options) for g in groups]
+
+
+@dataclass(frozen=True)
+class Opened:
+    """One source as named, its bytes and the parts in them."""
+
+    name: str
+    blob: Blob
+    parts: list[Record]
+
+
+def _open(source: Source, options: Options) -> Opened:
+    """Return a source with its bytes and the parts in them."""
+    blob = load(source)
+    return Opened(str(source), blob, parts_of(blob, options))
+
+
+def _record_of(group: Sequence[Opened], options: Options) -> Record:
+    """Return the one record that some sources make."""
+    name = ", ".join(opened.name for opened in group)
+    blobs = [opened.blob for opened in group]
+    parts = [part for opened in group for part in opened.parts]
+    record = assemble(name, parts, station=options.station, level=options.level)
+    return replace(record, sha256=digest(blobs))

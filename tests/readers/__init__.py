@@ -1,0 +1,1 @@
+"""Readers: what the file says is what the solver sees."""
