@@ -14,6 +14,10 @@ _HOME = {
     "motion_of": "seisblock.records",
     "read": "seisblock.readers",
     "Response": "seisblock.results",
+    "SpringBlock": "seisblock.bodies.spring_block",
+    "natural_modes": "seisblock.solvers.uplift_modes",
+    "uplift_minima": "seisblock.solvers.uplift_minima",
+    "uplift_thresholds": "seisblock.solvers.uplift_harmonic",
 }
 
 __all__ = ["__version__", *_HOME]

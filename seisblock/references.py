@@ -62,10 +62,11 @@ _ALL = (
     ),
     Reference(
         "Okumura1987",
-        "Okumura, A.",
+        "Okumura, T. and Matsui, K. and Suzuki, T. and Honda, M.",
         1987,
-        "Uplift of a rigid block supported by springs at its corners under harmonic ground motion (in Japanese)",
-        "see the paper's own heading",
+        "Uplift due to harmonic rocking of rigid body",
+        "in Japanese, dated 16 October 1987; the copy at hand does not name the journal",
+        kind="misc",
     ),
     Reference(
         "Housner1963",

@@ -6,7 +6,9 @@ import importlib
 
 from seisblock.validation.case import CONVERGED, EXACT, Case, CaseResult
 
-PAPERS: tuple[str, ...] = ()
+PAPERS: tuple[str, ...] = (
+    "okumura",
+)
 """Modules of this package that export CASES."""
 
 

@@ -1,0 +1,182 @@
+"""When a block on corner springs lifts off under harmonic shaking: the paper's closed forms, for a square base.
+
+Square base (gamma = 1), equal horizontal springs, equal modal damping, small rotations, steady state. The general
+base is solved by :mod:`seisblock.solvers.uplift_harmonic`, which these formulas check and are checked by.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.bodies.spring_block import CORNERS
+from seisblock.errors import ParameterError
+from seisblock.typing import ArrayLike, FloatArray
+
+UNDAMPED_RESONANCE = 1e-150
+"""Stands for zero in the denominator of an undamped resonance, so that a mode that takes no part stays out."""
+
+
+@dataclass(frozen=True)
+class SquareBaseModes:
+    """The natural modes of a block on a square base, frequencies over omega_V ([Okumura1987]_ eqs. (7)-(9), (22)).
+
+    Parameters
+    ----------
+    c1, c2 : float
+        Rocking frequencies omega_1 = omega_2 and omega_5 = omega_6 over omega_V.
+    torsion : float
+        Frequency omega_4 over omega_V.
+    d1, d2 : float
+        Entries of the modal matrix: mode 1 is x = 1, b theta_y = -d2; mode 5 is x = -d1, b theta_y = 1.
+    m1, m5 : float
+        Modal masses of modes 1 and 5.
+    """
+
+    c1: float
+    c2: float
+    torsion: float
+    d1: float
+    d2: float
+    m1: float
+    m5: float
+
+    @property
+    def frequency_ratios(self) -> tuple[float, float, float, float, float, float]:
+        """Frequencies omega_1 to omega_6 over omega_V, in the paper's order."""
+        return self.c1, self.c1, 1.0, self.torsion, self.c2, self.c2
+
+
+def square_base_modes(alpha: float, beta: float) -> SquareBaseModes:
+    """Return the natural modes of a block on a square base.
+
+    Parameters
+    ----------
+    alpha : float
+        Height over side, H/b, positive.
+    beta : float
+        Horizontal over vertical circular frequency, positive.
+
+    Returns
+    -------
+    SquareBaseModes
+
+    Raises
+    ------
+    ParameterError
+        If a ratio is not positive.
+
+    Notes
+    -----
+    [Okumura1987]_ eqs. (7), (8), (9) and (22). Differs: (22a) holds D2 squared; (22b) is M3 = 1. The smaller root of (8) and D2 are
+    written without the paper's differences of nearly equal numbers: C1^2 C2^2 = 3 beta^2 / (1 + alpha^2), and
+    orthogonality of modes 1 and 5 gives D2 = -12 D1 / (1 + alpha^2).
+
+    Examples
+    --------
+    >>> round(square_base_modes(2.0, 3**0.5 / 2).c2, 12)
+    1.732050807569
+    """
+    for name, value in (("alpha", alpha), ("beta", beta)):
+        if not (value > 0.0 and math.isfinite(value)):
+            raise ParameterError(f"{name} must be positive, found {value}")
+    a2, b2 = alpha**2, beta**2
+    s = 4.0 * a2 * b2 + b2 + 3.0
+    root = math.sqrt(16.0 * a2**2 * b2**2 + b2**2 + 8.0 * a2 * b2**2 + 12.0 * a2 * b2 - 6.0 * b2 + 9.0)
+    c2_squared = (s + root) / (2.0 * (1.0 + a2))
+    c1_squared = 6.0 * b2 / (s + root)
+    d1 = -alpha * b2 / (2.0 * (b2 - c2_squared))
+    d2 = -12.0 * d1 / (1.0 + a2)
+    inertia = (1.0 + a2) / 12.0
+    return SquareBaseModes(
+        math.sqrt(c1_squared), math.sqrt(c2_squared), math.sqrt(3.0) * beta, d1, d2, 1.0 + inertia * d2**2, d1**2 + inertia
+    )
+
+
+def harmonic_uplift_ratio(
+    frequency_ratio: ArrayLike,
+    *,
+    alpha: float,
+    beta: float,
+    damping: float,
+    phi_deg: float = 0.0,
+    rho_deg: float = 90.0,
+    corner: int | None = None,
+) -> FloatArray:
+    """Return the least A/g that lifts a corner of a square base in the steady state.
+
+    Parameters
+    ----------
+    frequency_ratio : (n,) array
+        Frequency of the shaking over the first rocking frequency, theta/omega_1.
+    alpha, beta : float
+        Height over side; horizontal over vertical circular frequency.
+    damping : float
+        Modal damping ratio h, the same in each mode.
+    phi_deg, rho_deg : float, degrees
+        Direction of the shaking: azimuth from x towards y, and angle from the vertical.
+    corner : int or None
+        Corner 1 to 4; None takes the least over the four. The paper uses corner 4 alone, which with a vertical part
+        (0 < rho < 90) is up to nine times too high.
+
+    Returns
+    -------
+    (n,) array
+        A/g; infinite where no amplitude lifts the corner.
+
+    Raises
+    ------
+    ParameterError
+        If a ratio is not positive, or there is no such corner.
+
+    Notes
+    -----
+    [Okumura1987]_ eq. (27), derived again from (23), (25) and (26). With s = sin(rho) (-/+ cos(phi) -/+ sin(phi)), the signs those of the
+    corner, e_j = C_j^2 - (C_1 r)^2, d_j = 2 h C_j C_1 r and P_jk = (e_j e_k + d_j d_k) / (N_j N_k), N_j = e_j^2 + d_j^2:
+
+    (g/A)^2 = s^2/4 [(D2/M1)^2 P_11 + 2 D1 D2/(M1 M5) P_15 + (D1/M5)^2 P_55]
+    - s cos(rho) [D2/M1 P_13 + D1/M5 P_53] + cos(rho)^2 P_33
+
+    Differs from the printed (27), which lacks the square root, the plus before the product of modes 1 and 5, a square in its
+    denominators, squares M1 and M5 and subtracts mode 5 in the middle bracket, and ends in -cos(rho) instead of cos(rho)^2 / N_3.
+
+    Examples
+    --------
+    >>> harmonic_uplift_ratio([2.78225], alpha=1.0, beta=0.6**0.5, damping=0.05).round(6)
+    array([0.676683])
+    """
+    from scipy.special import cosdg, sindg
+
+    modes = square_base_modes(alpha, beta)
+    shaking = (modes.c1 * np.asarray(frequency_ratio, dtype=np.float64)) ** 2
+    c = np.array([modes.c1, modes.c2, 1.0])[:, None]
+    e = c**2 - shaking
+    d = 2.0 * damping * c * np.sqrt(shaking)
+    e = np.where((e == 0.0) & (d == 0.0), UNDAMPED_RESONANCE, e)
+    with np.errstate(divide="ignore"):
+        scale = 1.0 / np.hypot(e, d)
+        u, v = e * scale, d * scale
+        w1, w5, w3 = scale
+        p15, p13, p53 = (u[j] * u[k] + v[j] * v[k] for j, k in ((0, 1), (0, 2), (1, 2)))
+        w1, w5 = w1 * modes.d2 / modes.m1, w5 * modes.d1 / modes.m5
+        vertical = cosdg(rho_deg)
+        thresholds = []
+        for sx, sy in _chosen(corner):
+            s = -sindg(rho_deg) * (sx * cosdg(phi_deg) + sy * sindg(phi_deg))
+            squared = 0.25 * s**2 * (w1**2 + 2.0 * w1 * w5 * p15 + w5**2)
+            if vertical != 0.0:
+                squared = squared - s * vertical * w3 * (w1 * p13 + w5 * p53) + (vertical * w3) ** 2
+            thresholds.append(np.where(squared > 1.0 / UNDAMPED_RESONANCE, 0.0, 1.0 / np.sqrt(np.maximum(squared, 0.0))))
+    least: FloatArray = np.min(thresholds, axis=0)
+    return least
+
+
+def _chosen(corner: int | None) -> tuple[tuple[int, int], ...]:
+    """Return the signs of one corner, or of all."""
+    if corner is None:
+        return CORNERS
+    if corner not in (1, 2, 3, 4):
+        raise ParameterError(f"there are corners 1 to 4, found {corner}")
+    return (CORNERS[corner - 1],)
