@@ -115,6 +115,28 @@ _ALL = (
         "Gyosei, Tokyo (in Japanese)",
         kind="book",
     ),
+    Reference(
+        "NigamJennings1969",
+        "Nigam, N. C. and Jennings, P. C.",
+        1969,
+        "Calculation of response spectra from strong-motion earthquake records",
+        "Bulletin of the Seismological Society of America, 59(2), 909-922",
+    ),
+    Reference(
+        "Parzen1961",
+        "Parzen, E.",
+        1961,
+        "Mathematical considerations in the estimation of spectra",
+        "Technometrics, 3(2), 167-190",
+        doi="10.1080/00401706.1961.10489939",
+    ),
+    Reference(
+        "TrifunacBrady1975",
+        "Trifunac, M. D. and Brady, A. G.",
+        1975,
+        "A study on the duration of strong earthquake ground motion",
+        "Bulletin of the Seismological Society of America, 65(3), 581-626",
+    ),
 )
 
 REFERENCES = {reference.key: reference for reference in _ALL}

@@ -1,1 +1,39 @@
-"""One number per record: peaks, equivalent frequencies, durations, intensities."""
+"""One number per record: peaks, equivalent frequencies, durations, intensities, spectra."""
+
+from seisblock.measures.baseline import GroundHistory, ground_history
+from seisblock.measures.duration import Duration, duration_above, stretches_above
+from seisblock.measures.frequency import EquivalentFrequency, Pulse, dominant_frequency, peak_pulse, pga_pgv_frequency
+from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration
+from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
+from seisblock.measures.spectra import ResponseSpectrum, default_periods, fourier_amplitude, response_spectrum
+from seisblock.measures.summary import ComponentMeasures, Conventions, RecordMeasures, measure
+
+__all__ = [
+    "ComponentMeasures",
+    "Conventions",
+    "Duration",
+    "EquivalentFrequency",
+    "GroundHistory",
+    "HorizontalPeak",
+    "Pulse",
+    "RecordMeasures",
+    "ResponseSpectrum",
+    "arias_intensity",
+    "default_periods",
+    "dominant_frequency",
+    "duration_above",
+    "fourier_amplitude",
+    "ground_history",
+    "jma_class",
+    "jma_intensity",
+    "measure",
+    "pga_pgv_frequency",
+    "peak_acceleration",
+    "peak_displacement",
+    "peak_horizontal",
+    "peak_pulse",
+    "peak_velocity",
+    "response_spectrum",
+    "significant_duration",
+    "stretches_above",
+]

@@ -1,0 +1,154 @@
+"""The frequency of the sine that a record is taken for: three definitions of the equivalent frequency."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.errors import ParameterError
+from seisblock.measures.spectra import SMOOTHING_HZ, fourier_amplitude
+from seisblock.typing import FloatArray
+
+FOURIER_BAND_HZ = (0.1, 25.0)
+"""Default band in which the dominant Fourier frequency is looked for, Hz; cut at half the sampling rate."""
+
+
+@dataclass(frozen=True)
+class EquivalentFrequency:
+    """The three equivalent frequencies of one component ([Furukawa2009]_ section 3(5)e), Hz; None where one is not defined.
+
+    Parameters
+    ----------
+    pga_pgv : float or None
+        Method 1, the paper's choice: PGA / (2 pi PGV).
+    fourier : float or None
+        Method 2: where the smoothed Fourier amplitude is largest.
+    pulse_width : float or None
+        Method 3: 1 / T, with T/2 the width of the pulse that holds the PGA.
+    """
+
+    pga_pgv: float | None
+    fourier: float | None
+    pulse_width: float | None
+
+
+@dataclass(frozen=True)
+class Pulse:
+    """The pulse that holds the PGA, between the zero crossings before and after it.
+
+    Parameters
+    ----------
+    frequency_hz : float, Hz
+        One over twice its width.
+    start_s, end_s : float, s
+        Its ends, from the first sample.
+    ambiguous : bool
+        The record begins or ends within the pulse: the frequency is an upper bound.
+    """
+
+    frequency_hz: float
+    start_s: float
+    end_s: float
+    ambiguous: bool
+
+
+def pga_pgv_frequency(pga: float, pgv: float) -> float | None:
+    """Return PGA / (2 pi PGV), the equivalent frequency by method 1 of [Furukawa2009]_ section 3(5)e.
+
+    Exact for a sine; 1.16582 f0 for a Ricker wavelet. It depends on the component and on the filter behind the PGV: take
+    both from one component, and state the filter.
+
+    Parameters
+    ----------
+    pga, pgv : float, m/s^2 and m/s
+        Peaks of one component.
+
+    Returns
+    -------
+    float or None, Hz
+        None when either is zero.
+    """
+    return pga / (2.0 * math.pi * pgv) if pga > 0 and pgv > 0 else None
+
+
+def dominant_frequency(
+    acceleration: FloatArray, dt: float, *, band_hz: tuple[float, float] = FOURIER_BAND_HZ, smoothing_hz: float = SMOOTHING_HZ
+) -> float | None:
+    """Return where the smoothed Fourier amplitude is largest, method 2 of [Furukawa2009]_ section 3(5)e.
+
+    The paper states neither smoothing nor band. Here: mean removed, energy smoothed by a Parzen window of 0.2 Hz, band 0.1
+    to 25 Hz, the maximum interpolated by a parabola.
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+        Ground acceleration.
+    dt : float, s
+        Sampling interval.
+    band_hz : two floats, Hz
+        Where to look; cut at half the sampling rate.
+    smoothing_hz : float, Hz
+        Bandwidth of the Parzen window.
+
+    Returns
+    -------
+    float or None, Hz
+        None when the amplitude is largest at an edge of the band: no frequency inside dominates.
+
+    Raises
+    ------
+    ParameterError
+        If the band is empty.
+    """
+    low, high = band_hz[0], min(band_hz[1], 0.5 / dt)
+    if not 0 <= low < high:
+        raise ParameterError(f"the band {band_hz[0]:g}-{band_hz[1]:g} Hz is empty below {0.5 / dt:g} Hz, half the sampling rate")
+    frequency, amplitude = fourier_amplitude(acceleration, dt, smoothing_hz=smoothing_hz)
+    inside = np.flatnonzero((frequency >= low) & (frequency <= high))
+    if inside.size == 0:
+        return None
+    top = int(inside[amplitude[inside].argmax()])
+    if amplitude[top] == 0.0 or top in (0, frequency.size - 1):
+        return None
+    before, here, after = amplitude[top - 1 : top + 2]
+    if before > here or after > here:
+        return None  # still climbing across the edge of the band
+    curvature = before - 2.0 * here + after
+    shift = 0.5 * (before - after) / curvature if curvature < 0 else 0.0
+    return float(frequency[top] + shift * frequency[1])
+
+
+def peak_pulse(acceleration: FloatArray, dt: float) -> Pulse | None:
+    """Return the pulse that holds the PGA, method 3 of [Furukawa2009]_ section 3(5)e: its width is half a period.
+
+    Zero crossings are interpolated. Exact for a sine; pi / (2 sqrt 2) f0 = 1.11072 f0 for a Ricker wavelet. Where the record
+    begins or ends inside the pulse its end is taken instead, and the pulse is marked ambiguous.
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+        Ground acceleration.
+    dt : float, s
+        Sampling interval.
+
+    Returns
+    -------
+    Pulse or None
+        None for a record that is zero throughout.
+    """
+    top = int(np.abs(acceleration).argmax())
+    if acceleration[top] == 0.0:
+        return None
+    upright = acceleration * np.sign(acceleration[top])
+    before = np.flatnonzero(upright[:top] <= 0)
+    after = np.flatnonzero(upright[top:] <= 0)
+    start, end = 0.0, float(acceleration.size - 1)
+    if before.size:
+        i = int(before[-1])
+        start = i + float(upright[i] / (upright[i] - upright[i + 1]))
+    if after.size:
+        i = top + int(after[0])
+        end = i - float(upright[i] / (upright[i] - upright[i - 1]))
+    return Pulse(1.0 / (2.0 * dt * (end - start)), dt * start, dt * end, not (before.size and after.size))

@@ -1,0 +1,151 @@
+"""Intensities: Arias, the significant duration that goes with it, and the instrumental intensity of JMA."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from seisblock.records.record import Record
+from seisblock.typing import FloatArray
+from seisblock.units import GAL, STANDARD_GRAVITY
+
+JMA_EXCEEDANCE_S = 0.3
+"""Time for which the filtered vector must reach the amplitude that defines the intensity, s ([JMA1996]_)."""
+
+_CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), (5.0, "5-"), (5.5, "5+"), (6.0, "6-"), (6.5, "6+"))
+"""Upper bounds of the classes of [JMA1996]_, beyond the last of which it is 7."""
+
+_HIGH_CUT = (1.0, 0.694, 0.241, 0.0557, 0.009664, 0.00134, 0.000155)
+"""Coefficients of the high-cut filter of [JMA1996]_ in powers of (f / 10 Hz)^2."""
+
+
+def arias_intensity(acceleration: FloatArray, dt: float, *, gravity: float = STANDARD_GRAVITY) -> float:
+    """Return the Arias intensity, pi / (2 g) times the integral of the squared acceleration ([Arias1970]_).
+
+    Exact for samples joined by straight lines.
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+        Ground acceleration.
+    dt : float, s
+        Sampling interval.
+    gravity : float, m/s^2
+        g.
+
+    Returns
+    -------
+    float, m/s
+    """
+    return math.pi / (2.0 * gravity) * float(_square_integrals(acceleration, dt).sum())
+
+
+def significant_duration(acceleration: FloatArray, dt: float, *, between: tuple[float, float] = (0.05, 0.95)) -> float:
+    """Return the time between two shares of the Arias intensity ([TrifunacBrady1975]_), 5 and 95 % by default.
+
+    The squared straight line integrates to a cubic in time, which is inverted in closed form: no dependence on samples.
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+        Ground acceleration.
+    dt : float, s
+        Sampling interval.
+    between : two floats
+        Shares between 0 and 1.
+
+    Returns
+    -------
+    float, s
+        0 for a record that is zero throughout.
+    """
+    cumulative = np.concatenate(([0.0], np.cumsum(_square_integrals(acceleration, dt))))
+    total = float(cumulative[-1])
+    if total == 0.0:
+        return 0.0
+    start, end = (_time_of(acceleration, dt, cumulative, share * total) for share in between)
+    return end - start
+
+
+def jma_intensity(record: Record) -> float | None:
+    """Return the instrumental seismic intensity of the Japan Meteorological Agency, not rounded ([JMA1996]_).
+
+    The three components are filtered in the frequency domain (period effect f^-1/2, high cut at 10 Hz, low cut at 0.5 Hz,
+    nothing at zero frequency), added as vectors, and I = 2 log10 a0 + 0.94, where a0 (gal) is the largest amplitude that is
+    reached for 0.3 s in all.
+
+    Parameters
+    ----------
+    record : Record
+        Two horizontals and the vertical; their azimuths do not matter as long as they are orthogonal.
+
+    Returns
+    -------
+    float or None
+        None when the intensity is not defined: a component is missing, the record is shorter than 0.3 s, or it is at rest.
+    """
+    if record.vertical is None or len(record.horizontals) != 2:
+        return None
+    needed = math.ceil(JMA_EXCEEDANCE_S / record.dt - 1e-6)
+    if needed > record.samples:
+        return None
+    weight = _jma_filter(np.asarray(np.fft.rfftfreq(record.samples, record.dt), dtype=np.float64))
+    squared = np.zeros(record.samples)
+    for component in record.components:
+        squared += np.fft.irfft(weight * np.fft.rfft(component.acceleration / GAL), record.samples) ** 2
+    a0_squared = float(np.partition(squared, record.samples - needed)[record.samples - needed])
+    return math.log10(a0_squared) + 0.94 if a0_squared > 0 else None
+
+
+def jma_class(intensity: float) -> str:
+    """Return the class of the JMA scale, ``0`` to ``4``, ``5-``, ``5+``, ``6-``, ``6+`` or ``7`` ([JMA1996]_).
+
+    As JMA does, the intensity is rounded to two decimals and cut to one before it is classed.
+
+    Parameters
+    ----------
+    intensity : float
+        Instrumental intensity.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> [jma_class(i) for i in (-1.0, 4.494, 4.497, 5.1, 7.2)]
+    ['0', '4', '5-', '5+', '7']
+    """
+    published = math.floor(round(round(intensity, 2) * 10, 6)) / 10
+    return next((name for bound, name in _CLASSES if published < bound), "7")
+
+
+def _jma_filter(frequency: FloatArray) -> FloatArray:
+    """Return the product of the three filters of JMA at frequencies in Hz; zero at zero."""
+    f = np.where(frequency > 0, frequency, 1.0)
+    y2 = (f / 10.0) ** 2
+    high_cut = 1.0 / np.sqrt(np.polynomial.polynomial.polyval(y2, _HIGH_CUT))
+    low_cut = np.sqrt(-np.expm1(-((f / 0.5) ** 3)))
+    weight: FloatArray = np.where(frequency > 0, high_cut * low_cut / np.sqrt(f), 0.0)
+    return weight
+
+
+def _square_integrals(acceleration: FloatArray, dt: float) -> FloatArray:
+    """Return the integral of the squared straight line over each interval, (n - 1,), m^2/s^3."""
+    a, b = acceleration[:-1], acceleration[1:]
+    return dt / 3.0 * (a * a + a * b + b * b)
+
+
+def _time_of(acceleration: FloatArray, dt: float, cumulative: FloatArray, energy: float) -> float:
+    """Return the time at which the cumulative integral of the square reaches a value, s."""
+    interval = min(int(np.searchsorted(cumulative, energy, side="left")), acceleration.size - 1) - 1
+    if interval < 0:
+        return 0.0
+    a, b = float(acceleration[interval]), float(acceleration[interval + 1])
+    rest, whole = energy - float(cumulative[interval]), float(cumulative[interval + 1] - cumulative[interval])
+    slope = (b - a) / dt
+    # ((a + slope t)^3 - a^3) / (3 slope) = rest; where the line is nearly level the cubic root would cancel
+    if abs(b - a) <= 1e-6 * max(abs(a), abs(b)):
+        return dt * (interval + rest / whole)
+    return dt * interval + (math.cbrt(a**3 + 3.0 * slope * rest) - a) / slope

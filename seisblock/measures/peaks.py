@@ -1,0 +1,121 @@
+"""Peaks: of acceleration, velocity and displacement, and of the horizontal vector over all azimuths."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.errors import ComponentError
+from seisblock.measures.baseline import GroundHistory
+from seisblock.records.process import towards
+from seisblock.records.record import Record
+from seisblock.typing import FloatArray
+
+
+@dataclass(frozen=True)
+class HorizontalPeak:
+    """The largest horizontal ground acceleration over all directions.
+
+    Parameters
+    ----------
+    pga_m_s2 : float, m/s^2
+        Length of the longest horizontal acceleration vector.
+    azimuth_deg : float or None, degrees
+        Where it points, clockwise from north, 0 to 360; None when the azimuths of the components are unknown.
+    time_s : float, s
+        When, from the record's first sample.
+    """
+
+    pga_m_s2: float
+    azimuth_deg: float | None
+    time_s: float
+
+
+def peak_acceleration(acceleration: FloatArray) -> tuple[float, int]:
+    """Return the peak absolute acceleration (m/s^2) and the index of its first sample ([Furukawa2009]_ table 4(a)).
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+        Linear between samples, so that the peak lies on a sample.
+
+    Returns
+    -------
+    peak : float, m/s^2
+        Never negative.
+    index : int
+        First sample that has it.
+    """
+    index = int(np.abs(acceleration).argmax())
+    return abs(float(acceleration[index])), index
+
+
+def peak_velocity(history: GroundHistory, dt: float) -> float:
+    """Return the peak absolute velocity, between samples too ([Furukawa2009]_ table 4(b)).
+
+    Velocity is a quadratic in each interval; its extremes lie at samples and where the acceleration crosses zero.
+
+    Parameters
+    ----------
+    history : GroundHistory
+        From :func:`seisblock.measures.baseline.ground_history`.
+    dt : float, s
+        Sampling interval.
+
+    Returns
+    -------
+    float, m/s
+    """
+    a, v = history.acceleration, history.velocity
+    crossing = np.flatnonzero(a[:-1] * a[1:] < 0)
+    until_zero = dt * a[crossing] / (a[crossing] - a[crossing + 1])
+    between = v[crossing] + 0.5 * a[crossing] * until_zero
+    return float(max(np.abs(v).max(), np.abs(between).max(initial=0.0)))
+
+
+def peak_displacement(history: GroundHistory) -> float:
+    """Return the peak absolute displacement at the samples, m, from where the record starts ([Furukawa2009]_ section 3(5)e).
+
+    Parameters
+    ----------
+    history : GroundHistory
+        From :func:`seisblock.measures.baseline.ground_history`; its displacement is zero at both ends of the record.
+
+    Returns
+    -------
+    float, m
+    """
+    return float(np.abs(history.displacement).max())
+
+
+def peak_horizontal(record: Record) -> HorizontalPeak | None:
+    """Return the longest horizontal acceleration vector and the azimuth it points to: the worst direction of the record.
+
+    The peak towards an azimuth is the largest projection of the vectors on it, so that over all azimuths the longest
+    vector wins, exactly; on a straight line between samples its length is largest at an end. Take it as the direction in
+    which to apply a criterion of one component ([Furukawa2009]_ section 3(7) treats two components separately).
+
+    Parameters
+    ----------
+    record : Record
+        Two horizontals of known azimuth, or two of unknown azimuth that are taken as orthogonal.
+
+    Returns
+    -------
+    HorizontalPeak or None
+        None when the record has not two horizontals.
+    """
+    if len(record.horizontals) < 2:
+        return None
+    try:
+        north, east = (towards(record, azimuth).acceleration for azimuth in (0.0, 90.0))
+        oriented = True
+    except ComponentError:
+        north, east = (c.acceleration for c in record.horizontals[:2])
+        oriented = False
+    length = np.hypot(north, east)
+    index = int(length.argmax())
+    azimuth = math.degrees(math.atan2(float(east[index]), float(north[index]))) % 360.0 if oriented else None
+    return HorizontalPeak(float(length[index]), azimuth, record.offset_s + index * record.dt)

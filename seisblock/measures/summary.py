@@ -1,0 +1,226 @@
+"""Every measure of a record in one call."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.measures.baseline import HIGHPASS_HZ, ground_history
+from seisblock.measures.duration import Duration, Side, duration_above
+from seisblock.measures.frequency import (
+    FOURIER_BAND_HZ,
+    EquivalentFrequency,
+    dominant_frequency,
+    peak_pulse,
+    pga_pgv_frequency,
+)
+from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration
+from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
+from seisblock.measures.spectra import SMOOTHING_HZ
+from seisblock.records.process import pick
+from seisblock.records.record import Component, Record
+from seisblock.units import STANDARD_GRAVITY
+
+DEFAULT_THRESHOLD = 0.1 * STANDARD_GRAVITY
+"""Threshold of durations when none is given, m/s^2: a tenth of g, below which nothing stouter than H/B = 10 rocks, and about
+the 100 gal from which the criteria of [Furukawa2009]_ are fitted."""
+
+IMPLAUSIBLE_PGA = 50.0
+"""A peak beyond this (m/s^2, about 5 g) has hardly been recorded on the ground: the unit is probably wrong."""
+
+CITATIONS = ("Furukawa2009", "JMA1996", "Arias1970", "TrifunacBrady1975", "Parzen1961")
+"""What the numbers of :func:`measure` rest on."""
+
+
+@dataclass(frozen=True)
+class ComponentMeasures:
+    """The measures of one component; the fields are the keys of one result of ``seisblock measure --json``.
+
+    Parameters
+    ----------
+    component : str
+        Code, or azimuth in degrees.
+    pga_m_s2, time_of_pga_s : float, m/s^2 and s
+        Peak absolute acceleration of the record as given, and when, from the record's first sample.
+    pgv_m_s, pgd_m : float, m/s and m
+        Peak absolute velocity and displacement on the stated baseline.
+    equivalent_frequency_hz : EquivalentFrequency
+        Three definitions.
+    pulse_width_ambiguous : bool
+        The record begins or ends inside the pulse that holds the PGA.
+    duration : Duration
+        Above the threshold.
+    arias_m_s, significant_duration_s : float, m/s and s
+        Arias intensity, and the time between 5 and 95 % of it.
+    jma_intensity : float or None
+        Of the whole record, repeated here so that nobody misses it.
+    """
+
+    component: str
+    pga_m_s2: float
+    time_of_pga_s: float
+    pgv_m_s: float
+    pgd_m: float
+    equivalent_frequency_hz: EquivalentFrequency
+    pulse_width_ambiguous: bool
+    duration: Duration
+    arias_m_s: float
+    significant_duration_s: float
+    jma_intensity: float | None
+
+
+@dataclass(frozen=True)
+class Conventions:
+    """What the numbers depend on besides the record.
+
+    Parameters
+    ----------
+    velocity_highpass_hz : float or None, Hz
+        Corner of the zero-phase high-pass before integration; None for none.
+    velocity_baseline : str
+        What else was done.
+    fourier_smoothing : str
+        Window of the Fourier amplitude.
+    fourier_smoothing_hz : float, Hz
+        Its bandwidth.
+    fourier_band_hz : two floats, Hz
+        Where the dominant frequency was looked for.
+    threshold_side : str
+        Whether the threshold is exceeded by both signs or by one.
+    gravity_m_s2 : float, m/s^2
+        g of the Arias intensity.
+    """
+
+    velocity_highpass_hz: float | None = HIGHPASS_HZ
+    velocity_baseline: str = "mean of the velocity removed; displacement zero at both ends"
+    fourier_smoothing: str = "Parzen window on the energy, mean of the record removed"
+    fourier_smoothing_hz: float = SMOOTHING_HZ
+    fourier_band_hz: tuple[float, float] = FOURIER_BAND_HZ
+    threshold_side: Side = "both"
+    gravity_m_s2: float = STANDARD_GRAVITY
+
+
+@dataclass(frozen=True)
+class RecordMeasures:
+    """What a record is, in numbers.
+
+    Parameters
+    ----------
+    components : tuple of ComponentMeasures
+        In the order asked.
+    jma_intensity, jma_class : float and str, or None
+        Instrumental intensity (not rounded) and its class.
+    horizontal : HorizontalPeak or None
+        The longest horizontal vector and its azimuth.
+    conventions : Conventions
+        Filters, windows, baseline.
+    warnings : tuple of str
+        What to know before believing the numbers.
+    citations : tuple of str
+        Keys of the papers relied on.
+    """
+
+    components: tuple[ComponentMeasures, ...]
+    jma_intensity: float | None
+    jma_class: str | None
+    horizontal: HorizontalPeak | None
+    conventions: Conventions
+    warnings: tuple[str, ...] = ()
+    citations: tuple[str, ...] = CITATIONS
+
+
+def measure(
+    record: Record,
+    components: Sequence[str] | None = None,
+    *,
+    threshold: float = DEFAULT_THRESHOLD,
+    conventions: Conventions | None = None,
+) -> RecordMeasures:
+    """Measure a record: peaks, equivalent frequencies, durations, intensities ([Furukawa2009]_, [JMA1996]_, [Arias1970]_).
+
+    Parameters
+    ----------
+    record : Record
+        As it shall be judged: remove an offset first (:func:`seisblock.records.process.demean`), the peak acceleration is
+        taken as it stands.
+    components : sequence of str, optional
+        Codes, or azimuths in degrees such as ``37``; all of the record by default.
+    threshold : float, m/s^2
+        For the durations; a tenth of g by default, or the rocking threshold g B/H of a body.
+    conventions : Conventions, optional
+        Filters, windows, baseline.
+
+    Returns
+    -------
+    RecordMeasures
+
+    Raises
+    ------
+    ComponentError
+        If the record has no such component.
+    ParameterError
+        If the threshold or a convention is out of range.
+    """
+    rules = conventions or Conventions()
+    chosen = [pick(record, name) for name in (record.codes if components is None else components)]
+    intensity = jma_intensity(record)
+    measured = tuple(_measure_component(c, record, threshold, rules, intensity) for c in chosen)
+    return RecordMeasures(
+        components=measured,
+        jma_intensity=intensity,
+        jma_class=None if intensity is None else jma_class(intensity),
+        horizontal=peak_horizontal(record),
+        conventions=rules,
+        warnings=(*_intensity_warnings(record, intensity), *(text for m in measured for text in _component_warnings(m))),
+    )
+
+
+def _measure_component(
+    component: Component, record: Record, threshold: float, rules: Conventions, intensity: float | None
+) -> ComponentMeasures:
+    """Return the measures of one component."""
+    a, dt = component.acceleration, record.dt
+    pga, index = peak_acceleration(a)
+    history = ground_history(a, dt, highpass_hz=rules.velocity_highpass_hz)
+    pgv = peak_velocity(history, dt)
+    pulse = peak_pulse(a, dt)
+    return ComponentMeasures(
+        component=component.code,
+        pga_m_s2=pga,
+        time_of_pga_s=record.offset_s + index * dt,
+        pgv_m_s=pgv,
+        pgd_m=peak_displacement(history),
+        equivalent_frequency_hz=EquivalentFrequency(
+            pga_pgv=pga_pgv_frequency(pga, pgv),
+            fourier=dominant_frequency(a, dt, band_hz=rules.fourier_band_hz, smoothing_hz=rules.fourier_smoothing_hz),
+            pulse_width=None if pulse is None else pulse.frequency_hz,
+        ),
+        pulse_width_ambiguous=pulse is not None and pulse.ambiguous,
+        duration=duration_above(a, dt, threshold, side=rules.threshold_side),
+        arias_m_s=arias_intensity(a, dt, gravity=rules.gravity_m_s2),
+        significant_duration_s=significant_duration(a, dt),
+        jma_intensity=intensity,
+    )
+
+
+def _intensity_warnings(record: Record, intensity: float | None) -> list[str]:
+    """Say why there is no JMA intensity, when there is none."""
+    if intensity is not None:
+        return []
+    if record.vertical is None or len(record.horizontals) != 2:
+        return [f"no JMA intensity: it needs two horizontals and the vertical (UD); the record has {', '.join(record.codes)}"]
+    if not any(np.any(c.acceleration) for c in record.components):
+        return ["no JMA intensity: the record is zero throughout"]
+    return [f"no JMA intensity: the record is shorter than 0.3 s ({record.duration_s:g} s)"]
+
+
+def _component_warnings(m: ComponentMeasures) -> list[str]:
+    """Say what is doubtful about one component."""
+    found = []
+    if m.pga_m_s2 > IMPLAUSIBLE_PGA:
+        found.append(f"{m.component}: a PGA of {m.pga_m_s2:.4g} m/s^2 is more than 5 g; is the unit right?")
+    if m.pulse_width_ambiguous:
+        found.append(f"{m.component}: the record begins or ends inside the pulse that holds the PGA; its frequency is an upper bound")
+    return found

@@ -1,0 +1,291 @@
+"""What may be done to a record between reading and solving: pure functions, each of which logs itself in ``history``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from seisblock.errors import ComponentError, ParameterError, RecordError
+from seisblock.records.motion import _oriented_pair, _resolve
+from seisblock.records.record import Component, Record
+from seisblock.typing import FloatArray
+
+HIGHPASS_ORDER = 4
+"""Order of the Butterworth high-pass; passed forwards and backwards it acts like one of twice that order, without delay."""
+
+PADDING_PERIODS = 5.0
+"""Length of the high-pass's padding at each end, in corner periods: its slowest transient has died to 1e-5 by then."""
+
+
+def demean(record: Record) -> Record:
+    """Subtract from each component its mean over the whole record held here.
+
+    K-NET and KiK-net counts carry an offset of up to tens of gal, which would push a block for ever; NIED defines its own
+    header maximum on the record less this mean.
+
+    Parameters
+    ----------
+    record : Record
+        Any record; cut a window after this, not before, if the offset of the whole is meant.
+
+    Returns
+    -------
+    Record
+        With the means removed and named in ``history``.
+    """
+    means = {c.code: float(c.acceleration.mean()) for c in record.components}
+    removed = ", ".join(f"{code} {mean:.6g}" for code, mean in means.items())
+    return _apply(record, lambda c: c.acceleration - means[c.code], f"mean of the whole record removed ({removed} m/s^2)")
+
+
+def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
+    """Keep the samples of a window; their times do not change.
+
+    Parameters
+    ----------
+    record : Record
+        Its ``offset_s`` moves, so that times go on counting from the first sample as read.
+    start_s, end_s : float or None, s
+        First and last instant kept, counted from the record's first sample as read; samples on them are kept. None is the
+        record's own end.
+
+    Raises
+    ------
+    RecordError
+        If the window lies outside the record or holds fewer than two samples.
+    """
+    first, last = record.offset_s, record.offset_s + record.duration_s
+    start, end = first if start_s is None else start_s, last if end_s is None else end_s
+    window = f"window {start:g}:{end:g} s"
+    if not (np.isfinite(start) and np.isfinite(end) and start < end):
+        raise RecordError(f"{window}: its start must come before its end, both in s from the first sample")
+    slack = 1e-6 * record.dt
+    if start < first - slack or end > last + slack:
+        where = record.source or "record"
+        raise RecordError(f"{where}: the {window} lies outside the record, which runs from {first:g} to {last:g} s")
+    begin = int(np.ceil((start - first) / record.dt - 1e-6))
+    stop = int(np.floor((end - first) / record.dt + 1e-6)) + 1
+    if stop - begin < 2:
+        raise RecordError(f"{window} holds fewer than 2 samples at {record.dt:g} s: make it longer")
+    return _apply(
+        record, lambda c: c.acceleration[begin:stop], f"{window} cut out", offset_s=record.offset_s + begin * record.dt
+    )  # fmt: skip
+
+
+def scale(record: Record, factor: float) -> Record:
+    """Multiply every component by one factor.
+
+    Raises
+    ------
+    ParameterError
+        If the factor is not a finite number.
+    """
+    if not np.isfinite(factor):
+        raise ParameterError(f"the scale factor must be a finite number, found {factor}")
+    return _apply(record, lambda c: c.acceleration * factor, f"scaled by {factor:.10g}")
+
+
+def scale_to_pga(record: Record, target: float, component: str | Sequence[str] | None = None) -> Record:
+    """Multiply every component by the one factor that gives the largest of some components the asked peak.
+
+    Parameters
+    ----------
+    record : Record
+        All components are scaled alike, so that their ratios are kept.
+    target : float, m/s^2
+        Peak absolute acceleration to reach, positive.
+    component : str or sequence of str, optional
+        Codes or azimuths (degrees) among which the largest peak shall have it; by default all horizontals.
+
+    Raises
+    ------
+    ParameterError
+        If the target is not positive, or the components are zero throughout.
+    ComponentError
+        If there is no such component.
+    """
+    if not (np.isfinite(target) and target > 0):
+        raise ParameterError(f"the target PGA must be positive, found {target} m/s^2")
+    if component is None:
+        chosen, among = largest_horizontal(record), "the largest horizontal"
+    else:
+        names = (component,) if isinstance(component, str) else tuple(component)
+        chosen, among = max((pick(record, name) for name in names), key=_peak), f"the largest of {', '.join(names)}"
+    peak = _peak(chosen)
+    if peak == 0.0:
+        raise ParameterError(f"component {chosen.code} is zero throughout: no factor gives it a peak of {target:g} m/s^2")
+    factor = target / peak
+    did = f"scaled by {factor:.10g}: PGA of {chosen.code} ({among}) {peak:.6g} -> {target:.6g} m/s^2"
+    return _apply(record, lambda c: c.acceleration * factor, did)
+
+
+def pick(record: Record, name: str) -> Component:
+    """Return a component by its code, or the horizontal towards an azimuth.
+
+    Parameters
+    ----------
+    record : Record
+        Codes come first: a record whose component is called ``90`` gives that one.
+    name : str
+        Code in any case, or degrees clockwise from north such as ``37``.
+
+    Raises
+    ------
+    ComponentError
+        If there is no such component; the message lists those there are.
+    """
+    if name.upper() in (code.upper() for code in record.codes):
+        return record.component(name)
+    try:
+        azimuth = float(name)
+    except ValueError:
+        return record.component(name)  # raises, and lists the codes
+    return towards(record, azimuth)
+
+
+def largest_horizontal(record: Record) -> Component:
+    """Return the horizontal component with the largest absolute acceleration; the first when they tie.
+
+    Raises
+    ------
+    ComponentError
+        If the record has no horizontal component.
+    """
+    if not record.horizontals:
+        raise ComponentError(f"{record.source or 'record'}: no horizontal component; it has {', '.join(record.codes)}")
+    return max(record.horizontals, key=_peak)
+
+
+def highpass(record: Record, hz: float) -> Record:
+    """Remove what is slower than a corner frequency, without delay.
+
+    A Butterworth filter of order 4, run forwards and backwards (half the amplitude at the corner). The record is extended at
+    both ends by five corner periods of its own mirror image with the sign reversed, so that the *velocity* goes on evenly:
+    a motion that starts in mid-swing gets no step there.
+
+    Parameters
+    ----------
+    record : Record
+        Any record.
+    hz : float, Hz
+        Corner frequency, between 0 and half the sampling rate.
+
+    Raises
+    ------
+    ParameterError
+        If the corner lies outside that range.
+    """
+    did = f"high-pass {hz:g} Hz (Butterworth order {HIGHPASS_ORDER} forwards and backwards, mirrored ends)"
+    return _apply(record, lambda c: highpass_samples(c.acceleration, record.dt, hz), did)
+
+
+def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
+    """Return one row of samples after the filter of :func:`highpass`, (n,), m/s^2."""
+    from scipy.signal import butter, sosfiltfilt
+
+    nyquist = 0.5 / dt
+    if not (np.isfinite(hz) and 0 < hz < nyquist):
+        raise ParameterError(f"the high-pass corner must lie between 0 and {nyquist:g} Hz, half the sampling rate; found {hz:g} Hz")
+    n = acceleration.size
+    pad = int(np.ceil(PADDING_PERIODS / (hz * dt)))
+    # mirrored as often as needed: position in a period of twice the record, second half backwards with the sign reversed
+    place = np.arange(-pad, n + pad) % (2 * n)
+    mirrored = place >= n
+    extended = acceleration[np.where(mirrored, 2 * n - 1 - place, place)]
+    extended[mirrored] *= -1.0
+    sections = butter(HIGHPASS_ORDER, hz, btype="highpass", fs=1.0 / dt, output="sos")
+    filtered: FloatArray = sosfiltfilt(sections, extended, padtype=None)[pad : pad + n]
+    return filtered
+
+
+def towards(record: Record, azimuth_deg: float) -> Component:
+    """Return the ground acceleration towards an azimuth as a component named after it.
+
+    Parameters
+    ----------
+    record : Record
+        Needs two horizontals of known azimuth, which need not be orthogonal.
+    azimuth_deg : float, degrees
+        Clockwise from north.
+
+    Raises
+    ------
+    ComponentError
+        If the record lacks those two.
+    """
+    if not np.isfinite(azimuth_deg):
+        raise ComponentError(f"the azimuth must be a finite number of degrees, found {azimuth_deg}")
+    return Component(f"{azimuth_deg:g}", _resolve(_oriented_pair(record), azimuth_deg), azimuth_deg % 360.0)
+
+
+def rotate(record: Record, azimuth_deg: float) -> Record:
+    """Turn the two horizontals to an azimuth and to 90 degrees clockwise of it; the vertical stays.
+
+    Parameters
+    ----------
+    record : Record
+        Needs two horizontals of known azimuth.
+    azimuth_deg : float, degrees
+        Azimuth of the first new component, clockwise from north; the codes are the azimuths.
+
+    Raises
+    ------
+    ComponentError
+        If the record lacks those two.
+    """
+    pair = [towards(record, azimuth_deg), towards(record, azimuth_deg + 90.0)]
+    vertical = [] if record.vertical is None else [record.vertical]
+    return record.with_components([*pair, *vertical], f"horizontals turned to {pair[0].code} and {pair[1].code} degrees")
+
+
+def integrate(acceleration: FloatArray, dt: float) -> FloatArray:
+    """Return the velocity at the samples from rest, exact for a piecewise linear acceleration.
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+        Samples, linear in between.
+    dt : float, s
+        Sampling interval.
+
+    Returns
+    -------
+    (n,) array, m/s
+        Zero at the first sample; the trapezoidal sum.
+    """
+    steps = 0.5 * dt * (acceleration[1:] + acceleration[:-1])
+    return np.concatenate(([0.0], np.cumsum(steps)))
+
+
+def integrate_twice(acceleration: FloatArray, dt: float, initial_velocity: float = 0.0) -> FloatArray:
+    """Return the displacement at the samples, exact for a piecewise linear acceleration (a cubic in each interval).
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+        Samples, linear in between.
+    dt : float, s
+        Sampling interval.
+    initial_velocity : float, m/s
+        Velocity at the first sample.
+
+    Returns
+    -------
+    (n,) array, m
+        Zero at the first sample.
+    """
+    velocity = initial_velocity + integrate(acceleration, dt)
+    steps = dt * velocity[:-1] + dt**2 / 6.0 * (2.0 * acceleration[:-1] + acceleration[1:])
+    return np.concatenate(([0.0], np.cumsum(steps)))
+
+
+def _peak(component: Component) -> float:
+    """Return the peak absolute acceleration of a component, m/s^2."""
+    return float(np.abs(component.acceleration).max())
+
+
+def _apply(record: Record, samples: Callable[[Component], FloatArray], did: str, **changes: object) -> Record:
+    """Return the record with new samples for each component, and what was done in its history."""
+    return record.with_components([replace(c, acceleration=samples(c)) for c in record.components], did, **changes)

@@ -1,0 +1,89 @@
+"""Arias intensity, significant duration and JMA intensity against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+
+from seisblock.measures import arias_intensity, jma_class, jma_intensity, measure, significant_duration
+from seisblock.records import Component, Record
+
+G = 9.80665
+
+
+def three(acceleration, dt, vertical=None):
+    """Return a record with one row as NS, and EW and UD at rest."""
+    still = np.zeros_like(acceleration)
+    return Record((Component("NS", acceleration), Component("EW", still), Component("UD", still if vertical is None else vertical)), dt)
+
+
+def test_arias_of_a_constant_and_of_a_ramp():
+    """pi/(2g) a^2 T, and a third of it for a ramp, however coarse the samples."""
+    assert arias_intensity(np.full(3, 2.0), 5.0) == pytest.approx(math.pi / (2 * G) * 4 * 10, rel=1e-14)
+    assert arias_intensity(np.array([0.0, 2.0]), 10.0) == pytest.approx(math.pi / (2 * G) * 4 * 10 / 3, rel=1e-14)
+    assert arias_intensity(np.array([-2.0, 2.0]), 10.0, gravity=9.8) == pytest.approx(math.pi / 19.6 * 4 * 10 / 3, rel=1e-14)
+
+
+def test_significant_duration_of_a_constant_is_nine_tenths():
+    """Energy comes evenly."""
+    assert significant_duration(np.full(11, 3.0), 1.0) == pytest.approx(9.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("values", [[0.0, 1.0], [1.0, 0.0], [0.0, 0.5, 1.0]])
+def test_significant_duration_of_a_ramp(values):
+    """Energy grows with the cube of time: 5 % at the cube root of 0.05, whether one interval or two hold it."""
+    dt = 10.0 / (len(values) - 1)
+    assert significant_duration(np.array(values), dt) == pytest.approx(10 * (0.95 ** (1 / 3) - 0.05 ** (1 / 3)), rel=1e-12)
+
+
+def test_significant_duration_through_zero():
+    """A line from -1 to 1: the shares lie symmetrically about its zero."""
+    assert significant_duration(np.array([-1.0, 1.0]), 2.0) == pytest.approx(2 * 0.9 ** (1 / 3), rel=1e-12)
+
+
+def test_significant_duration_of_rest_is_zero():
+    """No energy, no duration, no division by zero."""
+    assert significant_duration(np.zeros(10), 0.1) == 0.0
+
+
+@pytest.mark.parametrize("f", [0.3, 1.0, 2.0, 8.0])
+def test_jma_intensity_of_a_sine(f):
+    """A long sine of one component: |F(f)| times its amplitude is exceeded for 0.3 s near its peaks."""
+    dt, seconds, gal = 0.005, 60, 100.0
+    t = np.arange(0, seconds, dt)
+    y = f / 10
+    high = (1 + 0.694 * y**2 + 0.241 * y**4 + 0.0557 * y**6 + 0.009664 * y**8 + 0.00134 * y**10 + 0.000155 * y**12) ** -0.5
+    gain = f**-0.5 * high * (1 - math.exp(-((f / 0.5) ** 3))) ** 0.5
+    # 0.3 s of 60 s: the share of time above a0 is 2/pi acos(a0/A)
+    a0 = gain * gal * math.cos(math.pi / 2 * 0.3 / seconds)
+    assert jma_intensity(three(gal / 100 * np.sin(2 * math.pi * f * t), dt)) == pytest.approx(2 * math.log10(a0) + 0.94, abs=2e-3)
+
+
+def test_jma_intensity_does_not_feel_an_offset():
+    """The filter has no response at zero frequency."""
+    wave = np.sin(2 * np.pi * np.arange(0, 20, 0.01))
+    assert jma_intensity(three(wave + 3.0, 0.01)) == pytest.approx(jma_intensity(three(wave, 0.01)), abs=1e-12)
+
+
+def test_without_three_components_there_is_no_jma_intensity():
+    """None, and a warning that says what is missing."""
+    alone = Record((Component("NS", np.sin(np.arange(1000.0))),), 0.01)
+    answer = measure(alone)
+    assert answer.jma_intensity is None
+    assert answer.jma_class is None
+    assert any("two horizontals and the vertical" in text for text in answer.warnings)
+
+
+def test_a_record_too_short_or_at_rest_has_no_jma_intensity():
+    """None again, each with its reason."""
+    assert "shorter than 0.3 s" in " ".join(measure(three(np.ones(20), 0.01)).warnings)
+    assert "zero throughout" in " ".join(measure(three(np.zeros(200), 0.01)).warnings)
+
+
+@pytest.mark.parametrize(
+    ("intensity", "name"),
+    [(-2, "0"), (0.49, "0"), (0.5, "1"), (4.49, "4"), (4.5, "5-"), (4.996, "5+"), (5.49, "5+"), (5.5, "6-"), (6.0, "6+"), (6.5, "7")],
+)
+def test_jma_classes(intensity, name):
+    """Rounded to two decimals, cut to one, classed."""
+    assert jma_class(intensity) == name

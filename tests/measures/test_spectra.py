@@ -1,0 +1,76 @@
+"""Spectra: oscillators with known answers, and a window that is what it says."""
+
+import math
+
+import numpy as np
+import pytest
+
+from seisblock.errors import ParameterError
+from seisblock.measures import fourier_amplitude, response_spectrum
+
+
+def test_step_of_acceleration_doubles():
+    """An undamped oscillator under a sudden constant a reaches 2 a/w^2, the velocity a/w and the absolute acceleration 2 a."""
+    spectrum = response_spectrum(np.full(1001, 3.0), 0.01, [0.3, 1.0, 5.0], damping=0.0)
+    omega = 2 * math.pi / spectrum.period_s
+    np.testing.assert_allclose(spectrum.sd_m, 6 / omega**2, rtol=3e-3)
+    np.testing.assert_allclose(spectrum.sv_m_s, 3 / omega, rtol=3e-3)
+    np.testing.assert_allclose(spectrum.sa_m_s2, 6, rtol=3e-3)
+
+
+def test_resonance_reaches_one_over_twice_the_damping():
+    """A long sine at the natural period amplifies 1/(2h) in displacement."""
+    h, period = 0.05, 0.5
+    wave = np.sin(2 * math.pi / period * np.arange(0, 60, 0.01))
+    found = response_spectrum(wave, 0.01, [period], damping=h)
+    omega = 2 * math.pi / period
+    # straight lines between 50 samples per cycle carry (sinc)^2 of the sine
+    line = np.sinc(0.01 / period) ** 2
+    assert found.sd_m[0] * omega**2 == pytest.approx(line / (2 * h), rel=3e-3)
+
+
+def test_short_and_long_periods():
+    """A stiff oscillator has the PGA, a slow one the ground's displacement."""
+    t = np.arange(0, 10, 0.01)
+    a = np.exp(-((t - 5) ** 2)) * np.sin(2 * np.pi * t)
+    found = response_spectrum(a, 0.01, [0.01, 200.0])
+    assert found.sa_m_s2[0] == pytest.approx(np.abs(a).max(), rel=2e-3)
+    ground = np.cumsum(np.cumsum(a)) * 1e-4
+    assert found.sd_m[1] == pytest.approx(np.abs(ground).max(), rel=0.05)
+
+
+@pytest.mark.parametrize(("periods", "damping"), [([0.0], 0.05), ([-1.0], 0.05), ([np.nan], 0.05), ([1.0], 1.0), ([1.0], -0.1)])
+def test_nonsense_is_refused(periods, damping):
+    """Periods are positive, damping lies in [0, 1)."""
+    with pytest.raises(ParameterError):
+        response_spectrum(np.ones(10), 0.01, periods, damping=damping)
+
+
+def test_parzen_window_smooths_energy():
+    """The energy is that of the record (Parseval), smoothed or not, and a smooth spectrum is left as it is."""
+    a = np.zeros(4000)
+    a[2000] = 1.0
+    a[2001] = -1.0
+    frequency, amplitude = fourier_amplitude(a, 0.01, smoothing_hz=0.2)
+    df = frequency[1]
+    energy = (2 * (amplitude**2).sum() - amplitude[0] ** 2 - amplitude[-1] ** 2) * df
+    assert energy == pytest.approx((a**2).sum() * 0.01, rel=1e-9)
+    smooth = frequency > 1.0  # nearer to zero the spectrum bends within the window
+    np.testing.assert_allclose(amplitude[smooth], 0.02 * np.sin(np.pi * frequency[smooth] * 0.01), rtol=5e-3)
+
+
+def test_parzen_window_has_its_bandwidth():
+    """1 / integral of the squared window is the bandwidth asked for: a spectral line spreads to 3/4 u over it."""
+    dt, f0, bandwidth = 0.01, 5.0, 0.4
+    wave = np.sin(2 * np.pi * f0 * np.arange(0, 2000, dt))
+    frequency, amplitude = fourier_amplitude(wave, dt, smoothing_hz=bandwidth)
+    near = np.abs(frequency - f0) < 2.0
+    window = amplitude[near] ** 2
+    window /= window.sum() * frequency[1]
+    assert 1 / ((window**2).sum() * frequency[1]) == pytest.approx(bandwidth, rel=5e-3)
+
+
+def test_smoothing_is_positive():
+    """A window without width is refused."""
+    with pytest.raises(ParameterError):
+        fourier_amplitude(np.ones(10), 0.01, smoothing_hz=0.0)

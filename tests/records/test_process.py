@@ -1,0 +1,153 @@
+"""What is done to a record between reading and solving does what it says, and says it."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from seisblock.errors import ComponentError, ParameterError, RecordError
+from seisblock.records import Component, Record
+from seisblock.records.process import (
+    crop,
+    demean,
+    highpass,
+    integrate,
+    integrate_twice,
+    largest_horizontal,
+    rotate,
+    scale,
+    scale_to_pga,
+    towards,
+)
+
+T = np.arange(2001) * 0.01
+PARTS = {"NS": np.sin(T) + 0.3, "EW": 2 * np.cos(3 * T), "UD": 5 * np.sin(5 * T)}
+RECORD = Record([Component(code, values) for code, values in PARTS.items()], 0.01, station="ABC", source="abc.csv")
+
+
+def test_demean_removes_the_whole_mean_of_each_component():
+    """Means are zero afterwards, the shape is kept, and the means are named."""
+    done = demean(RECORD)
+    for before, after in zip(RECORD.components, done.components, strict=True):
+        assert abs(after.acceleration.mean()) < 1e-15
+        np.testing.assert_allclose(np.diff(after.acceleration), np.diff(before.acceleration), atol=1e-15)
+    assert f"NS {RECORD.components[0].acceleration.mean():.6g}" in done.history[-1]
+    assert RECORD.history == ()
+
+
+def test_crop_keeps_the_time_axis():
+    """A window's samples keep their times, also when cut twice."""
+    once = crop(RECORD, 2.0, 10.0)
+    twice = crop(once, 3.0, 4.0)
+    np.testing.assert_allclose(twice.time, np.arange(300, 401) * 0.01, atol=1e-12)
+    np.testing.assert_array_equal(twice.component("EW").acceleration, RECORD.component("EW").acceleration[300:401])
+
+
+def test_crop_keeps_everything_bit_by_bit_when_the_window_is_the_record():
+    """The window from the first to the last sample changes nothing."""
+    np.testing.assert_array_equal(crop(RECORD, 0.0, RECORD.duration_s).component("NS").acceleration, RECORD.component("NS").acceleration)
+
+
+def test_crop_with_an_open_end():
+    """None stands for the record's own first and last sample."""
+    assert (crop(RECORD, None, 5.0).duration_s, crop(RECORD, 5.0, None).offset_s) == (pytest.approx(5.0), pytest.approx(5.0))
+    assert crop(crop(RECORD, 5.0, None), None, None).samples == 1501
+
+
+@pytest.mark.parametrize(("start", "end"), [(-1, 5), (5, 21), (5, 5), (6, 5), (1.001, 1.004), (np.nan, 3)])
+def test_crop_refuses_a_window_it_cannot_cut(start, end):
+    """A window outside, empty or shorter than two samples is an error that says so."""
+    with pytest.raises(RecordError, match="window"):
+        crop(RECORD, start, end)
+
+
+def test_scale_to_pga_takes_the_largest_horizontal_not_the_vertical():
+    """EW (2 m/s^2) reaches the target although UD is larger; ratios are kept."""
+    done = scale_to_pga(RECORD, 4.0)
+    assert largest_horizontal(RECORD).code == "EW"
+    assert np.abs(done.component("EW").acceleration).max() == pytest.approx(4.0, rel=1e-14)
+    np.testing.assert_allclose(done.component("UD").acceleration, 2 * RECORD.component("UD").acceleration, rtol=1e-14)
+    assert "EW (the largest horizontal)" in done.history[-1]
+
+
+def test_scale_to_pga_of_named_components():
+    """The component asked for reaches the target, the largest of several, or an azimuth."""
+    assert np.abs(scale_to_pga(RECORD, 1.0, "ud").component("UD").acceleration).max() == pytest.approx(1.0, rel=1e-14)
+    assert np.abs(scale_to_pga(RECORD, 1.0, ("NS", "UD")).component("UD").acceleration).max() == pytest.approx(1.0, rel=1e-14)
+    assert np.abs(towards(scale_to_pga(RECORD, 1.0, ("30",)), 30.0).acceleration).max() == pytest.approx(1.0, rel=1e-14)
+
+
+def test_nonsense_is_refused():
+    """A zero record, a negative target, a factor that is no number, a corner beyond Nyquist, a missing component."""
+    still = Record((Component("NS", np.zeros(9)),), 0.01)
+    for attempt in (
+        lambda: scale_to_pga(still, 1.0),
+        lambda: scale_to_pga(RECORD, -1.0),
+        lambda: scale(RECORD, float("nan")),
+        lambda: highpass(RECORD, 50.0),
+        lambda: highpass(RECORD, 0.0),
+    ):
+        with pytest.raises(ParameterError):
+            attempt()
+    for attempt in (lambda: rotate(still, 30.0), lambda: scale_to_pga(RECORD, 1.0, "XX"), lambda: towards(RECORD, float("inf"))):
+        with pytest.raises(ComponentError):
+            attempt()
+    with pytest.raises(ComponentError, match="no horizontal"):
+        largest_horizontal(Record((Component("UD", np.ones(3)),), 0.1))
+
+
+def test_highpass_has_the_gain_of_a_butterworth_run_twice_and_no_delay():
+    """A long sine comes out with gain 1 / (1 + (fc/f)^8) and the same phase."""
+    dt, fc = 0.01, 0.1
+    time = np.arange(40001) * dt
+    for f in (0.05, 0.1, 0.2, 1.0):
+        wave = np.sin(2 * np.pi * f * time)
+        out = highpass(Record((Component("NS", wave),), dt), fc).component("NS").acceleration
+        middle = slice(15000, 25000)
+        np.testing.assert_allclose(out[middle], wave[middle] / (1 + (fc / f) ** 8), atol=2e-4)
+
+
+def test_highpass_removes_an_offset():
+    """A constant leaves only what its mirrored ends make, and nothing in the middle."""
+    out = highpass(Record((Component("NS", np.ones(20001)),), 0.01), 0.1).component("NS").acceleration
+    assert np.abs(out[5000:-5000]).max() < 1e-3
+
+
+def test_highpass_does_not_know_which_way_time_runs():
+    """Filtering the reversed record gives the reversed answer, but for the 1e-5 to which the padding's transients have died."""
+    forward = highpass(RECORD, 0.2).component("EW").acceleration
+    backward = Record((Component("EW", RECORD.component("EW").acceleration[::-1]),), 0.01)
+    np.testing.assert_allclose(highpass(backward, 0.2).component("EW").acceleration[::-1], forward, atol=2e-5)
+
+
+@given(st.floats(-720, 720))
+def test_rotation_keeps_the_vector(azimuth):
+    """The length of the horizontal vector does not change, and the vertical stays bit by bit."""
+    turned = rotate(RECORD, azimuth)
+    a, b, up = (c.acceleration for c in turned.components)
+    np.testing.assert_allclose(np.hypot(a, b), np.hypot(*(RECORD.component(c).acceleration for c in ("NS", "EW"))), rtol=1e-12, atol=1e-12)
+    np.testing.assert_array_equal(up, RECORD.component("UD").acceleration)
+
+
+def test_rotation_to_the_axes_returns_the_samples():
+    """0 and 90 degrees are NS and EW bit by bit; 180 is their opposite."""
+    north, east = rotate(RECORD, 0.0).components[:2]
+    np.testing.assert_array_equal(north.acceleration, RECORD.component("NS").acceleration)
+    np.testing.assert_array_equal(east.acceleration, RECORD.component("EW").acceleration)
+    np.testing.assert_allclose(towards(RECORD, 180.0).acceleration, -RECORD.component("NS").acceleration, atol=1e-15)
+
+
+def test_integration_is_exact_for_straight_lines():
+    """For a = 1 + 2t: v = t + t^2, u = t^2/2 + t^3/3, whatever the step."""
+    for dt in (0.5, 0.01):
+        t = np.arange(0, 5 + dt / 2, dt)
+        np.testing.assert_allclose(integrate(1 + 2 * t, dt), t + t**2, rtol=1e-13, atol=1e-13)
+        np.testing.assert_allclose(integrate_twice(1 + 2 * t, dt, 3.0), 3 * t + t**2 / 2 + t**3 / 3, rtol=1e-12, atol=1e-13)
+
+
+def test_integration_agrees_with_a_hundredfold_refinement():
+    """Samples inserted on the straight lines change nothing."""
+    rng = np.random.default_rng(1)
+    a = rng.standard_normal(50)
+    fine = np.interp(np.arange(4901) / 100, np.arange(50), a)
+    np.testing.assert_allclose(integrate_twice(a, 1.0), integrate_twice(fine, 0.01)[::100], rtol=1e-12, atol=1e-12)
