@@ -11,6 +11,7 @@ _HOME = {
     "Component": "seisblock.records",
     "Motion": "seisblock.records",
     "Record": "seisblock.records",
+    "measure": "seisblock.measures",
     "motion_of": "seisblock.records",
     "read": "seisblock.readers",
     "Response": "seisblock.results",
