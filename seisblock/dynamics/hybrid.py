@@ -22,7 +22,7 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.polynomial import NEVER, evaluate, first_crossing, lower_bound
+from seisblock.dynamics.polynomial import NEVER, evaluate_row, first_crossing, lower_bound_of_row
 
 _t = types()
 VECTOR = _t.Array(_t.float64, 1, "C")
@@ -36,10 +36,14 @@ SERIES = _t.int64(_t.int64, VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
 """series(mode, y, f, p, order, c, g) -> degree.
 
 Writes, from the state ``y`` and the ground motion ``f[row] = (value, slope)``, the coefficients ``c[i, 0:degree + 1]`` of state i
-and ``g[k, 0:degree + 1]`` of guard k (``OFF`` in ``g[k, 0]`` skips a guard). Rows of c after the states are scratch."""
+and ``g[k, 0:degree + 1]`` of guard k (``OFF`` in ``g[k, 0]`` skips a guard). Rows of c after the states are scratch. ``CONSTANT``
+says that the state does not move: c is not read then, and guards are straight lines, ``g[k, 0:2]``."""
 
 RESET = _t.int64(_t.int64, _t.int64, VECTOR, MATRIX, VECTOR)
 """reset(mode, guard, y, f, p) -> next mode; changes ``y`` in place. A negative mode ends the integration."""
+
+CONSTANT = 0
+"""Degree of a state that does not move."""
 
 OFF = float("inf")
 """Value of a guard that is not watched in this mode."""
@@ -107,7 +111,7 @@ def _keep_turning_points(c, i, degree, h, now, extrema, rate, q, d):
             rate[k] = sign * (k + 1) * c[i, k + 1]
         at = first_crossing(rate, degree - 1, h, q, d)
         if at > 0.0:
-            _keep(extrema, i, evaluate(c[i], degree, at), now + at)
+            _keep(extrema, i, evaluate_row(c, i, degree, at), now + at)
 
 
 @kernel(
@@ -185,6 +189,7 @@ def integrate(
                 f[row, 1] = slope
         while True:
             degree = series(mode, y, f, p, order, c, g)
+            guard_degree = max(degree, 1)
             left = dt - tau
             h = left
             if degree >= order:
@@ -194,33 +199,34 @@ def integrate(
                     break
             fired = -1
             for k in range(n_guards):
-                if g[k, 0] == OFF or lower_bound(g[k], degree, h) > 0.0:
+                if g[k, 0] == OFF or lower_bound_of_row(g, k, guard_degree, h) > 0.0:
                     continue
-                at = first_crossing(g[k], degree, h, q, d)
+                at = first_crossing(g[k], guard_degree, h, q, d)
                 if at != NEVER and (fired < 0 or at < h):
                     fired = k
                     h = at
                     if at == 0.0:
                         break
             if h > 0.0:
-                if degree > 0:
+                if degree > CONSTANT:
                     for i in range(n_tracked):
                         if _may_turn(c, i, degree, h, extrema):
                             _keep_turning_points(c, i, degree, h, sample * dt + tau, extrema, rate, q, d)
                     for i in range(n_states):
-                        y[i] = evaluate(c[i], degree, h)
+                        y[i] = evaluate_row(c, i, degree, h)
                         if not abs(y[i]) < OFF:
                             status = NOT_FINITE
                     for i in range(n_tracked):
                         _keep(extrema, i, y[i], sample * dt + tau + h)
-                    for row in range(rows):
-                        f[row, 0] += f[row, 1] * h
                 if tau + h > tau:
                     repeated = 0
             if status != RECORD_ENDED:
                 break
             at_sample = h == left
             tau += h
+            if not at_sample or fired >= 0:
+                for row in range(rows):
+                    f[row, 0] += f[row, 1] * h
             if fired >= 0:
                 if capacity == 0:
                     following = reset(mode, fired, y, f, p)

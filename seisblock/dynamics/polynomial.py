@@ -13,6 +13,7 @@ from seisblock._jit import kernel, types
 
 _t = types()
 _VECTOR = _t.Array(_t.float64, 1, "C")
+_MATRIX = _t.Array(_t.float64, 2, "C")
 
 ROUND_OFF = 1e-14
 """A polynomial is taken as zero where it is below this share of the sum of its terms."""
@@ -48,6 +49,28 @@ def lower_bound(c, degree, h):
     for k in range(2, degree + 1):
         power *= h
         bound -= abs(c[k]) * power
+    return bound
+
+
+@kernel(_t.float64(_MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
+def evaluate_row(c, i, degree, t):
+    """Return the value at `t` of the polynomial in row `i`; a slice ``c[i]`` would cost reference counting."""
+    value = c[i, degree]
+    for k in range(degree - 1, -1, -1):
+        value = value * t + c[i, k]
+    return value
+
+
+@kernel(_t.float64(_MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
+def lower_bound_of_row(c, i, degree, h):
+    """Return :func:`lower_bound` of the polynomial in row `i`."""
+    if degree == 0:
+        return c[i, 0]
+    bound = min(c[i, 0], c[i, 0] + c[i, 1] * h)
+    power = h
+    for k in range(2, degree + 1):
+        power *= h
+        bound -= abs(c[i, k]) * power
     return bound
 
 

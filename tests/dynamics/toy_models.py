@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock._jit import kernel
-from seisblock.dynamics.hybrid import OFF, RESET, SERIES
+from seisblock.dynamics.hybrid import CONSTANT, OFF, RESET, SERIES
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.series import sine_cosine
 
@@ -59,12 +59,11 @@ STICK, SLIP = range(2)
 @kernel(SERIES)
 def sled_series(mode, y, f, p, order, c, g):
     """A sled that holds up to |a| = p0 and slides without friction: states are relative to the ground."""
-    c[0, 0], c[1, 0] = y[0], y[1]
     if mode == STICK:
-        c[0, 1] = c[1, 1] = 0.0
         g[0, 0], g[0, 1] = p[0] - f[0, 0], -f[0, 1]
         g[1, 0], g[1, 1] = p[0] + f[0, 0], f[0, 1]
-        return 1
+        return CONSTANT
+    c[0, 0], c[1, 0] = y[0], y[1]
     c[0, 1], c[0, 2], c[0, 3] = y[1], -f[0, 0] / 2, -f[0, 1] / 6
     c[1, 1], c[1, 2], c[1, 3] = -f[0, 0], -f[0, 1] / 2, 0.0
     g[0, 0] = g[1, 0] = OFF
@@ -83,9 +82,8 @@ SLED = Model("sled", sled_series, sled_reset, ("slip", "speed"), ("pushed back",
 @kernel(SERIES)
 def flip_series(mode, y, f, p, order, c, g):
     """Both modes are inadmissible at once."""
-    c[0, 0] = y[0]
-    g[0, 0] = -1.0
-    return 0
+    g[0, 0], g[0, 1] = -1.0, 0.0
+    return CONSTANT
 
 
 @kernel(RESET)
