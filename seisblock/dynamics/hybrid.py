@@ -45,6 +45,16 @@ RESET = _t.int64(_t.int64, _t.int64, VECTOR, MATRIX, VECTOR)
 CONSTANT = 0
 """Degree of a state that does not move."""
 
+SKIP = _t.int64(_t.int64, _READ_ONLY, VECTOR, _t.int64, VECTOR)
+"""skip(mode, acceleration, gains, sample, p) -> a later sample, up to which the state stays as it is and no guard fires."""
+
+
+@kernel(SKIP)
+def stay(mode, acceleration, gains, sample, p):
+    """Skip nothing: the model has no rest, or none worth a short cut."""
+    return sample
+
+
 OFF = float("inf")
 """Value of a guard that is not watched in this mode."""
 
@@ -116,20 +126,20 @@ def _keep_turning_points(c, i, degree, h, now, extrema, rate, q, d):
 
 @kernel(
     _t.int64(
-        _t.FunctionType(SERIES), _t.FunctionType(RESET), _READ_ONLY, VECTOR, _t.float64, _t.int64, _t.float64, _t.int64,
-        VECTOR, VECTOR, _INTEGERS, MATRIX, _INTEGERS, _TABLE, VECTOR, _BLOCK, MATRIX, _INTEGERS, VECTOR,
+        _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP), _READ_ONLY, VECTOR, _t.float64, _t.int64, _t.float64,
+        _t.int64, VECTOR, VECTOR, _INTEGERS, MATRIX, _INTEGERS, _TABLE, VECTOR, _BLOCK, MATRIX, _INTEGERS, VECTOR,
     )
 )  # fmt: skip
 def integrate(
-    series, reset, acceleration, gains, dt, sample, tau, mode, y, p, sizes, path, modes, event_table, event_times, event_states,
-    extrema, info, end,
+    series, reset, skip, acceleration, gains, dt, sample, tau, mode, y, p, sizes, path, modes, event_table, event_times,
+    event_states, extrema, info, end,
 ):  # fmt: skip
     """Follow one trajectory to the end of the record or to a mode that stops it; return a status.
 
     Parameters
     ----------
-    series, reset : function pointers
-        The model; see ``SERIES`` and ``RESET``.
+    series, reset, skip : function pointers
+        The model; see ``SERIES``, ``RESET`` and ``SKIP``.
     acceleration : (rows, n) array, m/s^2
         Ground acceleration at the samples.
     gains : (rows,) array
@@ -182,6 +192,15 @@ def integrate(
         path[sample, :] = y
         modes[sample] = mode
     while sample < n - 1 and status == RECORD_ENDED:
+        if tau == 0.0:
+            ahead = skip(mode, acceleration, gains, sample, p)
+            if ahead > sample:
+                if record:
+                    for row in range(sample + 1, ahead + 1):
+                        path[row, :] = y
+                        modes[row] = mode
+                sample = ahead
+                continue
         for row in range(rows):
             if gains[row] != 0.0:
                 slope = gains[row] * (acceleration[row, sample + 1] - acceleration[row, sample]) * per_dt

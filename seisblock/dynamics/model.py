@@ -45,6 +45,8 @@ class Model:
         How many of the first states have their exact extrema kept.
     order : int
         Terms of a series that does not end by itself.
+    skip : compiled function
+        Signature ``SKIP``: the short cut through samples at which nothing happens.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Model:
     scratch: int = 0
     tracked: int = 1
     order: int = ORDER
+    skip: Callable[..., Any] = hybrid.stay
 
 
 @dataclass(frozen=True)
@@ -199,7 +202,7 @@ def follow(
         limits = np.empty((capacity, 2, n_states))
         status = int(
             hybrid.integrate(
-                model.series, model.reset, motion.acceleration, scale, motion.dt, start.sample, start.tau, mode, y, p, sizes,
+                model.series, model.reset, model.skip, motion.acceleration, scale, motion.dt, start.sample, start.tau, mode, y, p, sizes,
                 path, modes, table, times, limits, extrema, info, end,
             )
         )  # fmt: skip
