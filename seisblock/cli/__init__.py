@@ -18,7 +18,9 @@ from seisblock import __version__, _jit
 from seisblock.cli.talk import say
 from seisblock.errors import SeisblockError
 
-COMMANDS: dict[str, tuple[str, str]] = {}
+COMMANDS: dict[str, tuple[str, str]] = {
+    "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
+}
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
 
 INTERRUPTED = 130

@@ -45,14 +45,6 @@ def emit(
     """
     for message in answer.warnings:
         warn(message)
-    if output.json:
-        click.echo(to_json(answer))
-    else:
-        from seisblock.present.tables import console
-
-        screen = console()
-        for part in tables():
-            screen.print(part)
     if output.csv is not None:
         from seisblock.present.files import write_histories
 
@@ -70,6 +62,15 @@ def emit(
             raise OutputError(f"{answer.command} has no animation: leave --animate out")
         animation(output.animate)
         say(f"wrote {output.animate}")
+    # stdout comes last: a reader that goes away (| head) takes no file with it
+    if output.json:
+        click.echo(to_json(answer))
+    else:
+        from seisblock.present.tables import console
+
+        screen = console()
+        for part in tables():
+            screen.print(part)
 
 
 def response_answer(

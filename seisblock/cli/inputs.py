@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 from seisblock.cli.options import Source
 from seisblock.cli.talk import say
-from seisblock.errors import ComponentError
+from seisblock.errors import ComponentError, ParameterError
 from seisblock.records import Motion, Record, motion_of
 
 
-def load(source: Source, *, vertical_counts: bool = False) -> list[Record]:
+def load(source: Source, *, vertical_counts: bool = False, several_windows: bool = False) -> list[Record]:
     """Read the records a command was given and prepare them as its options ask.
 
     Parameters
@@ -19,7 +19,11 @@ def load(source: Source, *, vertical_counts: bool = False) -> list[Record]:
         The record options.
     vertical_counts : bool
         Whether the vertical component is among those a command looks at by default.
+    several_windows : bool
+        Whether the command cuts its windows itself, with :func:`windows`.
     """
+    if len(source.window) > 1 and not several_windows:
+        raise ParameterError(f"this command takes one --window, found {len(source.window)}")
     from seisblock.readers import DEFAULT_SAMPLE, read_all
 
     names: tuple[str, ...] = source.record
@@ -29,11 +33,12 @@ def load(source: Source, *, vertical_counts: bool = False) -> list[Record]:
     records = read_all(
         names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level
     )  # fmt: skip
-    return [prepare(record, source, vertical_counts=vertical_counts) for record in records]
+    prepared = [prepare(record, source, vertical_counts=vertical_counts) for record in records]
+    return prepared if several_windows else [cut for record in prepared for cut in windows(record, source)]
 
 
 def prepare(record: Record, source: Source, *, vertical_counts: bool = False) -> Record:
-    """Apply demean, high-pass, scale and window, in this order, each logged in the record's history."""
+    """Apply demean, high-pass and scale, in this order, each logged in the record's history."""
     from seisblock.records import process
 
     for message in record.metadata.get("warnings", ()):  # type: ignore[attr-defined]
@@ -47,12 +52,16 @@ def prepare(record: Record, source: Source, *, vertical_counts: bool = False) ->
     if source.target_pga is not None:
         chosen = components(record, source, vertical_counts=vertical_counts)
         record = process.scale_to_pga(record, source.target_pga / 100.0, chosen)
-    if source.window is not None:
-        first, last = source.window
-        record = process.crop(record, first, last)
     for line in record.history:
         say(f"{record.station or record.source}: {line}")
     return record
+
+
+def windows(record: Record, source: Source) -> list[Record]:
+    """Return the record cut to each window asked for, or whole."""
+    from seisblock.records import process
+
+    return [process.crop(record, first, last) for first, last in source.window] or [record]
 
 
 def components(record: Record, source: Source, *, vertical_counts: bool = False) -> tuple[str, ...]:

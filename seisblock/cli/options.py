@@ -26,7 +26,7 @@ class Source:
     component: tuple[str, ...]
     scale: float | None
     target_pga: float | None
-    window: tuple[float | None, float | None] | None
+    window: tuple[tuple[float | None, float | None], ...]
     highpass: float | None
     demean: bool | None
     format: str | None
@@ -74,7 +74,8 @@ _RECORD_OPTIONS = (
     option("--scale", type=float, callback=_finite, section="Record", help="Factor on all components. [default: 1]"),
     option("--target-pga", type=float, callback=_positive, metavar="GAL", section="Record",
            help="Scale so that the largest PGA of the components solved is this, gal."),
-    option("--window", type=WINDOW, section="Record", help="Use this stretch only, s from the record's first sample."),
+    option("--window", type=WINDOW, multiple=True, section="Record",
+           help="Use this stretch only, s from the record's first sample; either end may be left out."),
     option("--highpass", type=float, callback=_positive, metavar="HZ", section="Record",
            help="Zero-phase high-pass (4th-order Butterworth) before anything else, Hz. [default: none]"),
     option("--demean/--no-demean", default=None, section="Record",

@@ -14,7 +14,7 @@ MOST_VALUES = 1_000_000
 """Longest range that is taken for what the user meant."""
 
 
-class Length(click.ParamType):
+class Length(click.ParamType):  # type: ignore[type-arg]
     """A length: metres, or a number with a unit (``24cm``, ``8sun``)."""
 
     name = "length"
@@ -27,7 +27,7 @@ class Length(click.ParamType):
             self.fail(str(error), param, ctx)
 
 
-class Mass(click.ParamType):
+class Mass(click.ParamType):  # type: ignore[type-arg]
     """A mass: kilograms, or a number with a unit (``1.3t``)."""
 
     name = "mass"
@@ -40,7 +40,7 @@ class Mass(click.ParamType):
             self.fail(str(error), param, ctx)
 
 
-class Floats(click.ParamType):
+class Floats(click.ParamType):  # type: ignore[type-arg]
     """One number, a list ``a,b,c``, or a range ``first:last:step`` that includes its last value."""
 
     name = "number|list|range"
@@ -82,7 +82,7 @@ class Floats(click.ParamType):
         return value
 
 
-class Window(click.ParamType):
+class Window(click.ParamType):  # type: ignore[type-arg]
     """A stretch of time ``T0:T1`` in seconds from the record's first sample; either end may be left out."""
 
     name = "t0:t1"
@@ -106,4 +106,5 @@ LENGTH = Length()
 MASS = Mass()
 FLOATS = Floats()
 LENGTHS = Floats(unit=parse_length)
+MASSES = Floats(unit=parse_mass)
 WINDOW = Window()

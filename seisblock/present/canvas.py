@@ -56,8 +56,11 @@ def label(axis: Axes, x: str = "", y: str = "") -> None:
         axis.set_ylabel(y, fontsize=9)
 
 
-def curve(axis: Axes, time: FloatArray, values: FloatArray, **style: Any) -> None:
-    """Draw a curve with every peak in it, however long it is."""
+def curve(axis: Axes, time: FloatArray, values: FloatArray, *, longest_gap: float | None = None, **style: Any) -> None:
+    """Draw a curve with every peak in it, however long it is; it is broken where two points are further apart than `longest_gap`."""
+    if longest_gap is not None:
+        after = np.flatnonzero(np.diff(time) > longest_gap) + 1
+        time, values = np.insert(time, after, np.nan), np.insert(values, after, np.nan)
     axis.plot(*thin(time, values), **{"linewidth": 0.9, **style})
 
 
@@ -71,7 +74,10 @@ def thin(time: FloatArray, values: FloatArray, most: int = MOST_POINTS) -> tuple
     keep = np.empty((bins, 2), dtype=np.int64)
     for i in range(bins):
         part = values[edges[i] : edges[i + 1]]
-        low, high = int(part.argmin()), int(part.argmax())
+        if np.isnan(part).all():
+            keep[i] = edges[i]
+            continue
+        low, high = int(np.nanargmin(part)), int(np.nanargmax(part))
         keep[i] = edges[i] + np.array(sorted((low, high)))
     index = np.unique(np.concatenate([[0], keep.ravel(), [n - 1]]))
     return time[index], values[index]
@@ -96,7 +102,7 @@ def threshold(axis: Axes, levels: Sequence[float], text: str = "") -> None:
 def legend(axis: Axes, **placement: Any) -> None:
     """Add a small legend when there is something to name."""
     if axis.get_legend_handles_labels()[0]:
-        axis.legend(fontsize=7, frameon=False, ncols=4, **{"loc": "upper right", **placement})
+        axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", ncols=4, **{"loc": "upper right", **placement})
 
 
 def save(figure: Figure, path: Path | str) -> None:

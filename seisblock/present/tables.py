@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
+from rich.console import Console, Group
 from rich.table import Table
 from rich.text import Text
 
@@ -23,8 +23,8 @@ def console(*, stderr: bool = False) -> Console:
     return Console(stderr=stderr, highlight=False, soft_wrap=False)
 
 
-def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = "") -> Table:
-    """Return a table: the first column is text, numbers are right-aligned.
+def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = "") -> Group:
+    """Return a table under its title: the first column is text, numbers are right-aligned.
 
     Parameters
     ----------
@@ -35,12 +35,14 @@ def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, 
         Texts, or numbers that :func:`number` formats.
     caption : str
     """
-    made = Table(title=title, caption=caption or None, box=SIMPLE_HEAD, title_justify="left", caption_justify="left", pad_edge=False)
+    # title and caption stand outside the table: rich would wrap them to its width
+    made = Table(box=SIMPLE_HEAD, pad_edge=False)
     for index, heading in enumerate(columns):
         made.add_column(heading, justify="left" if index == 0 else "right", overflow="fold")
     for row in rows:
         made.add_row(*(cell if isinstance(cell, (str, Text)) else number(cell) for cell in row))
-    return made
+    around = [Text(title, style="italic")] if title else []
+    return Group(*around, made, *([Text(caption, style="dim")] if caption else []))
 
 
 def number(value: Any, digits: int = 4) -> str:

@@ -1,0 +1,161 @@
+"""The two-layer rigid block: a light lower layer that carries a heavy upper one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from seisblock.bodies.files import length, lengths, masses, of_kind
+from seisblock.errors import BodyError
+from seisblock.units import STANDARD_GRAVITY
+
+
+@dataclass(frozen=True)
+class TwoLayerBlock:
+    """Two homogeneous layers of one width, rigidly joined ([Sugimoto2017]_ section 3.1, fig. 5).
+
+    Parameters
+    ----------
+    width, depth : float, m
+        B along the motion and W across it.
+    upper_height, lower_height : float, m
+        h1 and h2.
+    upper_mass, lower_mass : float, kg
+        m1 and m2.
+    name : str
+
+    Raises
+    ------
+    BodyError
+        If a size or mass is not positive.
+    """
+
+    width: float
+    depth: float
+    upper_height: float
+    lower_height: float
+    upper_mass: float
+    lower_mass: float
+    name: str = "two-layer block"
+
+    def __post_init__(self) -> None:
+        for key in ("width", "depth", "upper_height", "lower_height", "upper_mass", "lower_mass"):
+            value = getattr(self, key)
+            if not (math.isfinite(value) and value > 0.0):
+                raise BodyError(f"{self.name}: {key.replace('_', ' ')} must be positive, found {value}")
+
+    @property
+    def height(self) -> float:
+        """H = h1 + h2, m."""
+        return self.upper_height + self.lower_height
+
+    @property
+    def mass(self) -> float:
+        """Mass m = m1 + m2, kg ([Sugimoto2017]_ eq. (3b))."""
+        return self.upper_mass + self.lower_mass
+
+    @property
+    def centroid_height(self) -> float:
+        """y_G, m ([Sugimoto2017]_ eq. (1b))."""
+        upper = self.upper_mass * (2 * self.height - self.upper_height)
+        return (upper + self.lower_mass * self.lower_height) / (2 * self.mass)
+
+    @property
+    def radius(self) -> float:
+        """R, from a lower corner to the centroid, m ([Sugimoto2017]_ eq. (3c))."""
+        return math.hypot(self.width / 2, self.centroid_height)
+
+    @property
+    def slenderness(self) -> float:
+        """Angle alpha between the block's side and R, rad ([Sugimoto2017]_ eq. (3d))."""
+        return math.atan2(self.width / 2, self.centroid_height)
+
+    @property
+    def corner_inertia(self) -> float:
+        """I_O about a lower corner, kg m^2 ([Sugimoto2017]_ eq. (3e))."""
+        upper_radius = math.hypot(self.width, 2 * self.height - self.upper_height) / 2
+        lower_radius = math.hypot(self.width, self.lower_height) / 2
+        half_diagonal = math.hypot(self.width, self.upper_height) / 2
+        return self.upper_mass * (half_diagonal**2 / 3 + upper_radius**2) + 4 / 3 * self.lower_mass * lower_radius**2
+
+    @property
+    def centroid_inertia(self) -> float:
+        """I_G about the centroid, kg m^2 ([Sugimoto2017]_ eq. (7b))."""
+        return self.corner_inertia - self.mass * self.radius**2
+
+    @property
+    def width_moment(self) -> float:
+        """Second moment of mass along the width about the centroid, m B^2/12, kg m^2."""
+        return self.mass * self.width**2 / 12
+
+    @property
+    def height_moment(self) -> float:
+        """Second moment of mass along the height about the centroid, sum m_i (h_i^2/12 + (y_i - y_G)^2), kg m^2."""
+        y = self.centroid_height
+        upper = self.upper_height**2 / 12 + (self.height - self.upper_height / 2 - y) ** 2
+        lower = self.lower_height**2 / 12 + (self.lower_height / 2 - y) ** 2
+        return self.upper_mass * upper + self.lower_mass * lower
+
+    def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
+        """Horizontal ground acceleration above which it rocks, g x_G/y_G, m/s^2 ([Sugimoto2017]_ eq. (2))."""
+        return gravity * (self.width / 2) / self.centroid_height
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Friction and restitution between a block and what it stands on.
+
+    Parameters
+    ----------
+    mu, mu_kinetic : float
+        Coefficients of static and kinetic friction.
+    restitution_x, restitution_y : float
+        Ratios of velocities at the impact, horizontal and vertical ([Sugimoto2017]_ eq. (6)).
+    """
+
+    mu: float
+    mu_kinetic: float
+    restitution_x: float
+    restitution_y: float
+
+
+def two_layer_block(table: Mapping[str, Any], side: str = "short") -> TwoLayerBlock:
+    """Return the block that a TOML table describes, moving along one of its sides.
+
+    Parameters
+    ----------
+    table : mapping
+        ``kind = "two-layer"``, ``heights`` = [h1, h2], ``masses`` = [m1, m2], and either ``width`` and ``depth`` or
+        ``short`` and ``long``, the two sides in plan.
+    side : "short" or "long"
+        Which side lies along the motion, where the table gives both.
+
+    Raises
+    ------
+    BodyError
+        If something is missing or of the wrong kind.
+    """
+    of_kind(table, "two-layer")
+    upper_height, lower_height = lengths(table, "heights", 2)
+    upper_mass, lower_mass = masses(table, "masses", 2)
+    name = str(table.get("name", table.get("source", "two-layer block")))
+    if "width" in table:
+        width, depth = length(table, "width"), length(table, "depth")
+    else:
+        if side not in ("short", "long"):
+            raise BodyError(f"{name}: side must be short or long, found {side!r}")
+        width = length(table, side)
+        depth = length(table, "long" if side == "short" else "short")
+        name = f"{name}, {side} side"
+    return TwoLayerBlock(width, depth, upper_height, lower_height, upper_mass, lower_mass, name)
+
+
+def contact(table: Mapping[str, Any]) -> Mapping[str, float]:
+    """Return the friction and restitution that a preset brings along, empty when it brings none."""
+    values = table.get("contact", {})
+    unknown = set(values) - {"mu", "mu_kinetic", "restitution_x", "restitution_y"}
+    if unknown:
+        raise BodyError(f"{table.get('source', 'body')}: [contact] has unknown entries {', '.join(sorted(unknown))}")
+    return {key: float(value) for key, value in values.items()}

@@ -1,0 +1,71 @@
+"""``seisblock jump``: does a two-layer block jump, when and how far."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from seisblock.cli.command import Command, option
+from seisblock.cli.emit import emit, response_answer
+from seisblock.cli.inputs import load, motions, windows
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.talk import say
+from seisblock.cli.types import LENGTH, LENGTHS, MASSES
+
+DEFAULT_BLOCK = "chozusha"
+
+
+@click.command(
+    cls=Command,
+    examples=("seisblock jump", "seisblock jump record.csv --component EW --drop 0.3 --tenon 2cm --plot jump.png"),
+)
+@record_options
+@option("--block", metavar="NAME|FILE", section="Body", help=f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
+@option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body",
+        help="Which side of the block in plan lies along the motion.")
+@option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit; then give --heights, --masses.")
+@option("--depth", type=LENGTH, section="Body", help="Width across the motion, m; changes nothing in the plane. [default: --width]")
+@option("--heights", type=LENGTHS, metavar="H1,H2", section="Body", help="Heights of the upper and the lower layer, m or with units.")
+@option("--masses", type=MASSES, metavar="M1,M2", section="Body", help="Masses of the upper and the lower layer, kg or with units.")
+@option("--mu", type=float, help="Static friction of the landed foot, 1. [default: the body's own, else required]")
+@option("--mu-kinetic", type=float, help="Kinetic friction, 1. [default: as --mu]")
+@option("--restitution-x", type=float, help="Ratio of horizontal velocities at the impact, 0 to 1. [default: as --mu]")
+@option("--restitution-y", type=float, help="Ratio of vertical velocities at the impact, 0 to 1. [default: as --mu]")
+@option("--drop", type=LENGTH, default=0.0, help="Height of the floor above the ground on which it lands, m or with a unit. [default: 0]")
+@option("--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q",
+        help="Spin after the impact: angular momentum, eq. (7a) as printed, or theta'2/theta'1 = Q.")
+@option("--direction", type=click.Choice(["+", "-", "both"]), default="both", show_default=True,
+        help="Sign of the ground acceleration that may start a chain.")
+@option("--repeat", is_flag=True, help="Follow chain after chain until the record ends. [default: the first of each window]")
+@option("--tenon", type=LENGTH, section="Output", help="Depth of the tenon's hole: say whether the foot left it, m or with a unit.")
+@gravity_option
+@output_options
+def jump(source: Source, output: Output, gravity: float, drop: float, spin: str, direction: str, repeat: bool,
+         tenon: float | None, **body: Any) -> None:
+    """Rocking, impact, jump, landing and rocking-sliding of a two-layer block (Sugimoto et al. 2017).
+
+    Each horizontal component is solved by itself. Tilt is positive when the block leans to the component's positive
+    direction, displacements of the centroid are relative to the ground.
+    """
+    from seisblock.bodies.choose import two_layer_choice
+    from seisblock.present import jump as shown
+    from seisblock.records import motion_of
+    from seisblock.solvers.jump import join, solve_jump
+
+    chosen = two_layer_choice(body, default=DEFAULT_BLOCK)
+    say(f"body: {chosen.block.name}; {chosen.says}")
+    responses = [
+        join(motion, [
+            solve_jump(motion_of(cut, motion.name), chosen.block, chosen.contact, drop=drop, spin=spin, direction=direction,
+                       repeat=repeat, gravity=gravity)
+            for cut in windows(record, source)
+        ])
+        for record in load(source, several_windows=True)
+        for motion in motions(record, source)
+    ]  # fmt: skip
+    parameters = {**responses[0].options, "block": chosen.block, "tenon_m": tenon}
+    emit(
+        response_answer("jump", responses, parameters), output, responses=responses,
+        tables=lambda: shown.tables(responses, gal=output.gal, tenon=tenon), figure=lambda: shown.figure(responses),
+    )  # fmt: skip
