@@ -128,7 +128,8 @@ def _keep_turning_points(c, i, degree, h, now, extrema, rate, q, d):
     _t.int64(
         _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP), _READ_ONLY, VECTOR, _t.float64, _t.int64, _t.float64,
         _t.int64, VECTOR, VECTOR, _INTEGERS, MATRIX, _INTEGERS, _TABLE, VECTOR, _BLOCK, MATRIX, _INTEGERS, VECTOR,
-    )
+    ),
+    allocates=True,
 )  # fmt: skip
 def integrate(
     series, reset, skip, acceleration, gains, dt, sample, tau, mode, y, p, sizes, path, modes, event_table, event_times,
