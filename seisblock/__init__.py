@@ -17,6 +17,7 @@ _HOME = {
     "Response": "seisblock.results",
     "SpringBlock": "seisblock.bodies.spring_block",
     "natural_modes": "seisblock.solvers.uplift_modes",
+    "solve_uplift": "seisblock.solvers.uplift",
     "uplift_minima": "seisblock.solvers.uplift_minima",
     "uplift_thresholds": "seisblock.solvers.uplift_harmonic",
 }

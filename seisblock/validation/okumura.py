@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from seisblock.validation.okumura_harmonic import HARMONIC
 from seisblock.validation.okumura_modes import MODES
+from seisblock.validation.okumura_records import RECORDS
 
-CASES = (*MODES, *HARMONIC)
+CASES = (*MODES, *HARMONIC, *RECORDS)
 """Every case of this paper."""

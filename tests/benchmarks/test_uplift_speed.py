@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
+from seisblock.solvers.uplift import solve_uplift
 from seisblock.solvers.uplift_harmonic import uplift_thresholds
+from tests.solvers.uplift_motions import shaking
 
 
 def test_harmonic_curve_of_1000_frequencies(benchmark):
@@ -15,3 +17,11 @@ def test_harmonic_curve_of_1000_frequencies(benchmark):
     curve = benchmark(uplift_thresholds, body, ratio, phi_deg=45.0, rho_deg=45.0)
     assert np.isfinite(curve).all()
     assert benchmark.stats is None or benchmark.stats.stats.min < 0.05
+
+
+def test_record_of_100_seconds(benchmark):
+    """A 100 s, 100 Hz three-component record with a vertical frequency of 10 Hz takes less than 0.2 s."""
+    body = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)
+    response = benchmark(solve_uplift, body, shaking(100.0, 0.01))
+    assert response.outcome.contact_changes > 100
+    assert benchmark.stats is None or benchmark.stats.stats.min < 0.2
