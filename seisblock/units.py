@@ -99,6 +99,36 @@ def parse_mass(text: str | float, *, what: str = "mass") -> float:
     return _parse(text, MASS_UNITS, "kg", what)
 
 
+def parse_acceleration(text: str, *, what: str = "acceleration") -> float:
+    """Return an acceleration in m/s^2 from a text with its unit, such as ``245gal``, ``2.45 m/s2`` or ``0.25g``.
+
+    Parameters
+    ----------
+    text : str
+        A number with a unit: a bare number could be gal as well as m/s^2, a factor of 100 apart.
+    what : str
+        What the acceleration is, for the message.
+
+    Raises
+    ------
+    UnitError
+        If the unit is missing or unknown.
+    ParameterError
+        If the text holds no number.
+
+    Examples
+    --------
+    >>> parse_acceleration("245gal")
+    2.45
+    """
+    match = _NUMBER.match(text)
+    if match is None:
+        raise ParameterError(f"{what} {text!r} is not a number with a unit: write for example 245gal, 2.45m/s2 or 0.25g")
+    if not match[2]:
+        raise UnitError(f"{what} {text!r} has no unit: write {text.strip()}gal, {text.strip()}m/s2 or {text.strip()}g")
+    return _parse(text.lower(), ACCELERATION_UNITS, "m/s2", what)
+
+
 def _parse(text: str | float, table: dict[str, float], default: str, what: str) -> float:
     """Read a number with an optional unit from `table`."""
     if isinstance(text, (int, float)):

@@ -19,6 +19,7 @@ from seisblock.cli.talk import say
 from seisblock.errors import SeisblockError
 
 COMMANDS: dict[str, tuple[str, str]] = {
+    "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
     "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
 }
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""

@@ -1,7 +1,7 @@
 """One number per record: peaks, equivalent frequencies, durations, intensities, spectra."""
 
 from seisblock.measures.baseline import GroundHistory, ground_history
-from seisblock.measures.duration import Duration, duration_above, stretches_above
+from seisblock.measures.duration import Duration, block_threshold, duration_above, stretches_above
 from seisblock.measures.frequency import EquivalentFrequency, Pulse, dominant_frequency, peak_pulse, pga_pgv_frequency
 from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
@@ -19,6 +19,7 @@ __all__ = [
     "RecordMeasures",
     "ResponseSpectrum",
     "arias_intensity",
+    "block_threshold",
     "default_periods",
     "dominant_frequency",
     "duration_above",

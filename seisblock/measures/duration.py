@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock.errors import ParameterError
 from seisblock.typing import FloatArray
+from seisblock.units import STANDARD_GRAVITY
 
 Side = Literal["both", "positive", "negative"]
 
@@ -31,6 +32,30 @@ class Duration:
     total_s: float
     longest_s: float
     count: int
+
+
+def block_threshold(width: float, height: float, *, gravity: float = STANDARD_GRAVITY) -> float:
+    """Return the horizontal acceleration beyond which a rectangular block rocks, g B/H ([Furukawa2009]_ eq. (2)).
+
+    Parameters
+    ----------
+    width, height : float, m
+        B and H, positive.
+    gravity : float, m/s^2
+        g.
+
+    Returns
+    -------
+    float, m/s^2
+
+    Raises
+    ------
+    ParameterError
+        If a size is not positive.
+    """
+    if not (np.isfinite(width) and np.isfinite(height) and width > 0 and height > 0):
+        raise ParameterError(f"the sizes of a block must be positive, found width {width:g} m and height {height:g} m")
+    return gravity * width / height
 
 
 def stretches_above(acceleration: FloatArray, dt: float, threshold: float, *, side: Side = "both") -> FloatArray:

@@ -39,13 +39,18 @@ def new_figure(
     axes = figure.subplots(rows, columns, sharex=share, squeeze=False, **layout)
     flat = [axis for row in axes for axis in row]
     for axis in flat:
-        axis.grid(True, color="0.9", linewidth=0.6)
-        axis.set_axisbelow(True)
-        axis.spines[["top", "right"]].set_visible(False)
-        axis.tick_params(labelsize=8)
+        dress(axis)
     if title:
         figure.suptitle(title, fontsize=10, x=0.01, ha="left")
     return figure, flat
+
+
+def dress(axis: Axes) -> None:
+    """Give a panel the common style: a faint grid behind the data, two spines, small figures."""
+    axis.grid(True, color="0.9", linewidth=0.6)
+    axis.set_axisbelow(True)
+    axis.spines[["top", "right"]].set_visible(False)
+    axis.tick_params(labelsize=8)
 
 
 def label(axis: Axes, x: str = "", y: str = "") -> None:

@@ -1,0 +1,144 @@
+"""``seisblock measure``: what a record is, in numbers."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from seisblock.cli.command import Command, option
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.talk import say
+from seisblock.cli.types import LENGTH
+from seisblock.errors import InputError
+from seisblock.units import parse_acceleration
+
+if TYPE_CHECKING:
+    from seisblock.measures.duration import Side
+
+
+SIDES: dict[str, Side] = {"+": "positive", "-": "negative", "both": "both"}
+"""Which side of the threshold each value of ``--direction`` means."""
+
+
+def _acceleration(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:
+    """Accept an acceleration with its unit."""
+    if value is None:
+        return None
+    try:
+        return parse_acceleration(value, what="the threshold")
+    except InputError as error:
+        raise click.BadParameter(str(error), ctx, param) from error
+
+
+def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float | None:
+    """Refuse a negative corner; 0 is none."""
+    if not 0.0 <= value < float("inf"):
+        raise click.BadParameter(f"must be 0 (none) or a positive number of Hz, found {value}", ctx, param)
+    return value or None
+
+
+@click.command(
+    cls=Command,
+    examples=("seisblock measure", "seisblock measure record.csv --width 24cm --height 72cm --plot record.png"),
+)
+@record_options
+@option("--threshold", callback=_acceleration, metavar="A",
+        help="Threshold of the durations, with its unit: 245gal, 2.45m/s2 or 0.25g. [default: 0.1g]")
+@option("--width", type=LENGTH, section="Body", help="Width of a block (m, or with a unit: 24cm, 8sun): the threshold is its g B/H.")
+@option("--height", type=LENGTH, section="Body", help="Height of that block (m, or with a unit).")
+@option("--block", metavar="NAME|FILE", section="Body", help="Bundled two-layer block, or TOML file: the threshold is where it rocks.")
+@option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body",
+        help="Which side of --block in plan lies along the motion.")
+@option("--direction", type=click.Choice(list(SIDES)), default="both", show_default=True,
+        help="Sign of the acceleration that counts for the durations.")
+@option("--velocity-highpass", type=float, default=0.05, show_default=True, callback=_corner, metavar="HZ",
+        help="Corner of the zero-phase high-pass behind PGV and PGD, Hz; 0 for none.")
+@gravity_option
+@output_options
+def measure(
+    source: Source,
+    output: Output,
+    gravity: float,
+    direction: str,
+    velocity_highpass: float | None,
+    **threshold: Any,
+) -> None:
+    """Tell what a record is: peaks, velocities, equivalent frequencies, durations, intensities.
+
+    Durations are those during which the acceleration exceeds a threshold: a given one, or that at which a block begins to
+    rock. JMA intensity needs all three components. Times count from the record's first sample.
+    """
+    from seisblock.cli.emit import emit
+    from seisblock.cli.inputs import components, load
+    from seisblock.measures import Conventions
+    from seisblock.measures import measure as measured
+
+    rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=SIDES[direction], gravity_m_s2=gravity)
+    level, origin = _threshold(gravity=gravity, **threshold)
+    records = load(source, vertical_counts=True)
+    answers = [measured(r, components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records]
+    parameters = {"threshold_m_s2": level, "threshold_from": origin, **asdict(rules)}
+
+    def tables() -> Any:
+        from seisblock.present.measures import measures_report
+
+        return (part for r, a in zip(records, answers, strict=True) for part in measures_report(r, a, gal=output.gal))
+
+    def figure() -> Any:
+        from seisblock.present.measure_figure import measure_figure
+
+        if len(records) > 1:
+            raise InputError(f"--plot draws one record, found {len(records)}: give one, or run the command for each")
+        return measure_figure(records[0], answers[0], gal=output.gal)
+
+    say(f"threshold of the durations: {level:.4g} m/s^2 ({origin})")
+    emit(_answer(records, answers, parameters), output, tables=tables, csv=lambda path: _write(path, records, answers), figure=figure)
+
+
+def _threshold(
+    *, threshold: float | None, width: float | None, height: float | None, block: str | None, side: str, gravity: float
+) -> tuple[float, str]:
+    """Return the threshold, m/s^2, and where it comes from, from whichever of its forms was given."""
+    sizes = width is not None or height is not None
+    if (threshold is not None) + sizes + (block is not None) > 1:
+        raise click.UsageError("give one of --threshold, --width with --height, and --block")
+    if block is not None:
+        from seisblock.bodies.files import read_table
+        from seisblock.bodies.two_layer import two_layer_block
+
+        body = two_layer_block(read_table(block), side)
+        return body.rocking_threshold(gravity), f"rocking threshold of {body.name}"
+    if sizes:
+        from seisblock.measures import block_threshold
+
+        if width is None or height is None:
+            raise click.UsageError("the rocking threshold g B/H of a block needs both --width and --height")
+        return block_threshold(width, height, gravity=gravity), f"g B/H of a block {width:g} m wide and {height:g} m high"
+    if threshold is not None:
+        return threshold, "given"
+    from seisblock.measures.summary import DEFAULT_THRESHOLD
+
+    return DEFAULT_THRESHOLD, "default, 0.1 g"
+
+
+def _answer(records: list[Any], answers: list[Any], parameters: dict[str, Any]) -> Any:
+    """Return the answer: one result per component; what belongs to a record stands beside them, in a list when there are several."""
+    from seisblock.present.document import Answer
+
+    several = len(records) > 1
+    results = [{**({"record_index": i} if several else {}), **asdict(m)} for i, answer in enumerate(answers) for m in answer.components]
+    whole = [{"jma_intensity": a.jma_intensity, "jma_class": a.jma_class, "peak_horizontal": a.horizontal} for a in answers]
+    extra = {key: [entry[key] for entry in whole] if several else whole[0][key] for key in whole[0]}
+    warnings = list(dict.fromkeys(text for answer in answers for text in answer.warnings))
+    return Answer("measure", parameters, results, records, answers[0].citations, warnings, extra)
+
+
+def _write(path: Path, records: list[Any], answers: list[Any]) -> None:
+    """Write the histories behind the numbers."""
+    from seisblock.present.files import write_table
+    from seisblock.present.measures import history_table
+
+    write_table(path, *history_table(records, answers))

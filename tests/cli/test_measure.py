@@ -1,0 +1,165 @@
+"""``seisblock measure`` tells what a record is, in a table, a document, a file and a figure."""
+
+import csv
+import json
+import math
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.units import STANDARD_GRAVITY
+
+CHOZUSHA_CENTROID = (1303.7 * (1.84 + 1.06 / 2) + 160.0 * 1.84 / 2) / 1463.7
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Return a function that runs the command in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    return lambda *words: CliRunner().invoke(main, ["measure", *map(str, words)])
+
+
+@pytest.fixture
+def sines(tmp_path):
+    """A plain CSV: 1 Hz, 200 gal north; 2 Hz, 100 gal east; 5 Hz, 50 gal up; from rest, 20 s."""
+    t = np.arange(4001) * 0.005
+    rows = np.column_stack([t, *(a * np.sin(2 * math.pi * f * t) for a, f in ((200, 1), (100, 2), (50, 5)))])
+    path = tmp_path / "sines.csv"
+    np.savetxt(path, rows, delimiter=",", header="time,NS (gal),EW (gal),UD (gal)", comments="", fmt="%.17g")
+    return path
+
+
+def test_document(run, sines):
+    """The keys everyone relies on, SI, with the numbers of three sines."""
+    found = json.loads(run(sines, "--json").stdout)
+    assert found["schema"] == "seisblock/measure/1"
+    assert [r["component"] for r in found["results"]] == ["NS", "EW", "UD"]
+    for result, (amplitude, f) in zip(found["results"], ((2.0, 1.0), (1.0, 2.0), (0.5, 5.0)), strict=True):
+        omega = 2 * math.pi * f
+        assert result["pga_m_s2"] == pytest.approx(amplitude, rel=1e-9)
+        assert result["pgv_m_s"] == pytest.approx(amplitude / omega, rel=5e-3)
+        assert result["pgd_m"] == pytest.approx(amplitude / omega**2, rel=5e-2)
+        # straight lines between samples of a sine hold (2 + cos w dt)/3 of its energy
+        lines = (2 + math.cos(omega * 0.005)) / 3
+        assert result["arias_m_s"] == pytest.approx(math.pi / (2 * STANDARD_GRAVITY) * amplitude**2 * 10 * lines, rel=1e-9)
+        assert result["significant_duration_s"] == pytest.approx(18.0, rel=0.02)
+        for value in result["equivalent_frequency_hz"].values():
+            assert value == pytest.approx(f, rel=5e-3)
+        assert result["jma_intensity"] == found["jma_intensity"]
+        assert result["duration"]["threshold_m_s2"] == pytest.approx(0.980665)
+    assert found["results"][0]["duration"]["count"] == 40
+    assert found["results"][2]["duration"] == {"threshold_m_s2": 0.980665, "total_s": 0.0, "longest_s": 0.0, "count": 0}
+    assert found["jma_class"] == "6-"
+    assert found["parameters"]["velocity_highpass_hz"] == 0.05
+    assert "Furukawa2009" in found["citations"]
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["--threshold", "150gal"], 1.5),
+        (["--threshold", "1.5 m/s2"], 1.5),
+        (["--threshold", "0.15g"], 0.15 * STANDARD_GRAVITY),
+        (["--width", "24cm", "--height", "96cm"], STANDARD_GRAVITY / 4),
+        (["--block", "chozusha"], STANDARD_GRAVITY * 1.04 / CHOZUSHA_CENTROID),
+        (["--block", "chozusha", "--side", "long", "--gravity", "9.8"], 9.8 * 1.25 / CHOZUSHA_CENTROID),
+        (["--width", "8sun", "--height", "0.9696", "--gravity", "9.8"], 9.8 / 4),
+    ],
+)
+def test_threshold_in_its_forms(run, sines, words, expected):
+    """Gal, m/s^2, g, the sizes of a block, or a bundled one."""
+    duration = json.loads(run(sines, "--json", *words).stdout)["results"][0]["duration"]
+    assert duration["threshold_m_s2"] == pytest.approx(expected, rel=1e-12)
+    inside = 2 / math.pi * math.acos(expected / 2) if expected < 2 else 0
+    assert duration["total_s"] == pytest.approx(20 * inside, abs=5e-3)
+
+
+def test_one_side(run, sines):
+    """Half the stretches of a sine are positive."""
+    assert json.loads(run(sines, "--json", "--direction", "+").stdout)["results"][0]["duration"]["count"] == 20
+
+
+def test_components_keep_the_intensity_of_the_record(run, sines):
+    """One component or an azimuth asked for, JMA intensity still of all three."""
+    whole = json.loads(run(sines, "--json").stdout)
+    part = json.loads(run(sines, "--json", "--component", "UD,45").stdout)
+    assert [r["component"] for r in part["results"]] == ["UD", "45"]
+    assert part["jma_intensity"] == whole["jma_intensity"]
+
+
+def test_table_fits_80_columns(run, sines):
+    """One row per component, nothing wider than the terminal, no heading broken."""
+    out = run(sines).stdout
+    assert max(map(len, out.splitlines())) <= 80
+    assert sum(line.strip().startswith("NS ") for line in out.splitlines()) == 2
+    assert "PGA (gal)" in out
+    assert "JMA intensity" in out
+    assert "PGA/2πPGV" in out
+    assert "m/s²" in run(sines, "--si").stdout
+
+
+def test_histories(run, sines, tmp_path):
+    """Time, and three columns per component; acceleration round-trips to the last digit."""
+    assert run(sines, "--csv", "out.csv", "--quiet").exit_code == 0
+    with (tmp_path / "out.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0])[:4] == ["time_s", "NS_acceleration_m_s2", "NS_velocity_m_s", "NS_displacement_m"]
+    assert len(rows) == 4001
+    t = np.arange(4001) * 0.005
+    np.testing.assert_allclose([float(r["NS_acceleration_m_s2"]) for r in rows], 2 * np.sin(2 * math.pi * t), rtol=0, atol=1e-15)
+    assert float(rows[-1]["EW_displacement_m"]) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_two_records_are_told_apart(run, sines, tmp_path):
+    """Results carry the index of their record; the intensity becomes a list; a figure is refused in words."""
+    other = tmp_path / "half.csv"
+    other.write_text("time,NS (gal)\n" + "".join(f"{i * 0.01:.2f},{math.sin(i * 0.1):.6f}\n" for i in range(500)))
+    found = json.loads(run(sines, other, "--json").stdout)
+    assert [r["record_index"] for r in found["results"]] == [0, 0, 0, 1]
+    assert found["jma_intensity"][1] is None
+    refused = run(sines, other, "--plot", "two.png")
+    assert refused.exit_code == 3
+    assert not (tmp_path / "two.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "exit_code", "message"),
+    [
+        (["--threshold", "150"], 2, "no unit"),
+        (["--threshold", "fast"], 2, "not a number"),
+        (["--threshold", "1 furlong"], 2, "unknown unit"),
+        (["--threshold", "-5gal"], 3, "must be positive"),
+        (["--width", "24cm"], 2, "both --width and --height"),
+        (["--width", "24cm", "--height", "0"], 3, "positive"),
+        (["--width", "24cm", "--height", "1", "--threshold", "5gal"], 2, "give one of"),
+        (["--block", "teapot"], 3, "bundled are"),
+        (["--velocity-highpass", "-1"], 2, "positive"),
+        (["--velocity-highpass", "100"], 3, "half the sampling rate"),
+        (["--component", "XX"], 3, "NS, EW, UD"),
+        (["--window", "5:30"], 3, "runs from 0 to 20 s"),
+        (["--animate", "a.gif"], 3, "no animation"),
+    ],
+)
+def test_nonsense_gets_one_sentence(run, sines, words, exit_code, message):
+    """What is wrong, on stderr, and the exit code that goes with it."""
+    result = run(sines, *words)
+    assert result.exit_code == exit_code
+    assert message in " ".join(result.stderr.split())
+    assert "Traceback" not in result.output
+
+
+def test_figure(run, sines, tmp_path):
+    """Each of the three formats is written."""
+    for suffix, start in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
+        assert run(sines, "--component", "NS", "--plot", f"record.{suffix}").exit_code == 0
+        assert (tmp_path / f"record.{suffix}").read_bytes().startswith(start)
+
+
+def test_without_a_record_the_sample_is_measured(run):
+    """The bundled record, and a word about it on stderr."""
+    result = run("--json")
+    assert json.loads(result.stdout)["record"]["samples"] > 1000
+    assert "bundled sample" in result.stderr

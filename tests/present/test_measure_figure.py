@@ -1,0 +1,38 @@
+"""The figure of a record shows its peaks, whatever the record."""
+
+import numpy as np
+import pytest
+
+from seisblock.measures import measure
+from seisblock.present.measure_figure import measure_figure
+from seisblock.records import Component, Record
+
+
+@pytest.mark.parametrize("codes", [("NS",), ("NS", "EW", "UD")])
+def test_panels(codes):
+    """Acceleration and velocity of each component, and two spectra."""
+    rng = np.random.default_rng(0)
+    record = Record([Component(code, rng.standard_normal(500)) for code in codes], 0.01)
+    figure = measure_figure(record, measure(record))
+    assert len(figure.axes) == 2 * len(codes) + 2
+    assert [line.get_label() for line in figure.axes[-1].get_lines()] == list(codes)
+
+
+def test_no_peak_is_lost_in_a_long_record():
+    """One sample of 200 000 stands out, and is drawn."""
+    a = np.zeros(200_000)
+    a[123_457] = -7.0
+    record = Record((Component("NS", a),), 0.01)
+    figure = measure_figure(record, measure(record), gal=False)
+    lowest = min(np.min(line.get_ydata()) for line in figure.axes[0].get_lines())
+    longest = max(len(line.get_xdata()) for line in figure.axes[0].get_lines())
+    assert lowest == -7.0
+    assert longest < 10_000
+
+
+def test_a_record_at_rest_can_be_drawn():
+    """Zeros have no logarithm; the figure is drawn all the same."""
+    record = Record((Component("NS", np.zeros(1000)),), 0.01)
+    figure = measure_figure(record, measure(record))
+    figure.canvas.draw()
+    assert figure.axes[-1].get_yscale() == "linear"
