@@ -66,7 +66,11 @@ RECORD_ENDED, STOPPED, TOO_MANY_EVENTS, CHATTERING, NOT_FINITE, STEP_TOO_SMALL =
 
 EVENT_SAMPLE, EVENT_GUARD, EVENT_FROM, EVENT_TO = range(4)
 INFO_EVENTS, INFO_SAMPLE, INFO_MODE = range(3)
+LAST_TAU, FIRST_EVENT = range(2)
 HIGHEST, HIGHEST_TIME, LOWEST, LOWEST_TIME = range(4)
+
+NO_TALLY = np.empty((0, 0), dtype=np.int64)
+"""Asks for no tally."""
 
 SAME_INSTANT = 16
 """More events than this at one instant are chattering."""
@@ -127,13 +131,13 @@ def _keep_turning_points(c, i, degree, h, now, extrema, rate, q, d):
 @kernel(
     _t.int64(
         _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP), _READ_ONLY, VECTOR, _t.float64, _t.int64, _t.float64,
-        _t.int64, VECTOR, VECTOR, _INTEGERS, MATRIX, _INTEGERS, _TABLE, VECTOR, _BLOCK, MATRIX, _INTEGERS, VECTOR,
+        _t.int64, VECTOR, VECTOR, _INTEGERS, MATRIX, _INTEGERS, _TABLE, VECTOR, _BLOCK, MATRIX, _TABLE, _INTEGERS, VECTOR,
     ),
     allocates=True,
 )  # fmt: skip
 def integrate(
     series, reset, skip, acceleration, gains, dt, sample, tau, mode, y, p, sizes, path, modes, event_table, event_times,
-    event_states, extrema, info, end,
+    event_states, extrema, tally, info, end,
 ):  # fmt: skip
     """Follow one trajectory to the end of the record or to a mode that stops it; return a status.
 
@@ -162,10 +166,12 @@ def integrate(
         counted and not kept.
     extrema : (n_states, 4) array
         Highest value, its time, lowest value, its time (s after sample 0), of the tracked states.
+    tally : (n_guards, n_modes) array of int, or with no rows
+        How often each guard led to each mode; negative modes are counted from the end.
     info : (3,) array of int
         Events found, last sample, last mode.
-    end : (1,) array, s
-        Time after the last sample at which the integration stopped.
+    end : (2,) array, s
+        Time after the last sample at which the integration stopped; time of the first event after sample 0, NaN without one.
     """
     rows, n = acceleration.shape
     n_states = y.size
@@ -180,6 +186,7 @@ def integrate(
     rate = np.zeros(order + 1)
     record = path.shape[0] > 0
     capacity = event_times.size
+    end[FIRST_EVENT] = np.nan
     found = 0
     repeated = 0
     status = RECORD_ENDED
@@ -264,6 +271,10 @@ def integrate(
                     break
                 for i in range(n_tracked):
                     _keep(extrema, i, y[i], sample * dt + tau)
+                if found == 0:
+                    end[FIRST_EVENT] = sample * dt + tau
+                if tally.shape[0] > 0:
+                    tally[fired, following] += 1
                 found += 1
                 mode = following
                 if mode < 0:
@@ -284,5 +295,5 @@ def integrate(
     info[INFO_EVENTS] = found
     info[INFO_SAMPLE] = sample
     info[INFO_MODE] = mode
-    end[0] = tau
+    end[LAST_TAU] = tau
     return status

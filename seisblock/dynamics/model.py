@@ -19,12 +19,13 @@ ORDER = 12
 _FIRST_CAPACITY = 256
 _LAST_CAPACITY = 1 << 18
 
-_FAILURES = {
+FAILURES = {
     hybrid.TOO_MANY_EVENTS: "it changes its mode without end",
     hybrid.CHATTERING: "two modes return to each other at one instant",
     hybrid.NOT_FINITE: "its state overflows",
     hybrid.STEP_TOO_SMALL: "its power series does not converge on any step",
 }
+"""Statuses that are no answer, in words."""
 
 
 @dataclass(frozen=True)
@@ -193,7 +194,7 @@ def follow(
     modes = np.empty(rows, dtype=np.int64)
     extrema = np.zeros((max(model.tracked, 1), 4))
     info = np.zeros(3, dtype=np.int64)
-    end = np.zeros(1)
+    end = np.zeros(2)
     capacity = _FIRST_CAPACITY if keep_events else 0
     while True:
         y = np.array(initial, dtype=np.float64)
@@ -203,16 +204,16 @@ def follow(
         status = int(
             hybrid.integrate(
                 model.series, model.reset, model.skip, motion.acceleration, scale, motion.dt, start.sample, start.tau, mode, y, p, sizes,
-                path, modes, table, times, limits, extrema, info, end,
+                path, modes, table, times, limits, extrema, hybrid.NO_TALLY, info, end,
             )
         )  # fmt: skip
         if status != hybrid.TOO_MANY_EVENTS or capacity >= _LAST_CAPACITY:
             break
         capacity *= 8
     found, last, final_mode = (int(value) for value in info)
-    ended = Instant(last, float(end[0]))
-    if status in _FAILURES:
-        raise SolverError(f"{model.name}: given up at {motion.start_s + last * motion.dt + ended.tau:.6f} s, where {_FAILURES[status]}")
+    ended = Instant(last, float(end[hybrid.LAST_TAU]))
+    if status in FAILURES:
+        raise SolverError(f"{model.name}: given up at {motion.start_s + last * motion.dt + ended.tau:.6f} s, where {FAILURES[status]}")
     changes = tuple(
         Change(
             Instant(int(row[hybrid.EVENT_SAMPLE]), float(tau)), float(row[hybrid.EVENT_SAMPLE] * motion.dt + tau),

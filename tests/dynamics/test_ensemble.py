@@ -1,0 +1,49 @@
+"""Many trajectories at once are the trajectories one by one."""
+
+import numpy as np
+import pytest
+
+from seisblock.dynamics import follow, follow_many
+from seisblock.errors import ParameterError, SolverError
+from seisblock.records import Motion
+from tests.dynamics.toy_models import BALL, FLIP, SLED
+
+pytestmark = pytest.mark.kernel
+
+
+def test_rows_are_the_single_trajectories_bit_by_bit():
+    """Each row's end, extrema, first event and number of events are those of the trajectory followed alone."""
+    rng = np.random.default_rng(5)
+    motion = Motion.from_arrays(rng.normal(size=60), 0.02)
+    limits = np.array([[0.3], [1.5], [99.0]])
+    gains = np.array([[1.0, 0.0, 0.0], [-2.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+    many = follow_many(SLED, motion, limits, [0.0, 0.0], 0, gains=gains)
+    for row in range(3):
+        alone = follow(SLED, motion, limits[row], [0.0, 0.0], 0, gains=gains[row])
+        np.testing.assert_array_equal(many.final[row], alone.final)
+        np.testing.assert_array_equal(many.extrema[row], alone.extrema)
+        assert many.n_changes[row] == alone.n_changes
+        assert many.end_time[row] == alone.end_time
+        assert many.final_mode[row] == alone.final_mode
+        first = alone.changes[0].time if alone.changes else np.nan
+        np.testing.assert_equal(many.first_change[row], first)
+    assert many.n_changes.tolist() == [1, 1, 0]
+
+
+def test_tally_counts_guards_by_the_mode_they_lead_to():
+    """A ball that bounces k times and rests has k entries of flight and one of rest, the mode that ends it."""
+    motion = Motion.from_arrays(np.zeros(301), 0.01)
+    many = follow_many(BALL, motion, [[9.8, 0.5, 0.1]], [1.0, 0.0], 0, gains=[1.0, 0.0, 0.0])
+    assert many.tally[0].tolist() == [[many.n_changes[0] - 1, 1]]
+
+
+def test_failure_names_its_row():
+    """A row that has to be given up is an error that says which."""
+    with pytest.raises(SolverError, match="row 0"):
+        follow_many(FLIP, Motion.from_arrays(np.zeros(3), 0.01), [[0.0]], [0.0], 0, gains=[1.0, 0.0, 0.0])
+
+
+def test_one_flat_row_of_parameters_is_refused():
+    """Parameters without the axis of rows are an error, not one trajectory per number."""
+    with pytest.raises(ParameterError, match="one row"):
+        follow_many(SLED, Motion.from_arrays(np.zeros(3), 0.01), [0.3], [0.0, 0.0], 0, gains=[1.0, 0.0, 0.0])
