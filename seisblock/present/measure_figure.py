@@ -43,7 +43,7 @@ def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) 
     _draw_velocities(histories[n:], record, parts, answer, gal=gal)
     label(histories[-1], x="t (s)")
     histories[-1].set_xlim(record.time[0], record.time[-1])
-    _draw_fourier(left, record, parts, gal=gal)
+    _draw_fourier(left, record, parts, answer.conventions.fourier_smoothing_hz, gal=gal)
     _draw_response(right, record, parts, gal=gal)
     return figure
 
@@ -90,16 +90,16 @@ def _draw_velocities(axes: list[Axes], record: Record, parts: list[Component], a
     label(axes[len(axes) // 2], y=f"v ({name})")
 
 
-def _draw_fourier(axis: Axes, record: Record, parts: list[Component], *, gal: bool) -> None:
+def _draw_fourier(axis: Axes, record: Record, parts: list[Component], smoothing_hz: float, *, gal: bool) -> None:
     """Draw the smoothed Fourier amplitudes from 0.1 Hz to 30 Hz or half the sampling rate."""
     unit, name = (GAL, "gal s") if gal else (1.0, "m/s")
     for part, (colour, dashes) in zip(parts, _styles(len(parts)), strict=True):
-        frequency, amplitude = fourier_amplitude(part.acceleration, record.dt)
+        frequency, amplitude = fourier_amplitude(part.acceleration, record.dt, smoothing_hz=smoothing_hz)
         shown = (frequency >= 0.1) & (frequency <= min(0.5 / record.dt, 30.0))
         axis.plot(frequency[shown], amplitude[shown] / unit, color=colour, linestyle=dashes, linewidth=1.0, label=part.code)
     _logarithmic(axis)
     label(axis, x="f (Hz)", y=f"|A| ({name})")
-    axis.set_title("Fourier amplitude, Parzen 0.2 Hz", fontsize=8, loc="left")
+    axis.set_title(f"Fourier amplitude, Parzen {smoothing_hz:g} Hz", fontsize=8, loc="left")
     legend(axis, loc="lower center")
 
 
@@ -137,5 +137,5 @@ def _lowest(axis: Axes) -> float:
 
 
 def _note(axis: Axes, text: str) -> None:
-    """Write in the upper left corner of a panel, above its curve."""
-    axis.text(0.005, 1.0, text, transform=axis.transAxes, fontsize=7.5, va="center", ha="left", backgroundcolor=(1, 1, 1, 0.8))
+    """Write over a panel, out of the way of its curve."""
+    axis.set_title(text, fontsize=7.5, loc="left", pad=2.0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from seisblock.measures import measure
+from seisblock.measures import Conventions, measure
 from seisblock.present.measure_figure import measure_figure
 from seisblock.records import Component, Record
 
@@ -36,3 +36,10 @@ def test_a_record_at_rest_can_be_drawn():
     figure = measure_figure(record, measure(record))
     figure.canvas.draw()
     assert figure.axes[-1].get_yscale() == "linear"
+
+
+def test_the_smoothing_drawn_is_the_smoothing_used():
+    """The title of the Fourier panel names the window of the answer."""
+    record = Record((Component("NS", np.sin(np.arange(2000) * 0.1)),), 0.01)
+    figure = measure_figure(record, measure(record, conventions=Conventions(fourier_smoothing_hz=0.5)))
+    assert "0.5 Hz" in figure.axes[-2].get_title(loc="left")
