@@ -8,6 +8,7 @@ from typing import Any
 __version__ = "0.1.0"
 
 _HOME = {
+    "Block": "seisblock.bodies.block",
     "Component": "seisblock.records",
     "Motion": "seisblock.records",
     "Record": "seisblock.records",
@@ -17,6 +18,7 @@ _HOME = {
     "Response": "seisblock.results",
     "SpringBlock": "seisblock.bodies.spring_block",
     "natural_modes": "seisblock.solvers.uplift_modes",
+    "solve_rock": "seisblock.solvers.rock",
     "solve_uplift": "seisblock.solvers.uplift",
     "uplift_minima": "seisblock.solvers.uplift_minima",
     "uplift_thresholds": "seisblock.solvers.uplift_harmonic",

@@ -1,0 +1,186 @@
+"""The rigid block that stands on its base: what rocking needs to know of a gravestone, a cabinet or a statue."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from seisblock.errors import BodyError
+from seisblock.units import STANDARD_GRAVITY
+
+DENSITY = 2650.0
+"""Density of granite, kg/m^3; a motion of a rigid block does not depend on it."""
+
+RIGHT, LEFT = range(2)
+"""The lower corners: that towards +x, about which a block turns that leans to +x, and the other one."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """A rigid block with a flat base, rectangular and homogeneous unless more is said.
+
+    Parameters
+    ----------
+    width : float, m
+        Base along the motion, 2b.
+    height : float, m
+        Overall height, 2h.
+    depth : float, m
+        Base across the motion; as the width when left out. It matters to the mass alone.
+    mass : float, kg
+        From the volume and the density when left out.
+    density : float, kg/m^3
+    centroid_height : float, m
+        Height of the centre of gravity; half the height when left out.
+    centroid_offset : float, m
+        How far the centre of gravity lies to +x of the middle of the base.
+    centroid_inertia : float, kg m^2
+        Moment of inertia about the centre of gravity; of the homogeneous rectangle when left out.
+    name : str
+
+    Raises
+    ------
+    BodyError
+        If a size, the mass or the inertia is not positive, or the centre of gravity does not lie above the base.
+
+    Examples
+    --------
+    >>> block = Block(width=0.242, height=0.726)
+    >>> round(block.slenderness, 6), round(block.frequency_parameter(), 5)
+    (0.321751, 4.38428)
+    """
+
+    width: float
+    height: float
+    depth: float | None = None
+    mass: float | None = None
+    density: float = DENSITY
+    centroid_height: float | None = None
+    centroid_offset: float = 0.0
+    centroid_inertia: float | None = None
+    name: str = "block"
+
+    def __post_init__(self) -> None:
+        for key in ("width", "height", "depth", "mass", "density", "centroid_height", "centroid_inertia"):
+            value = getattr(self, key)
+            if value is not None and not (math.isfinite(value) and value > 0.0):
+                raise BodyError(f"{self.name}: {key.replace('_', ' ')} must be positive, found {value}")
+        if not abs(self.centroid_offset) < self.width / 2:
+            raise BodyError(
+                f"{self.name}: the centre of gravity must lie above the base, within {self.width / 2:g} m of its middle; "
+                f"found an offset of {self.centroid_offset} m"
+            )
+        if self.centroid_height is not None and self.centroid_height > self.height:
+            raise BodyError(f"{self.name}: the centre of gravity, at {self.centroid_height} m, lies above the height of {self.height} m")
+
+    @property
+    def total_mass(self) -> float:
+        """Mass, given or from the volume, kg."""
+        if self.mass is not None:
+            return self.mass
+        return self.density * self.width * self.height * (self.width if self.depth is None else self.depth)
+
+    @property
+    def centre(self) -> float:
+        """Height of the centre of gravity, given or half the height, m."""
+        return self.height / 2 if self.centroid_height is None else self.centroid_height
+
+    @property
+    def gyration_squared(self) -> float:
+        """Squared radius of gyration about the centre of gravity, m^2."""
+        if self.centroid_inertia is not None:
+            return self.centroid_inertia / self.total_mass
+        return (self.width**2 + self.height**2) / 12
+
+    @property
+    def arms(self) -> tuple[float, float]:
+        """Horizontal distances from the right and the left lower corner to the centre of gravity, m."""
+        return self.width / 2 - self.centroid_offset, self.width / 2 + self.centroid_offset
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Distances R from the right and the left lower corner to the centre of gravity, m."""
+        right, left = self.arms
+        return math.hypot(right, self.centre), math.hypot(left, self.centre)
+
+    @property
+    def slendernesses(self) -> tuple[float, float]:
+        """Angles alpha between the vertical and R at the right and the left lower corner, rad."""
+        right, left = self.arms
+        return math.atan2(right, self.centre), math.atan2(left, self.centre)
+
+    @property
+    def slenderness(self) -> float:
+        """The smaller of the two alphas, rad: that of the side to which the block falls more easily."""
+        return min(self.slendernesses)
+
+    @property
+    def radius(self) -> float:
+        """R of that side, m."""
+        return min(self.radii)
+
+    @property
+    def corner_inertias(self) -> tuple[float, float]:
+        """Moments of inertia I_O about the right and the left lower corner, kg m^2."""
+        right, left = (self.total_mass * (self.gyration_squared + radius**2) for radius in self.radii)
+        return right, left
+
+    @property
+    def restitutions(self) -> tuple[float, float]:
+        """Angular velocity after an impact over that before, onto the right and onto the left corner.
+
+        Angular momentum about the corner that is struck is kept ([Housner1963]_); 1 - 1.5 sin^2(alpha) for a rectangle. Zero where
+        the block is so wide that it would not turn on.
+        """
+        right, left = self.arms
+        kept = self.gyration_squared + self.centre**2 - right * left
+        onto_right, onto_left = (max(kept, 0.0) / (self.gyration_squared + radius**2) for radius in self.radii)
+        return onto_right, onto_left
+
+    @property
+    def restitution(self) -> float:
+        """The larger of the two restitutions."""
+        return max(self.restitutions)
+
+    @property
+    def lever_ratios(self) -> tuple[float, float]:
+        """Mass times R over I_O, at the right and the left corner, 1/m: p^2 = g m R/I_O ([Housner1963]_)."""
+        right, left = (radius / (self.gyration_squared + radius**2) for radius in self.radii)
+        return right, left
+
+    def frequency_parameter(self, gravity: float = STANDARD_GRAVITY) -> float:
+        """Return p = sqrt(m g R/I_O) of the side of the smaller alpha, rad/s ([Housner1963]_)."""
+        side = RIGHT if self.slendernesses[RIGHT] <= self.slendernesses[LEFT] else LEFT
+        return math.sqrt(gravity * self.lever_ratios[side])
+
+    def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
+        """Return the horizontal ground acceleration above which it rocks, g b/h, m/s^2 ([Furukawa2009]_ eq. (2))."""
+        return gravity * min(self.arms) / self.centre
+
+
+def from_slenderness(slenderness: float, frequency_parameter: float, gravity: float = STANDARD_GRAVITY) -> Block:
+    """Return the homogeneous rectangular block of a given alpha, rad, and p = sqrt(3 g/(4 R)), rad/s ([Housner1963]_)."""
+    for name, value in (("slenderness", slenderness), ("frequency parameter", frequency_parameter)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise BodyError(f"the {name} must be positive, found {value}")
+    if slenderness >= math.pi / 2:
+        raise BodyError(f"the slenderness must be below pi/2 rad, found {slenderness}")
+    radius = 3 * gravity / (4 * frequency_parameter**2)
+    return Block(2 * radius * math.sin(slenderness), 2 * radius * math.cos(slenderness))
+
+
+def resized(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Block:
+    """Return a block with all lengths multiplied by `size`, and those along the motion also by `slenderness` (mass as it follows)."""
+
+    def times(value: float | None, factor: float) -> float | None:
+        return None if value is None else value * factor
+
+    return replace(
+        block,
+        width=block.width * size * slenderness,
+        height=block.height * size,
+        depth=times(block.depth, size),
+        centroid_height=times(block.centroid_height, size),
+        centroid_offset=block.centroid_offset * size * slenderness,
+        centroid_inertia=times(block.centroid_inertia, size**2),
+    )
