@@ -9,7 +9,7 @@ from seisblock.errors import ComponentError, RecordError
 from seisblock.records import Component, Record
 
 LEVELS = ("surface", "borehole")
-_ORDER = {"NS": 0, "EW": 1, "UD": 2}
+_ORDER = {"NS": 0, "EW": 1, "UD": 3}  # anything else: before the vertical
 CUT_TOLERANCE = 0.05
 """How much longer than the shortest, relatively, a component of a PEER set may be: they start together and end at will."""
 
@@ -48,7 +48,7 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
     if chosen[0].format == "AT2":
         components, cut = _cut_to_shortest(components)
         history.update(dict.fromkeys(cut))
-    components.sort(key=lambda c: _ORDER.get(c.code, len(_ORDER)))
+    components.sort(key=lambda c: _ORDER.get(c.code, 2))
     first = chosen[0]
     return replace(
         first,

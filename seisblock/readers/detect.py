@@ -1,14 +1,11 @@
-"""What kind of file are these bytes? Content decides, never the name."""
+"""Which format some bytes are in: content decides, never the name."""
 
 from __future__ import annotations
 
-import io
-import tarfile
-import zipfile
+import codecs
 
 from seisblock.errors import RecordFormatError
-from seisblock.readers.jma_csv import is_jma_csv
-from seisblock.readers.plain_csv import looks_like_csv
+from seisblock.readers import at2, bundle, jma_csv, knet, knet_csv, plain_csv
 from seisblock.readers.source import Blob, decode
 
 BUNDLE = "BUNDLE"
@@ -18,19 +15,17 @@ OBSPY = "OBSPY"
 def format_of(blob: Blob) -> str:
     """Return ``BUNDLE``, a format of ours, or ``OBSPY`` for whatever else there is."""
     head = blob.data[:4096]
-    if is_bundle(blob.data):
+    if bundle.is_bundle(head):
         return BUNDLE
-    if is_jma_csv(head):
-        return "JMA-CSV"
+    if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        head = head[:4094].decode("utf-16", "replace").encode()
+    for claims, name in ((jma_csv.is_jma_csv, jma_csv.FORMAT), (knet.is_knet, knet.FORMAT), (knet_csv.is_knet_csv, knet_csv.FORMAT)):
+        if claims(head):
+            return name
+    if at2.is_at2(head):
+        return at2.FORMAT
     try:
         text = decode(blob)
     except RecordFormatError:
         return OBSPY
-    return "CSV" if looks_like_csv(text) else OBSPY
-
-
-def is_bundle(data: bytes) -> bool:
-    """Return whether bytes are a zip, gzip or tar archive."""
-    if data.startswith((b"PK\x03\x04", b"PK\x05\x06", b"\x1f\x8b")):
-        return zipfile.is_zipfile(io.BytesIO(data)) or data.startswith(b"\x1f\x8b")
-    return data[257:262] == b"ustar" and tarfile.is_tarfile(io.BytesIO(data))
+    return plain_csv.FORMAT if plain_csv.looks_like_csv(text) else OBSPY

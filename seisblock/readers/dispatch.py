@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from seisblock.errors import ParameterError, RecordFormatError, UnitError
-from seisblock.readers.detect import OBSPY, format_of
+from seisblock.readers.at2 import read_at2
+from seisblock.readers.bundle import members_of
+from seisblock.readers.detect import BUNDLE, OBSPY, format_of
+from seisblock.readers.generic import read_generic
 from seisblock.readers.jma_csv import read_jma_csv
+from seisblock.readers.knet import read_knet
+from seisblock.readers.knet_csv import read_knet_csv
 from seisblock.readers.naming import normal_unit
 from seisblock.readers.plain_csv import read_plain_csv
 from seisblock.readers.source import Blob
 from seisblock.records import Record
 
-_SELF_DESCRIBING: dict[str, Callable[[Blob], Record]] = {"JMA-CSV": read_jma_csv}
-_SPELLINGS = {"JMA": "JMA-CSV", "JMACSV": "JMA-CSV", "JMA-CSV": "JMA-CSV", "CSV": "CSV"}
+_SELF_DESCRIBING: dict[str, Callable[[Blob], Record]] = {"JMA-CSV": read_jma_csv, "KNET": read_knet, "AT2": read_at2}
+_SPELLINGS = {"JMA": "JMA-CSV", "JMACSV": "JMA-CSV", "KIKNET": "KNET", "KNETCSV": "KNET-CSV", "K-NET": "KNET", "KIK-NET": "KNET"}
 
 
 @dataclass(frozen=True)
@@ -29,13 +34,34 @@ class Options:
 
 
 def parts_of(blob: Blob, options: Options) -> list[Record]:
-    """Return the records, or single components, that a file holds."""
-    kind = _SPELLINGS.get(options.format.upper(), options.format.upper()) if options.format else format_of(blob)
+    """Return the records, or single components, that a file or a bundle holds."""
+    found = format_of(blob)
+    if found == BUNDLE:
+        return _of_bundle(blob, options)
+    kind = found if options.format is None else options.format.upper()
+    kind = _SPELLINGS.get(kind, kind)
     if kind in _SELF_DESCRIBING:
         return [_checked(_SELF_DESCRIBING[kind](blob), options)]
+    if kind == "KNET-CSV":
+        return [_checked(part, options) for part in read_knet_csv(blob)]
     if kind == "CSV":
         return [read_plain_csv(blob, units=options.units, dt=options.dt)]
-    raise RecordFormatError(f"{blob.name} is in no format that is known here: {OBSPY}")
+    waveform = None if kind == OBSPY else kind.removeprefix(OBSPY + ":")
+    return [_checked(part, options) for part in read_generic(blob, units=options.units, waveform=waveform)]
+
+
+def _of_bundle(blob: Blob, options: Options) -> list[Record]:
+    """Return the parts in a bundle; files in it that are no records are passed over."""
+    members = members_of(blob)
+    parts: list[Record] = []
+    for member in members:
+        if format_of(member) == OBSPY and options.format is None and options.units is None:
+            continue
+        parts.extend(replace(part, metadata={**part.metadata, "bundle": blob.name}) for part in parts_of(member, options))
+    if not parts:
+        held = ", ".join(m.basename for m in members[:8]) or "nothing but plots"
+        raise RecordFormatError(f"{blob.name}: no record in this bundle, only {held}: expected K-NET, KiK-net, JMA, AT2 or plain tables")
+    return parts
 
 
 def _checked(record: Record, options: Options) -> Record:

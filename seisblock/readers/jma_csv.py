@@ -9,13 +9,13 @@ import numpy as np
 
 from seisblock.errors import RecordFormatError, UnitError
 from seisblock.readers.cells import columns_of, fail, to_si
+from seisblock.readers.header import JST, number
 from seisblock.readers.jumps import isolated_jumps
 from seisblock.readers.naming import code_of, normal_unit
 from seisblock.readers.source import Blob, decode
 from seisblock.records import Component, Record
 
 FORMAT = "JMA-CSV"
-JST = timedelta(hours=9)
 _HEADER_LINES = 40  # 7 in every file seen; old ones may carry more
 _KEY = re.compile(r"\s*([A-Za-z. ]+?)\s*=\s*(.*)")
 
@@ -47,7 +47,7 @@ def read_jma_csv(blob: Blob) -> Record:
     components = tuple(Component(code, to_si(row, unit)) for code, row in zip(columns, rows, strict=True))
     station, metadata = _site(header["SITE CODE"][1])
     for key, label in (("LAT.", "station_latitude_deg"), ("LON.", "station_longitude_deg")):
-        value = _float(header[key][1].split(",")[0]) if key in header else None
+        value = number(header[key][1].split(",")[0]) if key in header else None
         if value:  # 0.0000 means unknown
             metadata[label] = value
     found = tuple(text for c in components for text in isolated_jumps(c, dt))
@@ -82,7 +82,7 @@ def _rate(name: str, header: dict[str, tuple[int, str]]) -> float:
     """Return the sampling rate, Hz."""
     line, text = _value(name, header, "SAMPLING RATE", "SAMPLING FREQ", "SAMPLING FREQ.")
     match = re.match(r"([\d.]+)\s*(?:Hz)?\s*\Z", text, re.IGNORECASE)
-    rate = _float(match[1]) if match else None
+    rate = number(match[1]) if match else None
     if not rate or not np.isfinite(rate):
         fail(name, line, f"expected a sampling rate such as 100Hz, found {text!r}")
     return rate
@@ -116,7 +116,7 @@ def _site(text: str) -> tuple[str, dict[str, object]]:
     match = re.match(r"([0-9A-Za-z]*)\s*(.*)\Z", site)
     code, station_name = (match[1], match[2]) if match else ("", site)
     metadata: dict[str, object] = {"station_name": station_name} if station_name else {}
-    numbers = [_float(part) for part in rest]
+    numbers = [number(part) for part in rest]
     labels = ("event_latitude_deg", "event_longitude_deg", "event_depth_km", "magnitude")
     if len(numbers) >= 4 and any(numbers[:4]):
         metadata.update({label: value for label, value in zip(labels, numbers, strict=False) if value is not None})
@@ -126,11 +126,3 @@ def _site(text: str) -> tuple[str, dict[str, object]]:
     if len(numbers) >= 7 and numbers[5] and numbers[6]:
         metadata["travel_time_p_s"], metadata["travel_time_s_s"] = numbers[5], numbers[6]
     return code or station_name, metadata
-
-
-def _float(text: str) -> float | None:
-    """Return a number, or None."""
-    try:
-        return float(text)
-    except ValueError:
-        return None

@@ -11,6 +11,7 @@ _CODES = {
     "NS": ("ns", "n", "north", "northsouth", "南北", "南北動", "南北成分"),
     "EW": ("ew", "e", "east", "eastwest", "東西", "東西動", "東西成分"),
     "UD": ("ud", "u", "z", "up", "updown", "vertical", "vert", "v", "上下", "上下動", "上下成分", "鉛直"),
+    "ACC": ("acc", "acceleration", "accel", "a", "加速度"),
     TIME: ("time", "t", "relativetime", "elapsedtime", "時間", "時刻", "経過時間", "秒"),
 }
 _CODE = {spelling: code for code, spellings in _CODES.items() for spelling in spellings}

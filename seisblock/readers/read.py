@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
+from pathlib import Path
 
 from seisblock.errors import ParameterError
 from seisblock.readers.assemble import assemble, continues
 from seisblock.readers.dispatch import Options, parts_of
+from seisblock.readers.siblings import with_siblings
 from seisblock.readers.source import Blob, Source, digest, load
 from seisblock.records import Record
 
@@ -105,7 +107,8 @@ def read_all(
             groups.append([opened])
         else:
             home.append(opened)
-    return [_record_of(g, options) for g in groups]
+    named = frozenset(opened.blob.path for g in groups for opened in g)
+    return [_record_of(g, options, named) for g in groups]
 
 
 @dataclass(frozen=True)
@@ -123,10 +126,15 @@ def _open(source: Source, options: Options) -> Opened:
     return Opened(str(source), blob, parts_of(blob, options))
 
 
-def _record_of(group: Sequence[Opened], options: Options) -> Record:
-    """Return the one record that some sources make."""
+def _record_of(group: Sequence[Opened], options: Options, named: frozenset[Path | None] = frozenset()) -> Record:
+    """Return the one record that some sources make; `named` are files that speak for themselves."""
     name = ", ".join(opened.name for opened in group)
     blobs = [opened.blob for opened in group]
     parts = [part for opened in group for part in opened.parts]
+    if len(group) == 1:
+        family = [b for b in with_siblings(blobs[0], options.level) if b is blobs[0] or b.path not in named]
+        if family != blobs:
+            parts = [part for blob in family for part in (group[0].parts if blob is blobs[0] else parts_of(blob, options))]
+            blobs = family
     record = assemble(name, parts, station=options.station, level=options.level)
     return replace(record, sha256=digest(blobs))

@@ -1,0 +1,145 @@
+"""PEER's AT2: one component in g, its direction in the second line of the header or in the file's name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from seisblock.errors import RecordFormatError
+from seisblock.readers.cells import fail
+from seisblock.readers.header import number
+from seisblock.readers.source import Blob, decode
+from seisblock.records import Component, Record
+from seisblock.typing import FloatArray
+from seisblock.units import STANDARD_GRAVITY
+
+FORMAT = "AT2"
+_HEADER_LINES = 12
+_COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
+_INTERVAL = re.compile(r"\bDT\s*=\s*([\d.]+(?:[ED][-+]?\d+)?)", re.IGNORECASE)
+_OLD = re.compile(r"^\s*(\d+)\s+([\d.]+(?:E[-+]?\d+)?)\s+NPTS,\s*DT", re.IGNORECASE | re.MULTILINE)
+_NAME = re.compile(
+    r"^(?P<base>.*?[^0-9_-])?[-_ ]*(?P<direction>\d{3}|UPDN|UP|DWN|DOWN|DN|VERT|VER|UD|NS|EW|V)(?:[-_](?:hor|ver|up|h|v)\w*)?$",
+    re.IGNORECASE,
+)
+_UP, _DOWN = {"UP", "VERT", "VER", "V", "Z", "UD", "UPDN", "VERTICAL"}, {"DWN", "DOWN", "DN"}
+_POINTS = {"N": 0.0, "E": 90.0, "S": 180.0, "W": 270.0, "NS": 0.0, "EW": 90.0}
+
+
+def is_at2(head: bytes) -> bool:
+    """Return whether a file's first bytes are an AT2 header: text with NPTS and DT in its first lines, and no velocity or displacement."""
+    text = b"\n".join(head.splitlines()[:_HEADER_LINES]).decode("latin-1")
+    if b"\x00" in head or re.search(r"(VELOCITY|DISPLACEMENT) TIME", text, re.IGNORECASE):
+        return False
+    return bool(_OLD.search(text) or (_COUNT.search(text) and _INTERVAL.search(text)))
+
+
+def read_at2(blob: Blob) -> Record:
+    """Return the one component in an AT2 file.
+
+    Notes
+    -----
+    Azimuths 0 and 360 are called ``NS``, 90 ``EW``; any other direction keeps its azimuth as its code (``180``, ``164``), with its sign
+    as recorded. ``UP`` is ``UD``; ``DWN`` is ``UD`` with the sign turned, which the history says. The header has a date but no time:
+    `start` is None, and ``metadata["event"]`` tells which files belong together.
+    """
+    lines = decode(blob).split("\n")
+    clock, count, dt = _clock(blob.name, lines)
+    header = " ".join(lines[:clock])
+    stated = re.search(r"UNITS?\s*(?:OF|:|=)\s*([A-Za-z/0-9^]+)", header, re.IGNORECASE)
+    if stated and stated[1].upper() not in ("G", "G'S", "GS"):
+        raise RecordFormatError(f"{blob.name}: an AT2 file is in g, but its header says {stated[1]!r}: expected an acceleration in g")
+    values = _values(blob.name, lines[clock + 1 :], clock + 2)
+    if values.size != count:
+        raise RecordFormatError(f"{blob.name}: its header promises {count} samples (NPTS), it holds {values.size}: it is cut or damaged")
+    event, station, direction = _title(lines[1] if clock > 1 else "", blob.basename)
+    code, azimuth, sign = orientation(direction)
+    metadata: dict[str, object] = {"unit": "g", "event": event or blob.basename, "direction": direction}
+    history = (f"turned the sign of {direction}, which is positive down, to UD, positive up",) if sign < 0 else ()
+    component = Component(code, sign * values * STANDARD_GRAVITY, azimuth)
+    return Record((component,), dt, station=station, source=blob.name, format=FORMAT, history=history, metadata=metadata)
+
+
+def orientation(direction: str) -> tuple[str, float | None, float]:
+    """Return code, azimuth in degrees clockwise from north, and sign, of a direction as PEER writes it.
+
+    Examples
+    --------
+    >>> orientation("360"), orientation("090"), orientation("164"), orientation("DWN"), orientation("N21E")
+    (('NS', 0.0, 1.0), ('EW', 90.0, 1.0), ('164', 164.0, 1.0), ('UD', None, -1.0), ('21', 21.0, 1.0))
+    """
+    text = re.sub(r"[\s.]", "", direction.upper())
+    if text in _UP:
+        return "UD", None, 1.0
+    if text in _DOWN:
+        return "UD", None, -1.0
+    quadrant = re.fullmatch(r"([NS])(\d{1,2})([EW])", text)
+    if quadrant:
+        angle = float(quadrant[2])
+        azimuth = {"NE": angle, "SE": 180.0 - angle, "SW": 180.0 + angle, "NW": 360.0 - angle}[quadrant[1] + quadrant[3]]
+    elif text in _POINTS:
+        azimuth = _POINTS[text]
+    elif re.fullmatch(r"\d{1,3}", text) and float(text) <= 360.0:
+        azimuth = float(text)
+    else:
+        return text or "H1", None, 1.0
+    azimuth %= 360.0
+    return {0.0: "NS", 90.0: "EW"}.get(azimuth, f"{azimuth:g}"), azimuth, 1.0
+
+
+def set_name(basename: str) -> tuple[str, str] | None:
+    """Return a file name without the direction, and the direction, or None when it holds none.
+
+    Examples
+    --------
+    >>> set_name("RSN1690_NORTH151_SYL360-hor2.AT2"), set_name("I-ELC-UP.AT2"), set_name("elcentro.at2")
+    (('RSN1690_NORTH151_SYL', '360'), ('I-ELC', 'UP'), None)
+    """
+    match = _NAME.match(re.sub(r"\.at2\Z", "", basename, flags=re.IGNORECASE))
+    if match is None or not match["base"]:
+        return None
+    return match["base"].rstrip("-_ "), match["direction"]
+
+
+def _clock(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
+    """Return the index of the line with NPTS and DT, and both."""
+    for index, line in enumerate(lines[:_HEADER_LINES]):
+        old = _OLD.match(line)
+        count, interval = (old[1], old[2]) if old else ((_COUNT.search(line) or [""] * 2)[1], (_INTERVAL.search(line) or [""] * 2)[1])
+        if count and interval:
+            dt = number(interval)
+            if not dt or dt < 0:
+                fail(name, index + 1, f"expected a sampling interval DT above 0, found {interval!r}")
+            return index, int(count), dt
+    raise RecordFormatError(f"{name}: the AT2 header is cut short: no line with NPTS= and DT= among the first {_HEADER_LINES}")
+
+
+def _values(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
+    """Return the samples, g, row after row."""
+    tokens = " ".join(lines).split()
+    if not tokens:
+        raise RecordFormatError(f"{name} ends after its header (line {first_line - 1}): there are no samples in it")
+    try:
+        values = np.fromiter(map(float, tokens), dtype=np.float64, count=len(tokens))
+    except ValueError:
+        values = np.full(1, np.nan)
+    if not np.isfinite(values).all():
+        for offset, line in enumerate(lines):
+            for cell in line.split():
+                value = number(cell)
+                if value is None or not np.isfinite(value):
+                    fail(name, first_line + offset, f"expected accelerations in g, found {cell!r}")
+    return values
+
+
+def _title(line: str, basename: str) -> tuple[str, str, str]:
+    """Return event, station and direction from the header's second line, the direction else from the file's name."""
+    fields = [field.strip() for field in line.split(",")]
+    named = set_name(basename)
+    if len(fields) >= 4:
+        return ", ".join(fields[:2]), ", ".join(fields[2:-1]), fields[-1]
+    if len(fields) == 3 and orientation(fields[-1])[1:] != (None, 1.0):
+        return fields[0], fields[1], fields[2]
+    return line.strip(), named[0] if named else "", named[1] if named else ""

