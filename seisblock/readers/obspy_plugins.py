@@ -1,7 +1,8 @@
 """JMA CSV, K-NET CSV and AT2 as waveform formats of obspy, by entry points, in anyone's script.
 
-Samples of these streams are accelerations in m/s^2 and ``stats.calib`` is 1; obspy's own K-NET reader gives counts and a ``calib`` to m/s^2, so
-that ``data * calib`` is in m/s^2 for all of them. What else the header says stands under ``stats.jmacsv``, ``stats.knetcsv`` and ``stats.at2``.
+Samples of these streams are accelerations in m/s^2 and ``stats.calib`` is 1; obspy's own K-NET reader gives counts and a ``calib`` to
+m/s^2, so that ``data * calib`` is in m/s^2 for all of them. What else the header says stands under ``stats.jmacsv``, ``stats.knetcsv``
+and ``stats.at2``.
 """
 
 from __future__ import annotations
@@ -102,9 +103,9 @@ def _stream(records: Sequence[Record], key: str) -> Any:
         sensor = {"borehole": "1", "surface": "2"}.get(str(record.metadata.get("level", "")), "")
         told = {k: UTCDateTime(v) if k == "origin_time" else v for k, v in record.metadata.items() if k != "unit"}
         for component in record.components:
-            header = {"station": record.station, "channel": component.code + sensor, "delta": record.dt, key: {**told, "unit": "m/s2"}}
-            if component.azimuth_deg is not None:
-                header[key]["azimuth_deg"] = component.azimuth_deg
+            direction = {} if component.azimuth_deg is None else {"azimuth_deg": component.azimuth_deg}
+            header: dict[str, Any] = {"station": record.station, "channel": component.code + sensor, "delta": record.dt}
+            header[key] = {**told, **direction, "unit": "m/s2"}
             if record.start is not None:
                 header["starttime"] = UTCDateTime(record.start)
             traces.append(Trace(component.acceleration.copy(), header=header))

@@ -14,8 +14,8 @@ JMA_HEADER = (
 JMA_BODY = "-0.018,0.000,-0.017\r\n0.306,-12.345,1.001\r\n306.21,0.5,-7.100\r\n"
 
 KOBE = (
-    "SITE CODE= 193,,,,,\r\n LAT.=    34.6967,,,,,\r\n LON.=    135.2100,,,,,\r\n SAMPLING RATE= 50Hz,,,,,,,\r\n UNIT  = gal(cm/s/s),,,,,,,\r\n"
-    "INITIAL TIME = 95 01 17 05 47 31,,,,,\r\n NS,EW,UD,,,,,\r\n0,0.03,0,,,,,\r\n-1.5,2.25,3,,,,,\r\n"
+    "SITE CODE= 193,,,,,\r\n LAT.=    34.6967,,,,,\r\n LON.=    135.2100,,,,,\r\n SAMPLING RATE= 50Hz,,,,,,,\r\n"
+    " UNIT  = gal(cm/s/s),,,,,,,\r\nINITIAL TIME = 95 01 17 05 47 31,,,,,\r\n NS,EW,UD,,,,,\r\n0,0.03,0,,,,,\r\n-1.5,2.25,3,,,,,\r\n"
 )
 
 

@@ -92,7 +92,7 @@ def test_the_surface_is_the_default_of_kik_net_and_the_history_says_so(tmp_path)
 def test_labels_of_the_official_page_and_empty_fields_are_accepted(tmp_path):
     """``Station Lon.`` and ``Max Acc. (gal)`` are read as well, an empty correction raises no IndexError."""
     text = knet().replace("Station Long.     ", "Station Lon.      ").replace("Max. Acc. (gal)   ", "Max Acc. (gal)    ")
-    text = text.replace("Last Correction   2004/10/23 17:56:00", "Last Correction   ").replace("Mag.              6.8", "Mag.              ")
+    text = text.replace("Last Correction   2004/10/23 17:56:00", "Last Correction   ").replace("Mag.".ljust(18) + "6.8", "Mag.")
     path = tmp_path / "a.NS"
     path.write_text(text)
     record = read(path)

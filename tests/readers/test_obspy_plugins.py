@@ -77,7 +77,7 @@ def test_streams_hold_m_s2_and_the_header(tmp_path, kind):
 
 
 def test_the_entry_points_name_functions_that_exist():
-    """pyproject declares the plugins; each name can be imported."""
+    """The plugins that pyproject declares exist: each name can be imported."""
     project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]["entry-points"]
     for name in project["obspy.plugin.waveform"]:
         for target in project[f"obspy.plugin.waveform.{name}"].values():

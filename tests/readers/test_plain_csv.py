@@ -64,7 +64,7 @@ def test_decimal_commas_after_semicolons(table):
 
 
 def test_a_header_in_a_comment_counts(table):
-    """pyslammer writes its header behind #: names and units are taken from there."""
+    """As pyslammer writes its header behind #: names and units are taken from there."""
     record = read(table("\ufeff# Time Series: somewhere\n# Time (s),Acceleration (g's)\n0.0,4.6e-4\n0.005,2e-4\n"))
     assert record.codes == ("ACC",)
     assert record.dt == 0.005
