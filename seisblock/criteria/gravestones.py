@@ -71,7 +71,7 @@ def overturning_level(frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> Float
     Examples
     --------
     >>> float(overturning_level(2.0).round(4))
-    12.2789
+    12.2817
     """
     f = _checked(frequency, "frequency", "Hz", zero=True)
     return fit.p_m_s2 * np.sqrt(1.0 + (f / fit.q_hz) ** fit.r)
