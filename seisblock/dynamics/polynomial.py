@@ -105,9 +105,9 @@ def _root_between(c, degree, high):
 def first_crossing(g, degree, h, q, d):
     """Return the first time in [0, h] from which a polynomial is negative, or NEVER.
 
-    A zero that is only touched is no crossing, and leading coefficients that are round-off are zeros: a guard
-    that a reset has just left at zero is judged by the first term that means something, which is the half-open
-    rule (t0, t0 + h]. Zero is returned when the polynomial is negative, or becomes negative, at once.
+    A zero that is only touched, or passed by less than round-off, is no crossing. A guard that a reset has just left at
+    zero is therefore judged by where it goes, which is the half-open rule (t0, t0 + h]. Zero is returned when the
+    polynomial is negative at once; the answer is zero but for round-off when it becomes negative at once.
 
     Parameters
     ----------
@@ -136,12 +136,16 @@ def first_crossing(g, degree, h, q, d):
         power *= h
     if lead > degree:
         return NEVER
-    if g[lead] < 0.0:
+    if g[0] < -noise:
         return 0.0
+    if g[lead] < 0.0:
+        # it may dip by less than round-off and come back, so nothing is divided out
+        lead = 0
+        power = 1.0
     n = degree - lead
     for k in range(n + 1):
         q[k] = g[lead + k]
-    # what is left is positive at zero: march over [0, h], halving where the bounds cannot tell
+    # march over [0, h], halving where the bounds cannot tell
     noise = ROUND_OFF * total / power
     start = 0.0
     width = h
@@ -150,7 +154,7 @@ def first_crossing(g, degree, h, q, d):
         if lower_bound(q, n, width) <= -noise:
             for k in range(n):
                 d[k] = -(k + 1) * q[k + 1]
-            monotone = n > 0 and lower_bound(d, n - 1, width) > 0.0
+            monotone = n > 0 and lower_bound(d, n - 1, width) >= 0.0
             if not monotone and width > smallest:
                 width *= 0.5
                 continue

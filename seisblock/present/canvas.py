@@ -64,7 +64,7 @@ def label(axis: Axes, x: str = "", y: str = "") -> None:
 def curve(axis: Axes, time: FloatArray, values: FloatArray, *, longest_gap: float | None = None, **style: Any) -> None:
     """Draw a curve with every peak in it, however long it is; it is broken where two points are further apart than `longest_gap`."""
     if longest_gap is not None:
-        after = np.flatnonzero(np.diff(time) > longest_gap) + 1
+        after = np.flatnonzero(np.abs(np.diff(time)) > longest_gap) + 1
         time, values = np.insert(time, after, np.nan), np.insert(values, after, np.nan)
     axis.plot(*thin(time, values), **{"linewidth": 0.9, **style})
 
@@ -105,9 +105,10 @@ def threshold(axis: Axes, levels: Sequence[float], text: str = "") -> None:
 
 
 def legend(axis: Axes, **placement: Any) -> None:
-    """Add a small legend when there is something to name."""
+    """Add a small legend above the panel, where it hides nothing, when there is something to name."""
     if axis.get_legend_handles_labels()[0]:
-        axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", ncols=4, **{"loc": "upper right", **placement})
+        where = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.99), "borderaxespad": 0.0, **placement}
+        axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", ncols=5, **where)
 
 
 def save(figure: Figure, path: Path | str) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 
 from seisblock._jit import kernel
 from seisblock.bodies.two_layer import TwoLayerBlock
-from seisblock.dynamics.hybrid import CONSTANT, RESET, SERIES
+from seisblock.dynamics.hybrid import CONSTANT, RESET, SERIES, SKIP
 from seisblock.dynamics.model import Model
 from seisblock.typing import FloatArray
 
@@ -61,6 +61,17 @@ def rocking_series(mode, y, f, p, order, c, g):
     return order
 
 
+@kernel(SKIP)
+def rocking_skip(mode, acceleration, gains, sample, p):
+    """Pass over the samples at which a resting block feels less than its threshold."""
+    if mode != REST:
+        return sample
+    last = acceleration.shape[1] - 1
+    while sample < last and -p[THRESHOLD_BACKWARD] < gains[0] * acceleration[0, sample + 1] < p[THRESHOLD_FORWARD]:
+        sample += 1
+    return sample
+
+
 @kernel(RESET)
 def rocking_reset(mode, guard, y, f, p):
     """End the search for the onset, or the rocking."""
@@ -75,7 +86,7 @@ def rocking_reset(mode, guard, y, f, p):
 ROCKING = Model(
     "jump (rocking)", rocking_series, rocking_reset,
     states=("theta", "omega"), guards=("onset or impact", "onset or overturning"),
-    modes=("rest", "rocking", "overturned", "impact", "rose backward", "rose forward"), scratch=2, tracked=1,
+    modes=("rest", "rocking", "overturned", "impact", "rose backward", "rose forward"), scratch=2, tracked=1, skip=rocking_skip,
 )  # fmt: skip
 
 

@@ -7,6 +7,7 @@ import importlib
 from seisblock.validation.case import CONVERGED, EXACT, Case, CaseResult
 
 PAPERS: tuple[str, ...] = (
+    "sugimoto",
     "okumura",
 )
 """Modules of this package that export CASES."""

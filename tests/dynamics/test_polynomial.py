@@ -42,14 +42,17 @@ def test_triple_root_is_an_event():
 def test_zero_at_start_is_judged_by_the_next_term():
     """The half-open rule: zero and rising is admissible, zero and falling fires at once."""
     assert crossing([0.0, 1.0, -0.5]) == NEVER
-    assert crossing([0.0, -1.0]) == 0.0
+    assert crossing([-1e-3, 2.0]) == 0.0
+    assert crossing([0.0, -1.0]) == pytest.approx(0.0, abs=1e-15)
     assert crossing([0.0, 0.0, 1.0]) == NEVER
-    assert crossing([0.0, 0.0, -1.0]) == 0.0
+    assert crossing([0.0, 0.0, -1.0]) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_round_off_at_start_is_zero():
     """A coefficient that is round-off beside the others does not decide."""
     assert crossing([1e-18, -1e-17, 1.0]) == NEVER
+    assert crossing([0.0, 0.0, -2e-16, 2.5], 1e-3) == NEVER
+    assert crossing([0.0, -1e-15, 30.0, -3.0], 1e-2) == NEVER
 
 
 def test_crossing_at_the_very_end_is_inside():

@@ -1,0 +1,46 @@
+"""What one sample of the jump costs, on one core: rest, rocking and flight."""
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.dynamics import follow
+from seisblock.records import Motion
+from seisblock.solvers import jump_flight as flying
+from seisblock.solvers import jump_rocking as rocking
+
+N = 50_000
+BLOCK = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
+QUIET = Motion.from_arrays(np.sin(np.arange(N)), 0.01)
+
+
+def parameters(**changed):
+    p = rocking.rocking_parameters(BLOCK, 9.8, "both")
+    for index, factor in changed.items():
+        p[getattr(rocking, index)] *= factor
+    return p
+
+
+def flight():
+    p = flying.flight_parameters(BLOCK, 1e-9, 0.2, 0.2, 0.3, QUIET.dt)
+    return follow(flying.FLYING, QUIET, p, [0.0, 1e-9, 0.0, 0.0, 1.0, 1.0], flying.FLIGHT, keep_path=False)
+
+
+def rest():
+    return follow(rocking.ROCKING, QUIET, parameters(), [0.0, 0.0], rocking.REST, keep_path=False)
+
+
+def rocks():
+    # gravity and push scaled down so that one swing lasts the whole record
+    return follow(rocking.ROCKING, QUIET, parameters(PUSH=1e-4, WEIGHT=1e-9), [0.2, 0.0], rocking.ROCK, keep_path=False)
+
+
+MODES = {"rest": (rest, rocking.REST), "rocking": (rocks, rocking.ROCK), "flight": (flight, flying.FLIGHT)}
+
+
+@pytest.mark.parametrize(("run", "mode"), MODES.values(), ids=MODES)
+def test_cost_per_sample(benchmark, run, mode):
+    """The whole motion is spent in one mode; the cost per sample is in extra_info."""
+    assert run().final_mode == mode
+    benchmark(run)
+    benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / N * 1e9
