@@ -11,7 +11,7 @@ from seisblock.solvers import jump_rocking as rocking
 
 N = 50_000
 BLOCK = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
-QUIET = Motion.from_arrays(np.sin(np.arange(N)), 0.01)
+QUIET = Motion.from_arrays(np.sin(0.1 * np.arange(N)), 0.01)
 
 
 def parameters(**changed):
