@@ -8,11 +8,30 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from seisblock.errors import ParameterError
-from seisblock.typing import ArrayLike, FloatArray
+from seisblock.typing import ArrayLike, BoolArray, FloatArray
+from seisblock.units import GAL
+
+FITTED_RATIO = (1.25, 6.5)
+"""H/B of the stones behind the fit ([Furukawa2009]_ table 1)."""
+
+FITTED_PGA = (1.0, 13.0)
+"""Amplitudes of the sines behind the fit, m/s^2 ([Furukawa2009]_ section 3(3)a)."""
+
+FITTED_FREQUENCY = (0.5, 3.0)
+"""Frequencies of the sines behind the fit, Hz ([Furukawa2009]_ section 3(3)a)."""
+
+ON_THE_LINE = 0.1
+"""A stone whose H/B is within this of the threshold is judged to stand on the line ([Furukawa2009]_ table 5)."""
+
+ROUND_OFF = 1e-9
+"""Relative slack at the ends of these ranges: 2.6 - 2.5 is not 0.1 to the last bit."""
+
+Judgement = Literal["stands", "on the line", "overturns"]
 
 
 @dataclass(frozen=True)
@@ -51,7 +70,10 @@ PLAIN = GravestoneFit(8.268, 1.92, 4.6, "plain")
 """Stones that only stand on each other ([Furukawa2009]_ eq. (9))."""
 
 DOWELLED = GravestoneFit(11.629, 1.84, 4.5, "dowelled")
-"""Upper stone and its base joined by a dowel ([Furukawa2009]_ eq. (10); the text gives q = 1.85, at most 1.1 % apart)."""
+"""Upper stone and its base joined by a loose dowel; H/B is still that of the upper stone ([Furukawa2009]_ eq. (10)).
+
+The text before (10) gives q = 1.85, at most 1.1 % apart. Differs: the two verdicts of table 5 on the dowelled stone at 6-upper cannot
+come from p = 1162.9 gal; they need 1342 to 1409 gal, and 1362.9 (one digit) would do. The printed value stands here."""
 
 
 def overturning_level(frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> FloatArray:
@@ -103,6 +125,47 @@ def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit =
     level = _checked(pga, "PGA", "m/s^2") * _checked(ratio, "height over width", "1")
     surplus = (level / fit.p_m_s2) ** 2 - 1.0
     return np.where(surplus >= 0.0, fit.q_hz * np.maximum(surplus, 0.0) ** (1.0 / fit.r), np.nan)
+
+
+def judge(ratio: float, threshold: float) -> Judgement:
+    """Return the verdict on a stone of a given H/B: on the line within 0.1 of the threshold ([Furukawa2009]_ table 5).
+
+    Examples
+    --------
+    >>> judge(2.6, 2.5), judge(2.6, 2.4), judge(2.6, 2.75)
+    ('on the line', 'overturns', 'stands')
+    """
+    if abs(threshold - ratio) <= ON_THE_LINE * (1.0 + ROUND_OFF):
+        return "on the line"
+    return "overturns" if ratio > threshold else "stands"
+
+
+def outside_fit(pga: float, frequency: float, ratios: ArrayLike = ()) -> tuple[str, ...]:
+    """Return what lies outside the range of the fit, a sentence each, none when all is inside ([Furukawa2009]_ section 3(3)).
+
+    Parameters
+    ----------
+    pga : float, m/s^2
+    frequency : float, Hz
+    ratios : array
+        H/B of the stones judged.
+    """
+    found = []
+    (low, high), stones = FITTED_PGA, np.asarray(ratios, dtype=np.float64)
+    if _outside(pga, FITTED_PGA).any():
+        found.append(f"a PGA of {pga / GAL:.4g} gal lies outside the range of the fit, {low / GAL:g} to {high / GAL:g} gal")
+    if _outside(frequency, FITTED_FREQUENCY).any():
+        found.append("a frequency of {:.3g} Hz lies outside the range of the fit, {:g} to {:g} Hz".format(frequency, *FITTED_FREQUENCY))
+    if count := int(np.count_nonzero(_outside(stones, FITTED_RATIO))):
+        found.append("{} of {} stones have H/B outside the range of the fit, {:g} to {:g}".format(count, stones.size, *FITTED_RATIO))
+    return tuple(found)
+
+
+def _outside(values: ArrayLike, between: tuple[float, float]) -> BoolArray:
+    """Return which values lie outside a range, round-off at its ends forgiven."""
+    array = np.asarray(values, dtype=np.float64)
+    outside: BoolArray = (array < between[0] * (1.0 - ROUND_OFF)) | (array > between[1] * (1.0 + ROUND_OFF))
+    return outside
 
 
 def _checked(values: ArrayLike, what: str, unit: str, *, zero: bool = False) -> FloatArray:

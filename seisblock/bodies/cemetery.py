@@ -1,0 +1,161 @@
+"""A cemetery: gravestones known by the proportions of their top stone (sao), and perhaps by what became of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from seisblock.errors import BodyError
+from seisblock.typing import BoolArray, FloatArray, IntArray
+from seisblock.units import SUN
+
+PAPER_WIDTH = 8 * SUN
+"""Width of a sao when none is known, m: that of the stones behind the criterion ([Furukawa2009]_ table 1)."""
+
+
+@dataclass(frozen=True)
+class Stone:
+    """One gravestone, or several alike.
+
+    Parameters
+    ----------
+    height_over_width : float
+        H/B of the sao, positive.
+    width : float or None, m
+        B, where it is known.
+    reinforced : bool
+        Whether a dowel joins sao and jodai.
+    fallen : bool or None
+        Whether it overturned; None where nobody says.
+    azimuth_deg : float or None
+        Which way it faces, degrees clockwise from north.
+    count : int
+        How many stones this stands for, positive.
+    line : int or None
+        Line of the file it was read from.
+
+    Raises
+    ------
+    BodyError
+        If the ratio, the width or the count is not positive.
+    """
+
+    height_over_width: float
+    width: float | None = None
+    reinforced: bool = False
+    fallen: bool | None = None
+    azimuth_deg: float | None = None
+    count: int = 1
+    line: int | None = None
+
+    def __post_init__(self) -> None:
+        for value, what in ((self.height_over_width, "height over width"), (self.width, "width"), (self.count, "count")):
+            if value is not None and not (math.isfinite(value) and value > 0):
+                raise BodyError(f"{what} of a gravestone must be positive, found {value:g}")
+        if self.azimuth_deg is not None and not math.isfinite(self.azimuth_deg):
+            raise BodyError(f"azimuth of a gravestone must be a finite number of degrees, found {self.azimuth_deg:g}")
+
+    @property
+    def height(self) -> float | None:
+        """Height H of the sao, m, where the width is known."""
+        return None if self.width is None else self.width * self.height_over_width
+
+
+@dataclass(frozen=True)
+class Cemetery:
+    """Gravestones of one place.
+
+    Parameters
+    ----------
+    stones : tuple of Stone
+        At least one.
+    name : str
+        For tables and figures.
+    source : str
+        File it was read from, empty when made in memory.
+    notes : tuple of str
+        Comments at the head of that file: where the numbers come from.
+
+    Raises
+    ------
+    BodyError
+        If there is no stone.
+
+    Examples
+    --------
+    >>> cemetery = Cemetery((Stone(2.0), Stone(3.0, count=3)))
+    >>> cemetery.size, cemetery.share_above(2.5)
+    (4, 0.75)
+    """
+
+    stones: tuple[Stone, ...]
+    name: str = "cemetery"
+    source: str = ""
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "stones", tuple(self.stones))
+        if not self.stones:
+            raise BodyError(f"{self.source or self.name}: there is no gravestone in it")
+
+    @property
+    def size(self) -> int:
+        """Number of stones, those of a row with a count each counted."""
+        return sum(stone.count for stone in self.stones)
+
+    @property
+    def ratios(self) -> FloatArray:
+        """H/B of each stone, (size,)."""
+        return np.repeat(np.array([stone.height_over_width for stone in self.stones]), self._counts)
+
+    @property
+    def reinforced(self) -> BoolArray:
+        """Which stones are reinforced, (size,)."""
+        return np.repeat(np.array([stone.reinforced for stone in self.stones]), self._counts)
+
+    def widths(self, default: float = PAPER_WIDTH) -> FloatArray:
+        """Width of each stone, (size,), m; `default` where it is not known."""
+        return np.repeat(np.array([default if stone.width is None else stone.width for stone in self.stones]), self._counts)
+
+    @property
+    def surveyed(self) -> bool:
+        """Whether it is known of some stone if it fell."""
+        return any(stone.fallen is not None for stone in self.stones)
+
+    def share_above(self, height_over_width: float) -> float:
+        """Return the share of stones whose H/B exceeds a value ([Furukawa2009]_ fig. 15)."""
+        return float(np.count_nonzero(self.ratios > height_over_width)) / self.size
+
+    def only(self, keep: Callable[[Stone], bool]) -> Cemetery:
+        """Return the cemetery of those stones for which `keep` is true."""
+        return replace(self, stones=tuple(stone for stone in self.stones if keep(stone)))
+
+    def dowelled(self, most_fragile: int | None = None) -> Cemetery:
+        """Return the cemetery with all stones reinforced, or with only so many more, the most slender first.
+
+        Parameters
+        ----------
+        most_fragile : int or None
+            How many stones get a dowel; those that have one keep it and do not count.
+        """
+        if most_fragile is None:
+            return replace(self, stones=tuple(replace(stone, reinforced=True) for stone in self.stones))
+        left, stones = most_fragile, list(self.stones)
+        for index in sorted(range(len(stones)), key=lambda i: -stones[i].height_over_width):
+            stone = stones[index]
+            if stone.reinforced or left <= 0:
+                continue
+            given = min(left, stone.count)
+            left -= given
+            stones[index] = replace(stone, reinforced=True, count=given)
+            if given < stone.count:
+                stones.append(replace(stone, count=stone.count - given))
+        return replace(self, stones=tuple(stones))
+
+    @property
+    def _counts(self) -> IntArray:
+        """Return how many stones each row stands for."""
+        return np.array([stone.count for stone in self.stones], dtype=np.int64)

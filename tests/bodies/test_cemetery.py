@@ -1,0 +1,151 @@
+"""A cemetery is read from the tables that survey teams write; what is wrong in one is named by its line."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.cemetery import Cemetery, Stone
+from seisblock.bodies.cemetery_csv import parse_cemetery, read_cemetery
+from seisblock.errors import BodyError
+from seisblock.readers import sample_path
+from tests import make_aoyama
+
+SURVEY = """\
+# 墓地の調査
+# 2024-01-01
+竿高さ（cm）,竿幅（cm）,補強,転倒,方位,個数
+62.4,24,無,転倒,90,1
+６３,24,有,残存,,2
+# 欠番
+50,25,,,,
+"""
+
+
+def test_columns_in_english_with_a_ratio():
+    """height_over_width is enough; the other columns are optional and unknown ones passed over."""
+    found = parse_cemetery("block,Height over width,fallen,count\nA,2.6,yes,\nB,3.1,0,4\n")
+    assert [s.height_over_width for s in found.stones] == [2.6, 3.1]
+    assert [s.fallen for s in found.stones] == [True, False]
+    assert (found.size, found.ratios.tolist()) == (5, [2.6, 3.1, 3.1, 3.1, 3.1])
+    assert [s.line for s in found.stones] == [2, 3]
+    assert found.surveyed
+
+
+def test_columns_in_japanese_with_sizes():
+    """Japanese headings, full-width digits and brackets, comments and empty cells."""
+    found = parse_cemetery(SURVEY)
+    assert found.ratios.tolist() == [2.6, 2.625, 2.625, 2.0]
+    assert [s.reinforced for s in found.stones] == [False, True, False]
+    assert [s.fallen for s in found.stones] == [True, False, None]
+    assert found.stones[0].azimuth_deg == 90.0
+    assert found.stones[0].width == 0.24
+    assert found.notes == ("墓地の調査", "2024-01-01")
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
+@pytest.mark.parametrize("ending", ["\n", "\r\n"])
+def test_encodings(tmp_path, encoding, ending):
+    """UTF-8 with and without a byte order mark, Shift-JIS and what Excel calls Unicode, with either line ending."""
+    path = tmp_path / "墓地.csv"
+    path.write_bytes(SURVEY.replace("\n", ending).encode(encoding))
+    assert read_cemetery(path).ratios.tolist() == [2.6, 2.625, 2.625, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("table", "height"),
+    [
+        ("height,width\n0.6,0.24\n", 0.6),
+        ("height (cm),width [cm]\n60,24\n", 0.6),
+        ("height_mm;width_mm\n600;240\n", 0.6),
+        ("height (sun)\twidth (sun)\n20\t8\n", 0.606),
+        ("高さ,幅\n60cm,8寸\n", 0.6),
+        ("H/B,B (m)\n2.5,0.24\n", 0.6),
+        ("H/B,高さ\n2.5,0.6\n", 0.6),
+    ],
+)
+def test_units(table, height):
+    """A unit stands in the heading or in the cell; a ratio with one size gives the other."""
+    assert parse_cemetery(table).stones[0].height == pytest.approx(height)
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        ("", "no gravestone in it"),
+        ("# only\n\n# comments\n", "no gravestone in it, only 3 empty lines and comments"),
+        ("height_over_width\n", "line 1: there is no gravestone below the header"),
+        ("height,fallen\n1,0\n", "line 1: expected a column height_over_width, or height and width; found height, fallen"),
+        ("2.5,1\n2.6,0\n", "line 1: expected a column height_over_width"),
+        ("H/B,height over width\n1,2\n", "line 1: two columns mean height_over_width"),
+        ("H/B\n2.5\n0\n", "line 3: height over width must be positive, found 0"),
+        ("H/B\n2.5\n-1\n2\n-2\nx\n", r"line 3: height over width must be positive, found -1 \(and 2 more bad rows: lines 5, 6\)"),
+        ("# c\nH/B\nnan\n", "line 3: height over width must be positive, found nan"),
+        ("H/B\ntall\n", "line 2: height_over_width must be a number, found 'tall'"),
+        ("H/B,fallen\n2.5,maybe\n", "line 2: fallen must be 0, 1, yes, no, 転倒 or 残存, found 'maybe'"),
+        ("H/B,reinforced\n2.5,steel\n", "line 2: reinforced must be 0, 1, yes or no, found 'steel'"),
+        ("H/B,count\n2.5,0\n", "line 2: count must be a whole number of stones, 1 to 100000, found 0"),
+        ("H/B,count\n2.5,1.5\n", "line 2: count must be a whole number"),
+        ("H/B,count\n2.5,inf\n", "line 2: count must be a whole number"),
+        ("H/B,azimuth\n2.5,NE\n", "line 2: azimuth_deg must be a number, found 'NE'"),
+        ("H/B,azimuth\n2.5,nan\n", "line 2: azimuth of a gravestone must be a finite number"),
+        ("height,width\n60,24\n", r"line 2: width of 24 m is no gravestone \(without a unit it means metres"),
+        ("height (cm),width (cm)\n60,\n", "line 2: there is neither height over width nor height and width: width empty"),
+        ("height (cm),width (cm)\n60,-24\n", "line 2: width must be positive, found -24"),
+        ("height (yards),width (cm)\n60,24\n", "line 2: height '60yards' has the unknown unit 'yards'"),
+        ("H/B,height (cm),width (cm)\n3,60,24\n", "line 2: height over width is 3, but height and width give 2.5"),
+        ("H/B\n2,6\n", "line 2: expected 1 cells as in the header, found 2"),
+    ],
+)
+def test_what_is_wrong_is_one_sentence_with_its_line(table, message):
+    """Empty tables, missing columns, sizes that are none, words that mean nothing."""
+    with pytest.raises(BodyError, match=message) as caught:
+        parse_cemetery(table, source="survey.csv")
+    assert str(caught.value).startswith("survey.csv")
+    assert "\n" not in str(caught.value)
+
+
+def test_files_that_are_none(tmp_path, monkeypatch):
+    """A missing file, a directory, a binary file and another bundled file are one sentence each."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "binary.csv").write_bytes(b"\x00\x01\x02")
+    (tmp_path / "latin.csv").write_bytes(b"h\xfcgel,H/B\n\xff\xff\x80,2\n")
+    for name, message in {
+        "nothing.csv": "no cemetery file nothing.csv, and no bundled cemetery of that name; bundled are aoyama.csv",
+        "synthetic_jma.csv": "no cemetery file synthetic_jma.csv",
+        str(tmp_path): "is a directory",
+        "binary.csv": "no table of text",
+        "latin.csv": "neither UTF-8 nor Shift-JIS",
+    }.items():
+        with pytest.raises(BodyError, match=message):
+            read_cemetery(name)
+
+
+def test_impossible_stones_are_refused():
+    """A stone or a cemetery made in memory is checked, too."""
+    with pytest.raises(BodyError, match="height over width of a gravestone must be positive"):
+        Stone(0.0)
+    with pytest.raises(BodyError, match="width of a gravestone must be positive"):
+        Stone(2.0, width=-1.0)
+    with pytest.raises(BodyError, match="there is no gravestone in it"):
+        Cemetery(())
+
+
+def test_aoyama_has_the_printed_shares_and_says_that_it_is_reconstructed():
+    """100 stones with the shares that [Furukawa2009]_ table 6 pins, inside the fitted range; also by its stem."""
+    aoyama = read_cemetery("aoyama")
+    assert aoyama.size == 100
+    for ratio, above in make_aoyama.PINNED.items():
+        for rounding in (-0.02, 0.0, 0.02):
+            assert aoyama.share_above(ratio + rounding) == above / 100
+    assert aoyama.ratios.min() >= 1.25
+    assert aoyama.ratios.max() <= 6.5
+    assert "RECONSTRUCTED" in aoyama.notes[0]
+    assert not aoyama.surveyed
+    assert not aoyama.reinforced.any()
+    assert np.all(aoyama.widths() < 0.31)
+
+
+def test_the_script_makes_aoyama_again():
+    """The script gives the bundled bytes."""
+    assert make_aoyama.make().encode() == sample_path("aoyama.csv").read_bytes()

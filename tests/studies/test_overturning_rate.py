@@ -1,0 +1,84 @@
+"""The share of a cemetery that falls ([Furukawa2009]_ section 4): rates, intervals, curves, dowels."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from seisblock.bodies.cemetery import Cemetery, Stone
+from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.criteria.gravestones import DOWELLED, PLAIN, overturning_ratio
+from seisblock.errors import ParameterError
+from seisblock.studies.overturning_rate import clopper_pearson, overturning_rate, overturns, rate_curve, remarks, stones_saved
+
+AOYAMA = read_cemetery("aoyama.csv")
+
+
+def test_the_rate_is_the_share_above_the_threshold():
+    """The rate counts the stones whose H/B exceeds (9), and (10) when they are reinforced."""
+    for pga, f in ((7.25, 2.75), (2.8, 1.65), (9.27, 1.31)):
+        assert overturning_rate(AOYAMA, pga, f).rate == AOYAMA.share_above(float(overturning_ratio(pga, f)))
+        dowelled = overturning_rate(AOYAMA.dowelled(), pga, f)
+        assert dowelled.rate == AOYAMA.share_above(float(overturning_ratio(pga, f, DOWELLED)))
+
+
+def test_stones_of_both_kinds_are_judged_each_by_its_own_criterion():
+    """A dowel keeps up the stone that falls without it."""
+    pair = Cemetery((Stone(3.0), Stone(3.0, reinforced=True, count=2)))
+    between = 0.5 * (PLAIN.p_m_s2 + DOWELLED.p_m_s2) / 3.0
+    assert overturns(pair, between, 0.0).tolist() == [True, False, False]
+
+
+def test_the_interval_is_clopper_and_pearsons():
+    """Each end is where the binomial tail holds half of what is left out; none and all have one-sided closed forms."""
+    from scipy.stats import binom
+
+    low, high = clopper_pearson(35, 100)
+    assert binom.sf(34, 100, low) == pytest.approx(0.025, rel=1e-9)
+    assert binom.cdf(35, 100, high) == pytest.approx(0.025, rel=1e-9)
+    assert clopper_pearson(0, 50) == (0.0, pytest.approx(1.0 - 0.025**0.02))
+    assert clopper_pearson(50, 50) == (pytest.approx(0.025**0.02), 1.0)
+
+
+def test_curves_agree_with_single_rates():
+    """Each point of a curve is the rate at its PGA and frequency."""
+    for point in rate_curve(AOYAMA, [1.0, 4.0, 7.25, 13.0], [0.5, 2.75]):
+        assert point.rate == overturning_rate(AOYAMA, point.pga_m_s2, point.frequency_hz).rate
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.floats(0.5, 20.0), st.floats(0.0, 5.0), st.floats(1.0, 2.0))
+def test_rates_climb_with_pga_and_fall_with_frequency_and_dowels(pga, f, factor):
+    """More acceleration never saves a stone; a higher frequency or a dowel never overturns one."""
+    rate = overturning_rate(AOYAMA, pga, f).rate
+    assert overturning_rate(AOYAMA, pga * factor, f).rate >= rate
+    assert overturning_rate(AOYAMA, pga, f * factor).rate <= rate
+    assert overturning_rate(AOYAMA.dowelled(), pga, f).rate <= rate
+
+
+def test_dowels_for_the_most_slender_stones():
+    """Reinforcing k stones takes the most slender first, splits rows that stand for several, and skips those that have a dowel."""
+    mixed = Cemetery((Stone(2.0, count=3), Stone(4.0, count=2), Stone(5.0, reinforced=True)))
+    after = mixed.dowelled(3)
+    assert after.size == 6
+    assert sorted(after.ratios[after.reinforced]) == [2.0, 4.0, 4.0, 5.0]
+    assert stones_saved(mixed, 2.5, 1.0, most_fragile=1) == 1
+    assert stones_saved(mixed, 2.5, 1.0) == 2
+    assert stones_saved(AOYAMA, 7.25, 2.75) == 35 - 8
+    np.testing.assert_array_equal(AOYAMA.dowelled(0).ratios, AOYAMA.ratios)
+
+
+def test_what_the_user_should_know_is_said():
+    """A PGA in m/s^2 where gal is meant, and a frequency outside the fit."""
+    assert "gal is meant" in remarks(AOYAMA, 0.055, 2.0)[0]
+    assert "4.5 Hz" in remarks(AOYAMA, 5.0, 4.5)[0]
+    assert remarks(AOYAMA, 5.0, 2.0) == ()
+
+
+@pytest.mark.parametrize(("fallen", "stones", "level"), [(3, 2, 0.9), (-1, 2, 0.9), (0, 0, 0.9), (1, 2, 1.0)])
+def test_impossible_counts_are_refused(fallen, stones, level):
+    """Counts that make no rate, and a level outside (0, 1), are one sentence."""
+    with pytest.raises(ParameterError, match=r"a rate needs|the confidence must"):
+        clopper_pearson(fallen, stones, level)
