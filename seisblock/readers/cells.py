@@ -61,6 +61,8 @@ def columns_of(
     table = _fast(lines, columns, separator) if _is_even(lines, separator) else None
     if table is None or not np.isfinite(table).all():
         table = _careful(name, lines, first_line, columns, width, separator)
+    if not table.size:
+        raise RecordFormatError(f"{name}: the lines after its header (line {first_line - 1}) hold no samples")
     return np.ascontiguousarray(table.T)
 
 

@@ -45,7 +45,7 @@ def read_jma_csv(blob: Blob) -> Record:
     start = _start(blob.name, header)
     rows = columns_of(blob.name, lines[last + 1 :], last + 2, columns, len(names))
     components = tuple(Component(code, to_si(row, unit)) for code, row in zip(columns, rows, strict=True))
-    station, metadata = _site(header["SITE CODE"][1])
+    station, metadata = _site(_value(blob.name, header, "SITE CODE")[1])
     for key, label in (("LAT.", "station_latitude_deg"), ("LON.", "station_longitude_deg")):
         value = number(header[key][1].split(",")[0]) if key in header else None
         if value:  # 0.0000 means unknown
@@ -120,7 +120,7 @@ def _site(text: str) -> tuple[str, dict[str, object]]:
     labels = ("event_latitude_deg", "event_longitude_deg", "event_depth_km", "magnitude")
     if len(numbers) >= 4 and any(numbers[:4]):
         metadata.update({label: value for label, value in zip(labels, numbers, strict=False) if value is not None})
-    if len(numbers) >= 5 and numbers[4]:
+    if len(numbers) >= 5 and numbers[4] and 0.0 < numbers[4] < 1e5:
         # an Excel serial day, JST
         metadata["origin_time"] = datetime(1899, 12, 30, tzinfo=UTC) + timedelta(days=numbers[4]) - JST
     if len(numbers) >= 7 and numbers[5] and numbers[6]:

