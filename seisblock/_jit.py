@@ -25,8 +25,9 @@ def _source_digest() -> str:
     A cached kernel that calls a kernel of another file is not invalidated by numba when that other
     file changes; a cache directory named after all kernel sources is never stale.
     """
-    digest = hashlib.sha256(sys.version.encode())
     root = Path(__file__).parent
+    # numba keys its entries by the path of the source: two installations do not share them
+    digest = hashlib.sha256(f"{sys.version} {root}".encode())
     for folder in ("dynamics", "measures", "solvers"):
         for path in sorted((root / folder).rglob("*.py")):
             digest.update(path.read_bytes())
