@@ -1,0 +1,94 @@
+"""``seisblock rock``: does a block rock, does it overturn, and how close was it."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import Any
+
+import click
+
+from seisblock.cli.body import block_options, rocking_options
+from seisblock.cli.command import Command, option
+from seisblock.cli.emit import emit, response_answer
+from seisblock.cli.inputs import load, motions
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.talk import say
+
+
+@click.command(
+    cls=Command,
+    examples=(
+        "seisblock rock --width 24cm --height 72cm",
+        "seisblock rock record.csv --block gravestone --component EW --vertical --margin --plot rock.png",
+    ),
+)
+@record_options
+@block_options
+@rocking_options
+@option("--margin", is_flag=True, help="Find every factor on the record at which the verdict changes.")
+@option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest factor of that search, 1.")
+@option("--perturb", type=click.IntRange(min=1), metavar="N", help="Repeat N times with small changes: probability of overturning.")
+@option("--spread", type=float, default=0.05, show_default=True,
+        help="Half width of those changes, a share of size, slenderness, restitution and amplitude; the azimuth turns by 5 deg.")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of those changes.")
+@gravity_option
+@output_options
+def rock(source: Source, output: Output, gravity: float, restitution: float | None, linear: bool, vertical: bool,
+         azimuth: tuple[str, ...], margin: bool, margin_limit: float, perturb: int | None, spread: float, seed: int,
+         **body: Any) -> None:
+    """Rocking and overturning of one rigid block about its two lower corners (Housner 1963).
+
+    Each horizontal component is solved by itself. Rotation is positive when the block leans to the component's positive
+    direction. After the record's end the fate is decided by energy.
+    """
+    from seisblock.bodies.library import choose_block
+    from seisblock.present import rock as shown
+    from seisblock.solvers.rock import solve_rock
+    from seisblock.studies.margin import find_margin, flips_nearby
+    from seisblock.studies.perturb import Spread
+    from seisblock.studies.perturb import perturb as perturbed
+
+    chosen = choose_block({**body, "restitution": restitution})
+    say(f"body: {chosen.says}")
+    options = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
+    source = along(source, azimuth)
+    responses, extras = [], []
+    for motion in (motion for record in load(source) for motion in motions(record, source)):
+        response = solve_rock(motion, chosen.block, **options)
+        flips = flips_nearby(motion, chosen.block, **options)
+        responses.append(replace(response, outcome=replace(response.outcome, verdict_flips_within_2_percent=flips)))
+        extra: dict[str, Any] = {}
+        if margin:
+            extra["margin"] = find_margin(motion, chosen.block, limit=margin_limit, **options)
+        if perturb is not None:
+            widths = Spread(spread, spread, spread, spread)
+            extra["perturbation"] = perturbed(motion, chosen.block, perturb, spread=widths, seed=seed, **options)
+        extras.append(extra)
+    parameters = {**responses[0].options, "block": chosen.block, "margin_limit": margin_limit if margin else None}
+    answer = response_answer("rock", responses, parameters)
+    for result, extra in zip(answer.results, extras, strict=True):
+        result.update({key: asdict(value) for key, value in extra.items()})  # type: ignore[attr-defined]
+
+    def animation(path: Path) -> None:
+        from seisblock.present.rock_animation import animate_rocking
+
+        animate_rocking(responses[0], path)
+
+    emit(
+        answer, output, responses=responses, tables=lambda: shown.tables(responses, extras, gal=output.gal),
+        figure=lambda: shown.figure(responses, gal=output.gal), animation=animation,
+    )  # fmt: skip
+
+
+def along(source: Source, azimuth: tuple[str, ...]) -> Source:
+    """Return the record options with azimuths taken for components."""
+    if not azimuth:
+        return source
+    names = tuple(part.strip() for text in azimuth for part in text.split(",") if part.strip())
+    for name in names:
+        try:
+            float(name)
+        except ValueError:
+            raise click.BadParameter(f"{name!r} is not a number of degrees clockwise from north", param_hint="--azimuth") from None
+    return replace(source, component=(*source.component, *names))

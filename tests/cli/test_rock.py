@@ -1,0 +1,157 @@
+"""``seisblock rock`` tells whether a block overturns, and how close it was, in a table, a document, a file and a figure."""
+
+import csv
+import json
+import math
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+
+KEYS = {
+    "component", "rocks", "rocking_start_s", "max_rotation_rad", "max_rotation_ratio", "impacts", "overturned", "overturning_time_s",
+    "alpha_passed_s", "decided_after_record", "slenderness_rad", "frequency_parameter_rad_s", "restitution", "threshold_m_s2",
+    "max_friction_demand", "max_friction_demand_s", "contact_lost", "contact_lost_s", "verdict_flips_within_2_percent",
+}  # fmt: skip
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Return a function that runs the command in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "100")
+    return lambda *words: CliRunner().invoke(main, ["rock", *map(str, words)])
+
+
+@pytest.fixture
+def pulse(tmp_path):
+    """A half sine of 500 gal and 1 s to the north, nothing to the east, 20 s."""
+    t = np.arange(2001) * 0.01
+    north = np.where(t <= 1, 500 * np.sin(np.pi * t), 0.0)
+    path = tmp_path / "pulse.csv"
+    rows = np.column_stack([t, north, 0 * t, 0 * t])
+    np.savetxt(path, rows, delimiter=",", header="time,NS (gal),EW (gal),UD (gal)", comments="", fmt="%.17g")
+    return path
+
+
+def test_document(run, pulse):
+    """One result per component with the keys everyone relies on; north overturns to -x, east stands still."""
+    found = json.loads(run(pulse, "--width", "24cm", "--height", "80cm", "--json").stdout)
+    assert found["schema"] == "seisblock/rock/1"
+    north, east = found["results"]
+    assert set(north) >= KEYS
+    assert (north["component"], east["component"]) == ("NS", "EW")
+    assert north["overturned"] is True
+    assert north["overturned_towards"] == "-x"
+    start = math.asin(980.665 * 0.3 / 500) / math.pi
+    assert north["rocking_start_s"] == pytest.approx(start, abs=2e-5)
+    assert north["rocking_start_s"] < north["alpha_passed_s"] < north["overturning_time_s"] < 2
+    assert north["max_rotation_rad"] == pytest.approx(math.pi / 2)
+    assert north["restitution"] == pytest.approx(1 - 1.5 * math.sin(math.atan(0.3)) ** 2)
+    assert east["rocks"] is east["overturned"] is False
+    assert east["rocking_start_s"] is east["overturning_time_s"] is None
+    assert east["impacts"] == 0
+    assert "Housner1963" in found["citations"]
+
+
+def test_sizes_in_sun_and_bundled_body_agree(run, pulse):
+    """8 sun by 20.8 sun is the bundled gravestone."""
+    sizes = json.loads(run(pulse, "--width", "8sun", "--height", "20.8sun", "--json").stdout)
+    named = json.loads(run(pulse, "--block", "gravestone", "--json").stdout)
+    assert sizes["results"] == named["results"]
+    assert named["parameters"]["block"]["width"] == pytest.approx(0.2424)
+
+
+def test_two_layer_body_rocks_as_one(run, pulse):
+    """The Chozu-sha as one rigid block rocks above g x_G/y_G."""
+    centroid = (1303.7 * (1.84 + 0.53) + 160.0 * 0.92) / 1463.7
+    found = json.loads(run(pulse, "--block", "chozusha", "--component", "NS", "--json").stdout)
+    assert found["results"][0]["threshold_m_s2"] == pytest.approx(9.80665 * 1.04 / centroid, rel=1e-12)
+
+
+def test_body_file(run, pulse, tmp_path):
+    """A TOML body gives sizes with units, an offset centre and its restitution."""
+    (tmp_path / "statue.toml").write_text(
+        'kind = "block"\nname = "statue"\nwidth = "40cm"\nheight = 1.6\n'
+        'centroid_height = "70cm"\ncentroid_offset = 0.05\nrestitution = 0.7\n'
+    )
+    found = json.loads(run(pulse, "--block", "statue.toml", "--component", "NS", "--json").stdout)["results"][0]
+    assert found["restitution"] == 0.7
+    assert found["threshold_m_s2"] == pytest.approx(9.80665 * 0.15 / 0.7)
+
+
+def test_azimuth_is_a_component(run, pulse):
+    """--azimuth 0 is north; 180 is its mirror image."""
+    found = json.loads(run(pulse, "--width", 0.24, "--height", 0.8, "--azimuth", "0,180", "--json").stdout)["results"]
+    assert [r["component"] for r in found] == ["0", "180"]
+    assert [r["overturned_towards"] for r in found] == ["-x", "+x"]
+    assert found[0]["overturning_time_s"] == pytest.approx(found[1]["overturning_time_s"], abs=1e-12)
+
+
+def test_margin_and_perturbation(run, pulse):
+    """One pulse: safe below one factor, unsafe above; the probability lies within its interval."""
+    answer = run(pulse, "--width", 0.24, "--height", 0.8, "--component", "NS", "--margin", "--perturb", 50, "--json")
+    found = json.loads(answer.stdout)["results"][0]
+    first = found["margin"]["windows"][0]
+    assert first == {"first": 0.0, "last": found["margin"]["flips"][0], "overturned": False}
+    assert found["margin"]["nearest_flip"] < 1
+    low, high = found["perturbation"]["probability_interval"]
+    assert low <= found["perturbation"]["probability"] <= high
+    assert found["perturbation"]["runs"] == 50
+
+
+def test_table_figure_and_history(run, pulse, tmp_path):
+    """The table says the verdict in words; the files hold the figure and the history in SI."""
+    answer = run(pulse, "--width", 0.24, "--height", 0.8, "--plot", "rock.png", "--csv", "rock.csv", "--si")
+    assert answer.exit_code == 0, answer.output
+    assert "NS: overturns to -x." in answer.stdout
+    assert "EW: stands still." in answer.stdout
+    assert "m/s²" in answer.stdout
+    assert (tmp_path / "rock.png").stat().st_size > 10_000
+    rows = list(csv.DictReader((tmp_path / "rock.csv").open()))
+    assert set(rows[0]) == {
+        "component", "time_s", "rotation_rad", "angular_velocity_rad_s", "ground_acceleration_m_s2", "vertical_acceleration_m_s2", "phase",
+    }  # fmt: skip
+    assert float(rows[-1]["ground_acceleration_m_s2"]) == 0.0
+    north = [row for row in rows if row["component"] == "NS"]
+    assert float(north[-1]["rotation_rad"]) == pytest.approx(-math.pi / 2)
+    assert north[-1]["phase"] == "beyond -alpha"
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--width", "0", "--height", "1"], "width must be positive"),
+        (["--width", "0.2", "--height", "-1"], "height must be positive"),
+        (["--width", "nan", "--height", "1"], "not a number"),
+        (["--width", "24parsec", "--height", "1"], "unknown unit"),
+        (["--width", "0.2"], "--height"),
+        ([], "--width and --height missing"),
+        (["--block", "gravestone", "--width", "0.2"], "not both"),
+        (["--block", "nowhere.toml"], "no body file"),
+        (["--width", "0.2", "--height", "1", "--restitution", "1.2"], "(0, 1]"),
+        (["--width", "0.2", "--height", "1", "--restitution", "0"], "(0, 1]"),
+        (["--width", "0.2", "--height", "1", "--restitution", "nan"], "(0, 1]"),
+        (["--width", "0.2", "--height", "1", "--centroid-offset", "0.1"], "above the base"),
+        (["--width", "0.2", "--height", "1", "--centroid-height", "1.2"], "above the height"),
+        (["--width", "0.2", "--height", "1", "--azimuth", "north"], "degrees"),
+        (["--width", "0.2", "--height", "1", "--margin", "--margin-limit", "-1"], "limit"),
+        (["--width", "0.2", "--height", "1", "--perturb", "5", "--spread", "1.5"], "share"),
+    ],
+)
+def test_bad_input_is_one_sentence(run, pulse, words, says):
+    """What a user can get wrong is answered by one sentence, exit 2 or 3, no traceback."""
+    answer = run(pulse, *words)
+    assert answer.exit_code in (2, 3)
+    assert says in " ".join(answer.stderr.split())
+    assert "Traceback" not in answer.output
+    assert answer.stdout == ""
+
+
+def test_wider_than_tall_is_allowed_and_said(run, pulse):
+    """A block wider than tall is solved, and its threshold above 1 g is said."""
+    answer = run(pulse, "--width", 1.0, "--height", 0.5)
+    assert answer.exit_code == 0
+    assert "rocks only above 2.00 g" in answer.stderr
