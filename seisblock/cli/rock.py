@@ -51,7 +51,7 @@ def rock(source: Source, output: Output, gravity: float, restitution: float | No
 
     chosen = choose_block({**body, "restitution": restitution})
     say(f"body: {chosen.says}")
-    options = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
+    options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
     source = along(source, azimuth)
     responses, extras = [], []
     for motion in (motion for record in load(source) for motion in motions(record, source)):

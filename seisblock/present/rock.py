@@ -11,7 +11,7 @@ from rich.text import Text
 
 from seisblock.present.tables import acceleration, acceleration_unit, number, record_line, seconds, table
 from seisblock.results import Response
-from seisblock.solvers.rock import RockOutcome
+from seisblock.solvers.rock_outcome import RockOutcome
 from seisblock.units import GAL
 
 if TYPE_CHECKING:
@@ -111,14 +111,14 @@ def figure(responses: Rockings, *, gal: bool = True) -> Figure:
         plane = made.add_subplot(grid[2 * index : 2 * index + 2, 1])
         for axis in (above, below, plane):
             canvas.dress(axis)
-        _draw_ground(above, response, gal=gal)
-        _draw_lean(below, response)
+        draw_ground(above, response, gal=gal)
+        draw_lean(below, response)
         _draw_plane(plane, response)
-        above.set_xlim(*_stretch(response))
+        above.set_xlim(*stretch(response))
     return made
 
 
-def _stretch(response: Response[RockOutcome]) -> tuple[float, float]:
+def stretch(response: Response[RockOutcome]) -> tuple[float, float]:
     """Return the stretch of time worth drawing."""
     start = response.outcome.rocking_start_s
     first, last = float(response.time[0]), float(response.time[-1])
@@ -129,7 +129,7 @@ def _stretch(response: Response[RockOutcome]) -> tuple[float, float]:
     return max(first, start - margin), min(last, moving[-1].end_s + margin)
 
 
-def _draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> None:
+def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> None:
     """Draw the ground acceleration over the band within which the block rests."""
     from seisblock.present import canvas
 
@@ -151,7 +151,7 @@ def _draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> No
     axis.set_title(f"{response.motion.name}  {response.body.name}: α {outcome.slenderness_rad:.3f} rad, {e}", fontsize=9, loc="left")
 
 
-def _draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
+def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     """Draw the lean over alpha with its phases and impacts."""
     from seisblock.present import canvas
 

@@ -94,10 +94,9 @@ def find_margin(
     def overturns(factor: float) -> bool:
         return rock_verdict(motion, block, scale=factor, **options).overturned
 
-    factors = np.unique(np.append(np.arange(1, round(limit / step) + 1) * step, [1.0, limit]))
-    factors = [float(factor) for factor in factors[factors <= limit]]
-    verdicts = [False, *in_threads(overturns, factors, progress=progress)]
-    factors = [0.0, *factors]
+    grid = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
+    factors = [float(factor) for factor in grid[grid <= limit]]
+    verdicts = list(in_threads(overturns, factors, progress=progress))
     changes = [i for i in range(1, len(factors)) if verdicts[i] != verdicts[i - 1]]
     flips = tuple(in_threads(lambda i: _bisected(overturns, factors[i - 1], factors[i], verdicts[i]), changes))
     edges = (0.0, *flips, limit)

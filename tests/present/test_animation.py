@@ -1,0 +1,117 @@
+"""Animations are whole files of the kind their name says, and show the block where the solver put it."""
+
+import shutil
+import subprocess
+import time
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from seisblock.bodies.block import Block
+from seisblock.errors import OutputError
+from seisblock.present.animation import MOST_FRAMES, animate, frame_times
+from seisblock.present.rock_animation import animate_rocking, centre_of, corners
+from seisblock.records import Motion
+from seisblock.solvers.rock import solve_rock
+
+
+@pytest.fixture(scope="module")
+def response():
+    """Five seconds of rocking."""
+    t = np.arange(501) * 0.01
+    return solve_rock(Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"), Block(0.3, 0.9))
+
+
+def pictures(count):
+    """Yield small pictures that differ."""
+    for i in range(count):
+        picture = Image.new("RGB", (31, 21), "white")
+        picture.paste("red", (i, 0, i + 4, 21))
+        yield picture
+
+
+def test_gif_holds_every_picture_at_true_speed(tmp_path):
+    """Twenty pictures a second are 50 ms each."""
+    animate(pictures(12), tmp_path / "a.gif")
+    with Image.open(tmp_path / "a.gif") as image:
+        assert image.n_frames == 12
+        assert image.info["duration"] == 50
+        assert image.info["loop"] == 0
+
+
+def test_html_needs_nothing_else(tmp_path):
+    """One file with as many pictures, no link to anything outside."""
+    animate(pictures(7), tmp_path / "a.html")
+    page = (tmp_path / "a.html").read_text()
+    assert page.count("iVBOR") == 7
+    assert "http" not in page
+    assert "@" not in page.split("const pictures")[0].split("<body")[-1]
+
+
+@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is not installed")
+def test_mp4_is_a_film(tmp_path):
+    """Odd sizes are cut to even ones, as the codec wants."""
+    animate(pictures(9), tmp_path / "a.mp4")
+    assert b"ftyp" in (tmp_path / "a.mp4").read_bytes()[:16]
+    assert subprocess.run([shutil.which("ffmpeg"), "-v", "error", "-i", tmp_path / "a.mp4", "-f", "null", "-"], check=True).returncode == 0
+
+
+def test_mp4_without_ffmpeg_is_one_sentence(tmp_path, monkeypatch):
+    """It says what is missing and what works instead, and leaves no file."""
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(OutputError, match="ffmpeg is not installed"):
+        animate(pictures(3), tmp_path / "a.mp4")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["a.avi", "a", "nowhere/a.gif"])
+def test_impossible_names_are_refused(tmp_path, name):
+    """Other suffixes and missing directories are errors of the user."""
+    with pytest.raises(OutputError):
+        animate(pictures(3), tmp_path / name)
+
+
+def test_interruption_leaves_the_old_file(tmp_path):
+    """A failure half way keeps what was there and leaves nothing beside it."""
+    (tmp_path / "a.gif").write_bytes(b"old")
+
+    def broken():
+        yield from pictures(2)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        animate(broken(), tmp_path / "a.gif")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.gif"]
+    assert (tmp_path / "a.gif").read_bytes() == b"old"
+
+
+def test_five_seconds_of_rocking_take_less_than_five(tmp_path, response):
+    """100 pictures, drawn in less than the time they show."""
+    start = time.perf_counter()
+    animate_rocking(response, tmp_path / "rock.gif")
+    assert time.perf_counter() - start < 5
+    with Image.open(tmp_path / "rock.gif") as image:
+        assert image.n_frames >= 95
+        first = np.asarray(image.convert("RGB")).astype(int)
+        image.seek(60)
+        assert np.abs(np.asarray(image.convert("RGB")).astype(int) - first).max() > 100
+
+
+def test_long_answers_play_faster():
+    """An hour is shown in at most 1200 pictures, and the speed is said."""
+    times, speed = frame_times(0.0, 3600.0)
+    assert len(times) <= MOST_FRAMES
+    assert speed == 64
+    assert times[-1] == 3600.0
+
+
+def test_block_turns_about_the_corner_in_contact():
+    """The right corner stays when it leans to +x, the left one when to -x; at alpha the centre is above the corner."""
+    block = Block(0.4, 1.0, centroid_offset=0.05)
+    right, left = block.slendernesses
+    np.testing.assert_allclose(corners(block, 0.2)[1], [0.2, 0.0], atol=1e-15)
+    np.testing.assert_allclose(corners(block, -0.2)[0], [-0.2, 0.0], atol=1e-15)
+    assert centre_of(block, right)[0] == pytest.approx(0.2)
+    assert centre_of(block, -left)[0] == pytest.approx(-0.2)
+    assert corners(block, 0.2)[:, 1].min() > -1e-15
