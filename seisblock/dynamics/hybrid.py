@@ -86,6 +86,12 @@ def _step_length(c, n_states, order, h):
         size = abs(c[i, 0]) + h * (abs(c[i, 1]) + h * (abs(c[i, 2]) + h * abs(c[i, 3])))
         tail = top * max(abs(c[i, order - 1]), abs(c[i, order]) * h)
         if tail > TRUNCATION * size:
+            # a state that starts from zero has its size in its later terms
+            power = h**3
+            for k in range(4, order - 1):
+                power *= h
+                size += abs(c[i, k]) * power
+        if tail > TRUNCATION * size:
             cut = 0.9 * h * (TRUNCATION * size / tail) ** (1.0 / (order - 1)) if size > 0.0 else 0.5 * h
             top *= (cut / h) ** (order - 1)
             h = cut

@@ -107,7 +107,7 @@ def first_crossing(g, degree, h, q, d):
 
     A zero that is only touched, or passed by less than round-off, is no crossing. A guard that a reset has just left at
     zero is therefore judged by where it goes, which is the half-open rule (t0, t0 + h]. Zero is returned when the
-    polynomial is negative at once; the answer is zero but for round-off when it becomes negative at once.
+    polynomial is negative, or becomes negative, at once.
 
     Parameters
     ----------
@@ -159,7 +159,8 @@ def first_crossing(g, degree, h, q, d):
                 width *= 0.5
                 continue
             if evaluate(q, n, width) < -noise:
-                return min(start + _root_between(q, n, width), h)
+                at = start + _root_between(q, n, width)
+                return 0.0 if at < smallest else min(at, h)
         shift(q, n, width)
         start += width
         width = h - start
