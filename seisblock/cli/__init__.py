@@ -22,6 +22,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
     "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
     "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with its margins."),
+    "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
 }
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
 

@@ -22,6 +22,11 @@ def quietly(quiet: bool | None) -> Iterator[None]:
         _quiet = before
 
 
+def is_quiet() -> bool:
+    """Whether the program was asked to keep silent."""
+    return _quiet
+
+
 def say(message: str) -> None:
     """Say one line on stderr."""
     if not _quiet:

