@@ -23,6 +23,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
     "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with its margins."),
     "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
+    "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic shaking."),
 }
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
 

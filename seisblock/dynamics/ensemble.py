@@ -113,7 +113,7 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     m, n_states = p.shape[0], len(model.states)
     states = np.array(np.broadcast_to(np.asarray(initial, dtype=np.float64), (m, n_states)), order="C")
     scale = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (m, 3)), order="C")
-    sizes = np.array([model.scratch, len(model.guards), model.tracked, model.order], dtype=np.int64)
+    sizes = np.array([model.scratch, len(model.guards), model.tracked, model.order, model.floored], dtype=np.int64)
     extrema = np.zeros((m, max(model.tracked, 1), 4))
     tally = np.zeros((m, len(model.guards), len(model.modes)), dtype=np.int64)
     infos = np.zeros((m, 3), dtype=np.int64)

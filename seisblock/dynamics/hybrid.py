@@ -8,7 +8,8 @@ crossing on the guard's own polynomial, lets the model reset the state, and logs
 Order and step
     A series shorter than ``order`` ends by itself (rest, sliding, flight) and is exact over the whole sample. A series of full
     ``order`` is cut where its last two terms fall below ``TRUNCATION`` of the state's own size; at 100 Hz and
-    order 12 rocking never needs a cut, so one sample is one step.
+    order 12 rocking never needs a cut, so one sample is one step. A model may name floors, sizes below which a state counts as that
+    large: a motion that dies away among larger ones is noise, which has no convergent series.
 Events
     A guard fires at the first time in (t0, t0 + h] from which it is negative. Touching zero is no event; a guard that a reset
     leaves at zero is judged by its first coefficient that is more than round-off. Of guards that cross
@@ -76,14 +77,16 @@ SAME_INSTANT = 16
 """More events than this at one instant are chattering."""
 
 
-@kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64))
-def _step_length(c, n_states, order, h):
-    """Return the part of `h` over which a full series is converged to round-off."""
+@kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64, VECTOR, _t.int64))
+def _step_length(c, n_states, order, h, p, floors):
+    """Return the part of `h` over which a full series is converged to round-off; `floors` says where they stand in `p`, or -1."""
     top = 1.0
     for _ in range(order - 1):
         top *= h
     for i in range(n_states):
         size = abs(c[i, 0]) + h * (abs(c[i, 1]) + h * (abs(c[i, 2]) + h * abs(c[i, 3])))
+        if floors >= 0:
+            size = max(size, p[floors + i])
         tail = top * max(abs(c[i, order - 1]), abs(c[i, order]) * h)
         if tail > TRUNCATION * size:
             # a state that starts from zero has its size in its later terms
@@ -163,8 +166,8 @@ def integrate(
         Initial state; holds the final one afterwards.
     p : array
         The model's parameters.
-    sizes : (4,) array of int
-        Number of scratch rows, of guards, of tracked states, and the order.
+    sizes : (5,) array of int
+        Number of scratch rows, of guards, of tracked states, the order, and whether the last parameters are floors of the states.
     path, modes : (n, n_states), (n,) arrays, or with no rows
         State and mode at each sample reached.
     event_table, event_times, event_states : (m, 4), (m,), (m, 2, n_states) arrays
@@ -184,6 +187,7 @@ def integrate(
     n_guards = sizes[1]
     n_tracked = sizes[2]
     order = sizes[3]
+    floors = p.size - n_states if sizes[4] else -1
     c = np.zeros((n_states + sizes[0], order + 1))
     g = np.zeros((max(n_guards, 1), order + 1))
     f = np.zeros((rows, 2))
@@ -226,7 +230,7 @@ def integrate(
             left = dt - tau
             h = left
             if degree >= order:
-                h = _step_length(c, n_states, order, left)
+                h = _step_length(c, n_states, order, left, p, floors)
                 if h < 1e-12 * dt and left > 1e-12 * dt:
                     status = STEP_TOO_SMALL
                     break

@@ -48,6 +48,8 @@ class Model:
         Terms of a series that does not end by itself.
     skip : compiled function
         Signature ``SKIP``: the short cut through samples at which nothing happens.
+    floored : bool
+        Whether the parameters end in one size per state below which it counts as that large, for the step's length.
     """
 
     name: str
@@ -60,6 +62,7 @@ class Model:
     tracked: int = 1
     order: int = ORDER
     skip: Callable[..., Any] = hybrid.stay
+    floored: bool = False
 
 
 @dataclass(frozen=True)
@@ -188,7 +191,7 @@ def follow(
     p = np.array(parameters, dtype=np.float64)
     scale = np.array(gains, dtype=np.float64)
     n_states = len(model.states)
-    sizes = np.array([model.scratch, len(model.guards), model.tracked, model.order], dtype=np.int64)
+    sizes = np.array([model.scratch, len(model.guards), model.tracked, model.order, model.floored], dtype=np.int64)
     rows = motion.samples if keep_path else 0
     path = np.empty((rows, n_states))
     modes = np.empty(rows, dtype=np.int64)

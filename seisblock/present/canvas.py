@@ -107,8 +107,8 @@ def threshold(axis: Axes, levels: Sequence[float], text: str = "") -> None:
 def legend(axis: Axes, **placement: Any) -> None:
     """Add a small legend above the panel, where it hides nothing, when there is something to name."""
     if axis.get_legend_handles_labels()[0]:
-        where = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.99), "borderaxespad": 0.0, **placement}
-        axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", ncols=5, **where)
+        where = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.99), "borderaxespad": 0.0, "ncols": 5, **placement}
+        axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", **where)
 
 
 def save(figure: Figure, path: Path | str) -> None:

@@ -15,6 +15,8 @@ State
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from seisblock._jit import kernel
@@ -28,7 +30,7 @@ WHOLE_BASE, GLUED = 15, 31
 
 ORDER = 20
 """Terms of the series. The highest rocking frequency asks for more than the engine's usual 12: for a vertical frequency of 10 Hz and
-samples every 0.01 s, order 20 takes 1.4 us per sample, 12 takes 3.2 us and 28 takes 2.0 us. An exact matrix exponential per contact state
+samples every 0.01 s, order 20 takes 1.4 us per sample, 12 takes 2.2 us and 28 takes 2.0 us. An exact matrix exponential per contact state
 takes 0.1 us where nothing can open or close, but the interior of 14 % of the samples (91 % at 50 Hz) must be looked at, for which
 the series is needed anyway."""
 
@@ -36,6 +38,9 @@ U, F, X, Y, W, VX, VY = 0, 4, 8, 9, 10, 14, 15
 """First of four corner displacements, first of four forces, x, y, first of four rates, rates of x and y."""
 
 N_STATES = 16
+
+SNAP = 1e-12
+"""Corners nearer to their springs than this share of the static settlement cross together."""
 
 ALPHA, GAMMA, KX, KY, KZ, CX, CY, CZ, JX, JY, GRAVITY = range(11)
 """Ratios H/b and a/b; 4 kx/m, 4 ky/m, kz/m, 1/s^2; the dashpots likewise, 1/s; moments of inertia over m b^2; gravity, m/s^2."""
@@ -58,16 +63,17 @@ def _series(mode, y, f, p, order, c, g):
             c[F + i, k] = -(p[KZ] * c[U + i, k] + p[CZ] * c[W + i, k]) if (mode >> i) & 1 else 0.0
         if k == order:
             break
-        # b theta_x and b theta_y, and their rates, from the corners (+,+), (+,-), (-,+), (-,-)
-        turn_x = 0.5 * (c[U, k] - c[U + 1, k] + c[U + 2, k] - c[U + 3, k])
-        turn_y = -0.5 * (c[U, k] + c[U + 1, k] - c[U + 2, k] - c[U + 3, k]) / gamma
-        rate_x = 0.5 * (c[W, k] - c[W + 1, k] + c[W + 2, k] - c[W + 3, k])
-        rate_y = -0.5 * (c[W, k] + c[W + 1, k] - c[W + 2, k] - c[W + 3, k]) / gamma
+        # b theta_x and b theta_y, and their rates, from the corners (+,+), (+,-), (-,+), (-,-); as sums of differences, which
+        # are exactly zero for corners that move alike
+        turn_x = 0.5 * ((c[U, k] - c[U + 1, k]) + (c[U + 2, k] - c[U + 3, k]))
+        turn_y = -0.5 * ((c[U, k] - c[U + 2, k]) + (c[U + 1, k] - c[U + 3, k])) / gamma
+        rate_x = 0.5 * ((c[W, k] - c[W + 1, k]) + (c[W + 2, k] - c[W + 3, k]))
+        rate_y = -0.5 * ((c[W, k] - c[W + 2, k]) + (c[W + 1, k] - c[W + 3, k])) / gamma
         push_x = -p[KX] * (c[X, k] - 0.5 * alpha * turn_y) - p[CX] * (c[VX, k] - 0.5 * alpha * rate_y)
         push_y = -p[KY] * (c[Y, k] + 0.5 * alpha * turn_x) - p[CY] * (c[VY, k] + 0.5 * alpha * rate_x)
         lift = c[F, k] + c[F + 1, k] + c[F + 2, k] + c[F + 3, k]
-        moment_x = 0.5 * (c[F, k] - c[F + 1, k] + c[F + 2, k] - c[F + 3, k]) + 0.5 * alpha * push_y
-        moment_y = -0.5 * gamma * (c[F, k] + c[F + 1, k] - c[F + 2, k] - c[F + 3, k]) - 0.5 * alpha * push_x
+        moment_x = 0.5 * ((c[F, k] - c[F + 1, k]) + (c[F + 2, k] - c[F + 3, k])) + 0.5 * alpha * push_y
+        moment_y = -0.5 * gamma * ((c[F, k] - c[F + 2, k]) + (c[F + 1, k] - c[F + 3, k])) - 0.5 * alpha * push_x
         if k == 0:
             lift -= p[GRAVITY]
         step = 1.0 / (k + 1)
@@ -98,9 +104,16 @@ def _series(mode, y, f, p, order, c, g):
 
 @kernel(RESET)
 def _reset(mode, guard, y, f, p):
-    """Let corner `guard` go, or catch it: positions and rates continue, the dashpot's force jumps."""
-    following = mode ^ (1 << guard)
-    y[F + guard] = -(p[KZ] * y[U + guard] + p[CZ] * y[W + guard]) if (following >> guard) & 1 else 0.0
+    """Let corner `guard` go, or catch it, with those that cross together: positions and rates continue, dashpot forces jump."""
+    following = mode
+    for i in range(4):
+        # a crossing is known to round-off only, which must neither count as crossing back nor part corners that move alike
+        if i == guard or abs(y[U + i]) < SNAP * p[GRAVITY] / (4.0 * p[KZ]):
+            held = (mode >> i) & 1
+            y[U + i] = 0.0
+            if i == guard or (held and y[W + i] > 0.0) or (not held and y[W + i] < 0.0):
+                following ^= 1 << i
+                y[F + i] = 0.0 if held else -p[CZ] * y[W + i]
     return following
 
 
@@ -122,17 +135,28 @@ UPLIFT = Model(
     tuple(contact_name(mode) for mode in range(16)),
     tracked=8,
     order=ORDER,
+    floored=True,
 )  # fmt: skip
 
 
+UPLIFT_AGAIN = replace(UPLIFT, order=ORDER - 3)
+"""The same model with other round-off, to tell where that decides."""
+
+
 def parameters(body: SpringBlock, gravity: float) -> FloatArray:
-    """Return the model's parameters; corner dashpots are c = 2 zeta k / omega of their direction."""
+    """Return the model's parameters; corner dashpots are c = 2 zeta k / omega of their direction.
+
+    The static settlement, and rates and forces to match, are the floors of the states.
+    """
     wx, wy, wz = body.omega
     twice = 2.0 * body.damping
+    floors = np.full(N_STATES, body.static_settlement(gravity))
+    floors[F : F + 4] = gravity / 4.0
+    floors[W:] *= wz
     return np.array(
         [
             body.alpha, body.gamma, wx * wx, wy * wy, wz * wz / 4.0, twice * wx, twice * wy, twice * wz / 4.0,
-            body.inertia[0], body.inertia[1], gravity,
+            body.inertia[0], body.inertia[1], gravity, *floors,
         ]
     )  # fmt: skip
 

@@ -153,7 +153,7 @@ def test_what_is_reported_is_what_the_histories_hold():
     outcome = response.outcome
     assert sum(outcome.share_on_corners.values()) == pytest.approx(1.0)
     assert outcome.share_on_corners["4"] == pytest.approx(1.0 - outcome.uplift_duration_s / 4.0)
-    assert outcome.contact_changes == len(response.events) == len(response.phases) - 1
+    assert outcome.contact_changes == len(response.events) >= len(response.phases) - 1
     assert outcome.first_uplift_s == response.events[0].time_s
     assert response.events[0].name == f"corner {outcome.corner} lifts"
     for corner in outcome.corners:
@@ -164,6 +164,33 @@ def test_what_is_reported_is_what_the_histories_hold():
         assert corner.uplift_duration_s == pytest.approx(sum(p.duration_s for p in in_air))
         assert 0.0 < corner.longest_uplift_s <= corner.uplift_duration_s
         assert np.all(force[u > 1e-9] == 0.0)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_contact_changes_are_real(seed):
+    """No corner parts and meets again within round-off of one instant, however close to a sample the change is."""
+    response = solve_uplift(SLENDER, shaking(5.0, 0.01, seed=seed))
+    for corner in "1234":
+        own = [event for event in response.events if event.name[7] == corner]
+        assert [event.name[9:] for event in own] == ["lifts", "lands"] * (len(own) // 2) + ["lifts"] * (len(own) % 2)
+        assert np.diff([event.time_s for event in own]).min(initial=1.0) > 1e-9
+
+
+@pytest.mark.parametrize("rows", [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 3.0), (1.0, 0.0, 1.0)])
+def test_corners_that_cross_together_stay_together(rows):
+    """Under motion along one side, or straight up, corners that are images of each other move alike to the last bit."""
+    motion = shaking(6.0, 0.01, peaks=(9.0, 9.0, 9.0))
+    stiff = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=60.0, beta=1.0, damping=0.3)
+    for body in (SLENDER, stiff):
+        response = solve_uplift(body, Motion(motion.acceleration * np.array(rows)[:, None], motion.dt))
+        u = [response[f"uplift_{i}"] for i in (1, 2, 3, 4)]
+        assert response.outcome.uplifts
+        if rows[1] == 0.0:
+            assert np.array_equal(u[0], u[1])
+            assert np.array_equal(u[2], u[3])
+        if rows[0] == 0.0:
+            assert np.array_equal(u[0], u[2])
+            assert np.array_equal(u[1], u[3])
 
 
 def test_at_rest_nothing_moves():
@@ -193,6 +220,23 @@ def test_a_large_lean_is_said_to_be_beyond_the_model():
     """Beyond a tenth of the slenderness the answer carries a warning that points to rock."""
     response = solve_uplift(SLENDER, shaking(6.0, 0.01, peaks=(9.0, 9.0, 3.0)))
     assert any("seisblock rock" in message for message in response.warnings)
+
+
+def test_a_motion_that_round_off_decides_is_said_to_be_one():
+    """Two thousand contact changes on stiff springs amplify round-off to the size of the answer, which then says so."""
+    stiff = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=60.0, beta=0.707)
+    assert any("by round-off alone" in message for message in solve_uplift(stiff, shaking(60.0, 0.01)).warnings)
+    assert solve_uplift(SLENDER, shaking(3.0, 0.01, peaks=(1.0, 0.8, 0.5))).warnings == ()
+
+
+@pytest.mark.parametrize("frequency", [50.0, 400.0])
+def test_a_quiet_end_of_a_record_is_no_trouble(frequency):
+    """Motions that have died away to nothing neither stop nor slow the integration."""
+    pulse = shaking(1.0, 0.01).acceleration
+    motion = Motion(np.hstack([pulse, np.zeros((3, 3000))]), 0.01)
+    body = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=frequency, beta=1.0, damping=0.5)
+    response = solve_uplift(body, motion)
+    assert response["uplift_1"][-1] == pytest.approx(-body.static_settlement(), rel=1e-9)
 
 
 def test_a_record_without_vertical_component_is_solved_and_says_so():

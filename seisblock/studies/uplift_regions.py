@@ -1,0 +1,181 @@
+"""Parameter studies of harmonic uplift: one region per combination of block and direction, as in the paper's figures."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
+from seisblock.bodies.spring_choice import spring_block
+from seisblock.errors import BodyError
+from seisblock.records.record import frozen
+from seisblock.solvers.uplift_harmonic import uplift_thresholds
+from seisblock.solvers.uplift_minima import UpliftMinimum, least_uplift, uplift_minima
+from seisblock.solvers.uplift_modes import Modes, natural_modes
+from seisblock.typing import ArrayLike, FloatArray
+
+PAPER_RATIOS: dict[str, tuple[float, ...]] = {
+    "alpha": (1.0,), "gamma": (1.0,), "beta": (0.707,), "damping": (0.05,), "phi": (0.0,), "rho": (90.0,),
+}  # fmt: skip
+"""The block and the direction that figs. 6 to 11 of [Okumura1987]_ vary from: square, shaken along x."""
+
+DEFAULT_RATIOS = tuple(i / 100.0 for i in range(1, 601))
+"""theta/omega_1 of a curve, on the paper's grid of 0.01."""
+
+PAPER_FIGURES: dict[int, dict[str, tuple[float, ...]]] = {
+    3: {"alpha": (0.5, 1.0, 2.0, 3.0)},
+    4: {"beta": (0.5, 0.707, 0.8660254037844386, 1.0, 2.0)},
+    6: {"damping": (0.0, 0.02, 0.05, 0.10, 0.20)},
+    7: {"alpha": (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)},
+    8: {"beta": (0.5, 0.6, 0.707, 0.8, 1.0, 2.0)},
+    9: {"phi": (0.0, 15.0, 30.0, 45.0)},
+    10: {"rho": (0.0, 30.0, 60.0, 75.0, 90.0)},
+    11: {"phi": (45.0,), "rho": (0.0, 30.0, 60.0, 75.0, 90.0)},
+}
+"""What each figure of [Okumura1987]_ varies; figs. 3, 4, 9 to 11 do not print their values, which are chosen here."""
+
+
+@dataclass(frozen=True, eq=False)
+class UpliftRegion:
+    """How hard harmonic shaking must be to lift one block.
+
+    Parameters
+    ----------
+    body : SpringBlock
+    phi_deg, rho_deg : float, degrees
+        Direction of the shaking: azimuth from x towards y, angle from the vertical.
+    corner : int or None
+        The corner looked at; None is whichever of the four lifts first.
+    modes : Modes
+    frequency_ratio, acceleration_ratio : (n,) arrays
+        theta/omega_1, and the least A/g that lifts.
+    minimum : UpliftMinimum
+        The least A/g of all.
+    minima : tuple of UpliftMinimum
+        Every local minimum.
+    """
+
+    body: SpringBlock
+    phi_deg: float
+    rho_deg: float
+    corner: int | None
+    modes: Modes
+    frequency_ratio: FloatArray
+    acceleration_ratio: FloatArray
+    minimum: UpliftMinimum
+    minima: tuple[UpliftMinimum, ...]
+
+    @property
+    def ratios(self) -> dict[str, float]:
+        """The paper's parameters of this region, by name."""
+        body = self.body
+        return {
+            "alpha": body.alpha, "gamma": body.gamma, "beta": body.beta, "damping": body.damping,
+            "phi": self.phi_deg, "rho": self.rho_deg,
+        }  # fmt: skip
+
+
+def uplift_region(
+    body: SpringBlock,
+    frequency_ratio: ArrayLike,
+    *,
+    phi_deg: float = 0.0,
+    rho_deg: float = 90.0,
+    corner: int | None = None,
+    between: tuple[float, float] | None = None,
+) -> UpliftRegion:
+    """Return the uplift region of one block and direction, [Okumura1987]_ section 5.
+
+    Parameters
+    ----------
+    body : SpringBlock
+    frequency_ratio : (n,) array
+        theta/omega_1 at which the curve is evaluated.
+    phi_deg, rho_deg : float, degrees
+    corner : int or None
+        One corner alone (the paper's figures: 4), or whichever lifts first.
+    between : (low, high) or None
+        Range of theta/omega_1 in which minima are sought.
+
+    Returns
+    -------
+    UpliftRegion
+    """
+    ratio = frozen(np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64)))
+    thresholds = uplift_thresholds(body, ratio, phi_deg=phi_deg, rho_deg=rho_deg)
+    least = thresholds.min(axis=0) if corner is None else thresholds[corner - 1]
+    return UpliftRegion(
+        body, phi_deg, rho_deg, corner, natural_modes(body), ratio, frozen(least),
+        least_uplift(body, phi_deg=phi_deg, rho_deg=rho_deg, corner=corner, between=between),
+        uplift_minima(body, phi_deg=phi_deg, rho_deg=rho_deg, corner=corner, between=between),
+    )  # fmt: skip
+
+
+def harmonic_blocks(
+    ratios: Mapping[str, Sequence[float] | None],
+    *,
+    sizes: Mapping[str, Any] | None = None,
+    figure: int | None = None,
+    frequency_vertical: float = 1.0,
+    mass: float = REFERENCE_MASS,
+) -> Iterator[tuple[SpringBlock, float, float]]:
+    """Yield each combination of block, phi and rho, degrees, that lists of the paper's parameters make.
+
+    Parameters
+    ----------
+    ratios : mapping
+        Values of ``alpha``, ``gamma``, ``beta``, ``damping``, ``phi`` and ``rho``; what is missing or None is as in the paper.
+    sizes : mapping
+        Arguments of :func:`seisblock.bodies.spring_choice.spring_block`, instead of alpha and gamma.
+    figure : int or None
+        Take the missing from this figure of [Okumura1987]_.
+    frequency_vertical, mass : float, Hz, kg
+        Of blocks given by ratios.
+
+    Raises
+    ------
+    BodyError
+        If sizes come together with alpha or gamma, or a block is not possible.
+    """
+    given = {name: values for name, values in ratios.items() if values is not None}
+    every = {**PAPER_RATIOS, **(PAPER_FIGURES[figure] if figure is not None else {}), **given}
+    if sizes:
+        if "alpha" in given or "gamma" in given:
+            raise BodyError("alpha and gamma are ratios of the sizes: give sizes or ratios, not both")
+        every["alpha"] = every["gamma"] = (float("nan"),)
+    for values in itertools.product(*every.values()):
+        chosen = dict(zip(every, values, strict=True))
+        alpha, gamma, phi, rho = (chosen.pop(name) for name in ("alpha", "gamma", "phi", "rho"))
+        if sizes:
+            beta = None if sizes.get("stiffness") is not None and "beta" not in given else chosen["beta"]
+            yield spring_block(**sizes, beta=beta, damping=chosen["damping"]), phi, rho
+        else:
+            yield SpringBlock.from_ratios(alpha, gamma=gamma, frequency_vertical=frequency_vertical, mass=mass, **chosen), phi, rho
+
+
+def frequencies_against(name: str, values: ArrayLike, *, alpha: float, beta: float, gamma: float = 1.0) -> dict[str, FloatArray]:
+    """Return omega_i / omega_V of each mode against `alpha` or `beta`, as [Okumura1987]_ figs. 3 and 4 show them.
+
+    Parameters
+    ----------
+    name : "alpha" or "beta"
+        What varies over `values`, (n,).
+    alpha, beta, gamma : float
+        The others.
+
+    Returns
+    -------
+    dict
+        Name of the mode: (n,) array.
+    """
+    columns: dict[str, list[float]] = {}
+    for value in np.asarray(values, dtype=np.float64):
+        body = SpringBlock.from_ratios(**{"alpha": alpha, "beta": beta, name: float(value)}, gamma=gamma)
+        modes = natural_modes(body)
+        for mode, omega in zip(modes.names, modes.omega, strict=True):
+            columns.setdefault(mode, []).append(float(omega) / body.omega[2])
+    return {mode: frozen(column) for mode, column in columns.items()}

@@ -1,0 +1,194 @@
+"""``seisblock uplift`` tells which corner lifts, when and how far, and under which sines."""
+
+import csv
+import json
+import math
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.bodies.spring_block import SpringBlock
+from seisblock.cli import main
+from seisblock.records.motion import Motion
+from seisblock.solvers.uplift import solve_uplift
+from tests.solvers.uplift_motions import shaking
+
+BODY = ("--width", 0.6, "--height", 1.8, "--frequency-vertical", 6)
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Return a function that runs the command in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    return lambda *words: CliRunner().invoke(main, ["uplift", *map(str, words)])
+
+
+@pytest.fixture
+def record(tmp_path):
+    """A plain CSV of three components, m/s^2: north across, east along, up."""
+    motion = shaking(3.0, 0.01)
+    rows = np.column_stack([motion.time, motion.transverse, motion.horizontal, motion.vertical])
+    path = tmp_path / "record.csv"
+    np.savetxt(path, rows, delimiter=",", header="time,NS (m/s2),EW (m/s2),UD (m/s2)", comments="", fmt="%.17g")
+    return path
+
+
+def test_record_document(run, record):
+    """The document of a record is the library's answer, bit for bit, with the keys everyone relies on."""
+    found = json.loads(run(record, "--component", "EW", *BODY, "--json").stdout)
+    assert found["schema"] == "seisblock/uplift/1"
+    result = found["results"][0]
+    body = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=6.0, beta=0.707)
+    expected = solve_uplift(body, Motion(shaking(3.0, 0.01).acceleration, 0.01)).outcome
+    assert result["component"] == "EW"
+    assert result["natural_frequencies_hz"] == list(expected.natural_frequencies_hz)
+    for key in ("uplifts", "first_uplift_s", "max_uplift_m", "corner", "uplift_duration_s", "max_contact_force_n", "contact_changes"):
+        assert result[key] == getattr(expected, key), key
+    assert sorted(result["share_on_corners"]) == ["0", "1", "2", "3", "4"]
+    assert [corner["corner"] for corner in result["corners"]] == [1, 2, 3, 4]
+    assert found["parameters"]["block"]["mass_kg"] == 1000.0
+    assert found["citations"] == ["Okumura1987"]
+
+
+def test_turning_the_record_turns_a_square_block(run, record):
+    """North and east are the same block: corner 4 of one is corner 2 of the other."""
+    north, east = json.loads(run(record, *BODY, "--json").stdout)["results"]
+    assert (north["component"], east["component"]) == ("NS", "EW")
+    # with +x to the north, +y is to the west
+    for n, e in ((1, 3), (2, 1), (3, 4), (4, 2)):
+        assert north["corners"][n - 1]["max_uplift_m"] == pytest.approx(east["corners"][e - 1]["max_uplift_m"], rel=1e-9)
+
+
+def test_stiffness_and_frequency_describe_the_same_block(run, record):
+    """Springs given in N/m move the block as the frequencies that they make."""
+    k = 800.0 * (2 * math.pi * 6.0) ** 2 / 4
+    given = ("--mass", 800, "--stiffness", f"{k * 0.707**2},{k * 0.707**2},{k}")
+    one = json.loads(run(record, "--component", "EW", *BODY, "--json").stdout)["results"][0]
+    two = json.loads(run(record, "--component", "EW", *BODY[:4], *given, "--json").stdout)["results"][0]
+    assert two["max_uplift_m"] == pytest.approx(one["max_uplift_m"], rel=1e-9)
+    assert two["max_contact_force_n"] == pytest.approx(0.8 * one["max_contact_force_n"], rel=1e-9)
+
+
+def test_harmonic_document(run):
+    """Without frequencies the curve is the paper's grid; with a list it holds exactly those; the minimum is exact."""
+    alone = json.loads(run("--harmonic", "--beta", "0.7746", "--json").stdout)["results"][0]
+    assert len(alone["curve"]) == 600
+    assert set(alone["curve"][0]) == {"frequency_ratio", "acceleration_ratio"}
+    assert alone["minimum"]["acceleration_ratio"] == pytest.approx(0.0872857, abs=1e-6)
+    assert [m["mode"] for m in alone["minima"]] == ["first rocking in x-z", "second rocking in x-z"]
+    listed = json.loads(run("--harmonic", "--beta", math.sqrt(0.6), "--frequency-ratio", "2.78225,1", "--json").stdout)["results"][0]
+    assert [point["frequency_ratio"] for point in listed["curve"]] == [2.78225, 1.0]
+    assert listed["curve"][0]["acceleration_ratio"] == pytest.approx(0.676683, abs=5e-7)
+    assert listed["natural_frequencies_hz"][2] == 1.0
+    ranged = json.loads(run("--harmonic", "--beta", math.sqrt(0.6), "--frequency-ratio", "2:4:0.01", "--json").stdout)["results"][0]
+    assert ranged["minimum"]["frequency_ratio"] == pytest.approx(2.78225, abs=5e-6)
+    assert min(point["acceleration_ratio"] for point in ranged["curve"]) == pytest.approx(0.6768, abs=1e-4)
+
+
+def test_lists_are_combined(run):
+    """Two values of alpha and three of damping are six studies."""
+    answer = run("--harmonic", "--alpha", "1,2", "--damping", "0.02,0.05,0.1", "--frequency-ratio", 1, "--json")
+    results = json.loads(answer.stdout)["results"]
+    assert [(r["alpha"], r["damping"]) for r in results] == [(a, h) for a in (1, 2) for h in (0.02, 0.05, 0.1)]
+
+
+def test_sizes_instead_of_ratios(run):
+    """Harmonic shaking of a block given by its sizes and springs, not square and kx != ky."""
+    words = ("--width", 1.2, "--depth", 0.8, "--height", 2, "--mass", 500, "--stiffness", "2e4,3e4,5e4", "--frequency-ratio", "0.5,1")
+    result = json.loads(run("--harmonic", *words, "--json").stdout)["results"][0]
+    assert (result["alpha"], result["gamma"]) == pytest.approx((2.5, 1.5))
+    assert 20.0 / (2 * math.pi) == pytest.approx(next(m["frequency_hz"] for m in result["modes"] if m["name"] == "vertical"))
+
+
+def test_what_a_person_reads(run, record):
+    """Tables fit 80 columns and say which corner lifted first, and which modes there are."""
+    told = run(record, "--component", "EW", *BODY)
+    assert told.exit_code == 0
+    assert "lifts first, at" in " ".join(told.stdout.split())
+    harmonic = run("--harmonic", "--phi", 45, "--rho", 45)
+    assert "second rocking in x-z" in harmonic.stdout
+    assert max(map(len, (told.stdout + harmonic.stdout).splitlines())) <= 80
+
+
+def test_a_record_too_weak_says_how_much_is_missing(run, record):
+    """When nothing lifts the answer says how many times stronger the motion would have to be."""
+    told = run(record, "--component", "EW", *BODY, "--scale", 0.05)
+    assert "no corner lifts; the motion would have to be" in " ".join(told.stdout.split())
+
+
+@pytest.mark.parametrize(
+    "words", [("--harmonic",), ("--harmonic", "--rho", "60", "--gamma", "1.5"), *(("--figure", n) for n in (3, 4, 6, 7, 8, 9, 10, 11))]
+)
+def test_harmonic_figures(run, tmp_path, words):
+    """Regions and frequencies, and each figure of the paper, are drawn."""
+    assert run(*words, "--frequency-ratio", "0.1:6:0.1", "--plot", "figure.svg").exit_code == 0
+    assert (tmp_path / "figure.svg").stat().st_size > 5000
+
+
+def test_record_files(run, record, tmp_path):
+    """The figure of a record is drawn, and its time history has a row per sample and two per contact change."""
+    words = (record, "--component", "EW", *BODY, "--plot", "figure.png", "--csv", "history.csv", "--json")
+    result = json.loads(run(*words).stdout)["results"][0]
+    assert (tmp_path / "figure.png").stat().st_size > 20000
+    with (tmp_path / "history.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    # corners of a generic motion never cross together
+    assert len(rows) == 301 + 2 * result["contact_changes"]
+    assert max(float(row["uplift_1_m"]) for row in rows) <= result["corners"][0]["max_uplift_m"]
+
+
+def test_harmonic_table_as_csv(run, tmp_path):
+    """The curves of all combinations stand one below the other."""
+    assert run("--harmonic", "--damping", "0.02,0.05", "--frequency-ratio", "0.5,1,2", "--csv", "curves.csv").exit_code == 0
+    with (tmp_path / "curves.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    assert [(row["damping"], row["frequency_ratio"]) for row in rows[2:4]] == [("0.02", "2.0"), ("0.05", "0.5")]
+
+
+@pytest.mark.parametrize(
+    ("words", "message", "code"),
+    [
+        ((), "the block has no width", 3),
+        (("--width", 1), "the block has no height", 3),
+        (("--width", 1, "--height", 2), "the springs have no stiffness", 3),
+        (("--width", 0, "--height", 2, "--frequency-vertical", 5), "width of the block must be positive", 3),
+        (("--width", 1, "--height", -2, "--frequency-vertical", 5), "height of the block must be positive", 3),
+        (("--width", 1, "--height", 2, "--frequency-vertical", 0), "vertical frequency must be positive", 3),
+        (("--width", 1, "--height", 2, "--frequency-vertical", 5, "--beta", 0), "must be positive, found 0.0", 3),
+        (("--width", 1, "--height", 2, "--mass", 9, "--stiffness", "1,-1,1"), "stiffness ky of a corner must be positive", 3),
+        (("--width", 1, "--height", 2, "--mass", 9, "--stiffness", "1,1"), "takes three numbers", 3),
+        (("--width", 1, "--height", 2, "--stiffness", "1,1,1"), "--stiffness needs --mass", 3),
+        (("--width", 1, "--height", 2, "--mass", 9, "--stiffness", "1,1,1", "--beta", 1), "leave --frequency-vertical and --beta out", 3),
+        (("--width", 1, "--height", 2, "--frequency-vertical", 5, "--damping", 1), "damping ratio must lie in [0, 1)", 3),
+        (("--width", 1, "--height", 2, "--frequency-vertical", 5, "--damping", "-0.1"), "damping ratio must lie in [0, 1)", 3),
+        (("--width", 1, "--height", 2, "--frequency-vertical", 5, "--damping", "0.1,0.2"), "takes one number with a record", 3),
+        (("--width", 1, "--height", 2, "--frequency-vertical", 5, "--rho", 90), "speak of harmonic shaking", 3),
+        (("--harmonic", "--rho", "steep"), "is not a number", 2),
+        (("--harmonic", "--phi", "nan"), "is not a number", 2),
+        (("--harmonic", "--alpha", 0), "alpha, height over depth, must be positive", 3),
+        (("--harmonic", "--damping", 1.5), "damping ratio must lie in [0, 1)", 3),
+        (("--harmonic", "--alpha", 2, "--width", 1, "--height", 2), "give sizes or ratios, not both", 3),
+        (("--harmonic", "--frequency-ratio", "-1"), "finite and not negative", 3),
+        (("--harmonic", "--corner", 5), "5 is not in the range", 2),
+        (("no_such_file.csv", "--harmonic"), "leave the record no_such_file.csv out", 3),
+    ],
+)
+def test_bad_input_is_one_sentence(run, words, message, code):
+    """What cannot be is refused in one sentence, without a traceback."""
+    refused = run(*words)
+    assert refused.exit_code == code, refused.output
+    assert message in " ".join(refused.stderr.split())
+    assert "Traceback" not in refused.output
+
+
+def test_a_record_without_vertical_component_is_solved(run, tmp_path):
+    """Without a vertical component the vertical motion is zero, and the answer says so."""
+    motion = shaking(2.0, 0.01)
+    rows = np.column_stack([motion.time, motion.transverse, motion.horizontal])
+    np.savetxt(tmp_path / "flat.csv", rows, delimiter=",", header="time,NS (m/s2),EW (m/s2)", comments="", fmt="%.17g")
+    told = run("flat.csv", *BODY, "--json")
+    assert told.exit_code == 0
+    assert "no vertical component: solved with zero vertical motion" in told.stderr
+    assert any("no vertical component" in message for message in json.loads(told.stdout)["warnings"])
