@@ -53,8 +53,10 @@ def sentence(response: Response[UpliftOutcome]) -> str:
         needed = "" if outcome.uplift_scale is None else f"; the motion would have to be {outcome.uplift_scale:.3g} times as strong"
         return f"{response.motion.name}: no corner lifts{needed}."
     shares = ", ".join(f"{share:.1%} on {n}" for n, share in outcome.share_on_corners.items() if share > 0.0)
+    several = len(outcome.first_corners) > 1
+    first = f"corner{'s' if several else ''} {' and '.join(map(str, outcome.first_corners))} lift{'' if several else 's'} first"
     return (
-        f"{response.motion.name}: corner {outcome.corner} lifts first, at {outcome.first_uplift_s:.3f} s; the highest uplift is "
+        f"{response.motion.name}: {first}, at {outcome.first_uplift_s:.3f} s; the highest uplift is "
         f"{outcome.max_uplift_m * 1e3:.2f} mm. Corners are in the air for {outcome.uplift_duration_s:.3f} s in "
         f"{outcome.contact_changes} changes of contact ({shares} corners). {outcome.uplift_scale:.3g} times this motion just lifts one."
     )

@@ -83,7 +83,9 @@ class UpliftOutcome:
     max_uplift_m : float
         Largest height of a corner above its spring, 0 without uplift.
     corner : int or None
-        The corner that lifts first, 1 to 4 as in :class:`CornerOutcome`.
+        The corner that lifts first, 1 to 4 as in :class:`CornerOutcome`; of several that lift together, the lowest number.
+    first_corners : tuple of int
+        All that lift first, at one instant.
     uplift_duration_s : float
         Time during which at least one corner is in the air.
     max_contact_force_n, max_contact_force_ratio : float
@@ -105,6 +107,7 @@ class UpliftOutcome:
     first_uplift_s: float | None
     max_uplift_m: float
     corner: int | None
+    first_corners: tuple[int, ...]
     uplift_duration_s: float
     max_contact_force_n: float
     max_contact_force_ratio: float
@@ -215,6 +218,7 @@ def _outcome(
         first_uplift_s=None if first is None else first.first_uplift_s,
         max_uplift_m=max(0.0, *(c.max_uplift_m for c in corners)),
         corner=None if first is None else first.corner,
+        first_corners=() if first is None else tuple(c.corner for c in corners if c.first_uplift_s == first.first_uplift_s),
         uplift_duration_s=float(lengths[held < 4].sum()),
         max_contact_force_n=force,
         max_contact_force_ratio=force / body.static_corner_force(gravity),

@@ -184,7 +184,9 @@ def test_corners_that_cross_together_stay_together(rows):
     for body in (SLENDER, stiff):
         response = solve_uplift(body, Motion(motion.acceleration * np.array(rows)[:, None], motion.dt))
         u = [response[f"uplift_{i}"] for i in (1, 2, 3, 4)]
-        assert response.outcome.uplifts
+        outcome = response.outcome
+        assert outcome.corner == outcome.first_corners[0]
+        assert len(outcome.first_corners) == (4 if rows == (0.0, 0.0, 3.0) else 2)
         if rows[1] == 0.0:
             assert np.array_equal(u[0], u[1])
             assert np.array_equal(u[2], u[3])
