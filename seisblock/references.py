@@ -20,7 +20,8 @@ class Reference:
     def text(self) -> str:
         """Return the reference as one line of a bibliography."""
         tail = f" doi:{self.doi}" if self.doi else ""
-        return f"{self.authors} ({self.year}). {self.title}. {self.where}.{tail}"
+        authors = self.authors.replace(" and others", " et al.").replace(" and ", "; ")
+        return f"{authors} ({self.year}). {self.title}. {self.where}.{tail}"
 
     def bibtex(self) -> str:
         """Return the reference as a BibTeX entry."""
@@ -141,3 +142,27 @@ _ALL = (
 
 REFERENCES = {reference.key: reference for reference in _ALL}
 """Every reference by its key."""
+
+SOFTWARE = Reference(
+    "seisblock",
+    "seisblock contributors",
+    2025,
+    "seisblock: what ground motion does to objects that nobody bolted down",
+    "Python package",
+    kind="software",
+)
+"""The program itself."""
+
+CITED: dict[str, tuple[str, ...]] = {
+    "measure": ("Furukawa2009", "Arias1970", "TrifunacBrady1975", "JMA1996", "Parzen1961", "NigamJennings1969"),
+    "slide": ("Fujino1978", "Newmark1965"),
+    "rock": ("Housner1963", "Zhang2001", "Ishiyama1982"),
+    "jump": ("Sugimoto2017",),
+    "uplift": ("Okumura1987",),
+    "criteria": ("Housner1963", "Ishiyama1982", "Tsutsui", "Furukawa2009", "Fujino1978"),
+    "spectrum": ("Housner1963", "Zhang2001"),
+    "overturn-rate": ("Furukawa2009",),
+    "infer": ("Furukawa2009",),
+    "stack": ("Furukawa2009",),
+}
+"""What each command's answers may rely on; one answer's own list stands in its document."""

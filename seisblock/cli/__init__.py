@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import click
+from click.shell_completion import CompletionItem
 
 from seisblock import __version__, _jit
 from seisblock.cli.talk import say
@@ -22,6 +23,9 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
     "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
     "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with its margins."),
+    "samples": ("seisblock.cli.samples:samples", "The bundled records and bodies: list them, copy them."),
+    "cite": ("seisblock.cli.cite:cite", "The papers an answer relies on, as text or BibTeX."),
+    "completion": ("seisblock.cli.completion:completion", "Completion of commands and options for bash, zsh and fish."),
     "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
     "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic shaking."),
 }
@@ -45,6 +49,11 @@ class SeisblockGroup(click.Group):
         module, attribute = COMMANDS[cmd_name][0].split(":")
         command: click.Command = getattr(importlib.import_module(module), attribute)
         return command
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """Complete the names of commands without importing them."""
+        names = [CompletionItem(name, help=text) for name, (_, text) in COMMANDS.items() if name.startswith(incomplete)]
+        return [*names, *click.Command.shell_complete(self, ctx, incomplete)]
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the list of commands without importing them."""

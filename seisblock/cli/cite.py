@@ -1,0 +1,41 @@
+"""``seisblock cite``: the papers an answer relies on."""
+
+from __future__ import annotations
+
+import click
+
+from seisblock.cli.command import Command, option
+from seisblock.references import CITED
+
+
+@click.command(cls=Command, examples=("seisblock cite jump", "seisblock cite --bibtex > seisblock.bib"))
+@click.argument("command", required=False, metavar="[COMMAND]", type=click.Choice(list(CITED)))
+@option("--bibtex", is_flag=True, section="Output", help="BibTeX entries instead of lines of text.")
+@option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout.")
+def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
+    """Print the papers that a command's answers rely on; without COMMAND, all there are.
+
+    What one answer relied on also stands in its --json document under citations.
+    """
+    from dataclasses import asdict
+
+    from seisblock.references import REFERENCES, SOFTWARE
+
+    keys = CITED[command] if command else tuple(REFERENCES)
+    chosen = [*(REFERENCES[key] for key in keys), SOFTWARE]
+    if as_json:
+        from seisblock.present.document import Answer, to_json
+
+        entries = [{**asdict(reference), "text": reference.text(), "bibtex": reference.bibtex()} for reference in chosen]
+        click.echo(to_json(Answer("cite", {"command": command}, entries, citations=keys)))
+    elif bibtex:
+        click.echo("\n\n".join(reference.bibtex() for reference in chosen))
+    else:
+        from rich.padding import Padding
+        from rich.text import Text
+
+        from seisblock.present.tables import console
+
+        screen = console()
+        for reference in chosen:
+            screen.print(Text(f"[{reference.key}]", style="bold"), Padding(Text(reference.text()), (0, 0, 0, 2)))

@@ -1,0 +1,30 @@
+"""``seisblock completion``: the script that lets a shell complete commands, options and files."""
+
+from __future__ import annotations
+
+import click
+
+from seisblock.cli.command import Command
+
+VARIABLE = "_SEISBLOCK_COMPLETE"
+
+WHERE = {
+    "bash": 'add to ~/.bashrc: eval "$(seisblock completion bash)"',
+    "zsh": 'add to ~/.zshrc: eval "$(seisblock completion zsh)"',
+    "fish": "seisblock completion fish > ~/.config/fish/completions/seisblock.fish",
+}
+
+
+@click.command(cls=Command, examples=('eval "$(seisblock completion bash)"', "seisblock completion fish > seisblock.fish"))
+@click.argument("shell", type=click.Choice(list(WHERE)))
+@click.pass_context
+def completion(ctx: click.Context, shell: str) -> None:
+    """Print the completion script of a shell; where it belongs is said on stderr."""
+    from click.shell_completion import get_completion_class
+
+    from seisblock.cli.talk import say
+
+    kind = get_completion_class(shell)
+    assert kind is not None
+    click.echo(kind(ctx.find_root().command, {}, "seisblock", VARIABLE).source())
+    say(WHERE[shell])

@@ -1,0 +1,56 @@
+"""``seisblock samples``: the bundled files, listed and copied."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from seisblock.cli.command import Command, option
+from seisblock.cli.talk import quietly, say
+
+
+@click.command(cls=Command, examples=("seisblock samples", "seisblock samples --copy synthetic_knet"))
+@click.argument("name", nargs=-1, metavar="[NAME]...")
+@option("--copy", "target", metavar="DIR|NAME", section="Output",
+        help="Copy to this directory; or, given a sample's name, copy that sample to the present directory.")
+@option("--overwrite", is_flag=True, section="Output", help="Replace files of other content that are in the way.")
+@option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
+@option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
+def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json: bool, quiet: bool) -> None:
+    """List the bundled records, bodies and cemeteries, with their licence and origin, or copy them.
+
+    NAME is a file name, or its beginning up to the first dot. Any command takes a sample's name in place of a file.
+    """
+    from seisblock.present import samples as shown
+
+    directory = None
+    if target is not None:
+        directory, name = _destination(target, name)
+    chosen = shown.chosen(name)
+    with quietly(quiet):
+        if directory is not None:
+            written = shown.copy_samples(chosen, directory, overwrite=overwrite)
+            for path in written:
+                say(f"wrote {path}")
+            if not written:
+                say(f"{directory} holds them already")
+    if as_json:
+        from seisblock.present.document import Answer, to_json
+
+        click.echo(to_json(Answer("samples", {"copied_to": directory}, shown.entries(chosen))))
+    elif directory is None:
+        from seisblock.present.tables import console
+
+        screen = console()
+        for part in shown.listing(chosen):
+            screen.print(part)
+
+
+def _destination(target: str, names: tuple[str, ...]) -> tuple[Path, tuple[str, ...]]:
+    """Return the directory and the names: a sample's name in place of a directory means here, unless a directory is called so."""
+    from seisblock.readers.samples import find_sample
+
+    if not names and not Path(target).is_dir() and find_sample(target) is not None:
+        return Path(), (target,)
+    return Path(target), names

@@ -1,0 +1,109 @@
+"""What goes with an answer: its papers, the bundled files, the shell's completion."""
+
+import hashlib
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import COMMANDS, main
+from seisblock.readers.samples import list_samples, sample_directory
+from seisblock.references import CITED, REFERENCES
+
+OF_THE_PROGRAM = {"validate", "cite", "samples", "completion", "report"}
+"""Commands whose answers rest on no paper of their own."""
+
+
+def run(*words):
+    """Run a command line in this process."""
+    return CliRunner().invoke(main, [str(word) for word in words])
+
+
+def test_every_command_with_an_answer_has_its_papers():
+    """`cite` knows every command but those of the program itself, and every key exists."""
+    assert set(COMMANDS) - OF_THE_PROGRAM <= set(CITED)
+    assert {key for keys in CITED.values() for key in keys} <= set(REFERENCES)
+
+
+@pytest.mark.parametrize("command", [["jump"], ["measure"], ["rock", "--width", "0.3", "--height", "0.9"]], ids=lambda words: words[0])
+def test_what_an_answer_cites_is_in_its_command_s_list(command):
+    """The keys in a document are among those that `cite COMMAND` prints."""
+    cited = json.loads(run(*command, "--json").stdout)["citations"]
+    assert set(cited) <= set(CITED[command[0]])
+
+
+def test_cite_prints_text_bibtex_and_json():
+    """Text names the paper and the program; BibTeX has balanced entries, one for every reference when no command is named."""
+    assert "Explanation of jumping behavior" in " ".join(run("cite", "jump").stdout.split())
+    entries = run("cite", "--bibtex").stdout
+    assert entries.count("\n@") + 1 == len(REFERENCES) + 1
+    assert entries.count("{") == entries.count("}")
+    assert all(f"{{{key}," in entries for key in REFERENCES)
+    assert [entry["key"] for entry in json.loads(run("cite", "jump", "--json").stdout)["results"]] == ["Sugimoto2017", "seisblock"]
+    assert run("cite", "cook").exit_code == 2
+
+
+def test_samples_are_listed_with_terms_and_peaks():
+    """Every bundled file stands there with its licence, its origin and its PGA; in the document with SI and its digest."""
+    text = run("samples").stdout
+    assert "PGA NS 934, EW 962, UD 531 gal" in text and "NOT a recording" in text
+    listed = json.loads(run("samples", "--json").stdout)["results"]
+    assert [entry["name"] for entry in listed] == [sample.name for sample in list_samples()]
+    for entry in listed:
+        assert entry["licence"] and entry["origin"] and entry["name"] in text
+    assert listed[0]["pga_m_s2"]["NS"] == pytest.approx(9.3398)
+
+
+def test_samples_are_copied_byte_for_byte_with_their_notice(tmp_path):
+    """A directory gets all; it is made when missing, and a second copy changes nothing."""
+    directory = tmp_path / "new" / "records"
+    assert run("samples", "--copy", directory).exit_code == 0
+    for sample in list_samples():
+        assert hashlib.sha256((directory / sample.name).read_bytes()).hexdigest() == sample.sha256
+    assert "MIT License" in (directory / "seisblock-samples-NOTICE.txt").read_text()
+    again = run("samples", "--copy", directory)
+    assert again.exit_code == 0 and "already" in again.stderr
+
+
+def test_a_name_is_copied_to_where_one_stands(tmp_path, monkeypatch):
+    """`--copy NAME` copies that sample, the whole set when the name is a stem."""
+    monkeypatch.chdir(tmp_path)
+    assert run("samples", "--copy", "synthetic_knet").exit_code == 0
+    assert {path.name for path in tmp_path.glob("synthetic*")} == {f"synthetic_knet.{end}" for end in ("NS", "EW", "UD", "knt.tar.gz")}
+
+
+def test_nothing_is_overwritten_unless_asked(tmp_path):
+    """A file of other content is refused before anything is written; --overwrite replaces it."""
+    mine = tmp_path / "synthetic_jma.csv"
+    mine.write_text("my own")
+    refused = run("samples", "--copy", tmp_path)
+    assert refused.exit_code == 3 and "--overwrite" in refused.stderr
+    assert mine.read_text() == "my own" and list(tmp_path.iterdir()) == [mine]
+    assert run("samples", "--copy", tmp_path, "--overwrite").exit_code == 0
+    assert mine.read_bytes() == (sample_directory() / "synthetic_jma.csv").read_bytes()
+    assert run("samples", "--copy", mine).exit_code == 3
+    assert run("samples", "nosuch").exit_code == 3
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_scripts(shell):
+    """Each shell's script calls the program back; where it belongs is said on stderr."""
+    answer = run("completion", shell)
+    assert answer.exit_code == 0 and "_SEISBLOCK_COMPLETE" in answer.stdout
+    assert "seisblock completion" in answer.stderr
+
+
+def test_the_shell_completes_commands_options_and_samples():
+    """What the script asks back: a command's name, an option, a sample's name or a file."""
+
+    def complete(words, index):
+        environment = {**os.environ, "_SEISBLOCK_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(index)}
+        return subprocess.run([sys.executable, "-m", "seisblock"], env=environment, capture_output=True, text=True, check=False).stdout
+
+    assert complete("seisblock ju", 1).split() == ["plain,jump"]
+    assert "plain,--side" in complete("seisblock jump --si", 2).split()
+    offered = complete("seisblock jump syn", 2).split()
+    assert "plain,synthetic_jma.csv" in offered and "file,syn" in offered
