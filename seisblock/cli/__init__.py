@@ -28,6 +28,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "completion": ("seisblock.cli.completion:completion", "Completion of commands and options for bash, zsh and fish."),
     "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
     "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic shaking."),
+    "criteria": ("seisblock.cli.criteria:criteria", "Every closed-form criterion of overturning beside the simulated truth."),
 }
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
 

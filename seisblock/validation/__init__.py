@@ -11,6 +11,8 @@ from seisblock.validation.case import CONVERGED, EXACT, Case, CaseResult
 PAPERS: tuple[str, ...] = (
     "sugimoto",
     "okumura",
+    "tsutsui",
+    "housner",
 )
 """Modules of this package that export CASES."""
 

@@ -1,0 +1,83 @@
+"""``seisblock criteria``: every closed-form criterion of overturning beside the simulated truth."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from seisblock.cli.body import block_options, rocking_options
+from seisblock.cli.command import Command
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.rock import along
+from seisblock.cli.talk import say
+
+if TYPE_CHECKING:
+    from seisblock.present.criteria import Card
+
+
+@click.command(
+    cls=Command,
+    examples=("seisblock criteria --width 24cm --height 72cm", "seisblock criteria record.csv --block gravestone --json"),
+)
+@record_options
+@block_options
+@rocking_options
+@gravity_option
+@output_options
+def criteria(source: Source, output: Output, gravity: float, restitution: float | None, linear: bool, vertical: bool,
+             azimuth: tuple[str, ...], **body: Any) -> None:
+    """Every closed-form criterion of overturning beside the simulated outcome, for each component.
+
+    A block overturns, says a criterion, when the demand (the record's PGA or PGV) exceeds its threshold. Those that want a
+    frequency are given the record's equivalent frequency in each of its three definitions.
+    """
+    from seisblock.bodies.library import choose_block
+    from seisblock.cli.emit import emit
+    from seisblock.cli.inputs import components, load
+    from seisblock.present import criteria as shown
+    from seisblock.present.document import Answer
+
+    chosen = choose_block({**body, "restitution": restitution})
+    say(f"body: {chosen.says}")
+    source = along(source, azimuth)
+    options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
+    records = load(source)
+    cards = [_card(record, name, chosen.block, options) for record in records for name in components(record, source)]
+    results = [
+        {**({"record_index": records.index(card.record)} if len(records) > 1 else {}), "component": card.component,
+         "pga_m_s2": card.measures.pga_m_s2, "pgv_m_s": card.measures.pgv_m_s,
+         "equivalent_frequency_hz": card.measures.equivalent_frequency_hz,
+         "criteria": [asdict(row) for row in card.rows], "simulated": asdict(card.outcome)}
+        for card in cards
+    ]  # fmt: skip
+    parameters = {**options, "block": chosen.block, "velocity_highpass_hz": cards[0].velocity_highpass_hz}
+    citations = ["Furukawa2009", "Housner1963", "Zhang2001", "Ishiyama1982", "Tsutsui"]
+    warnings = list(dict.fromkeys(text for card in cards for text in card.warnings))
+    emit(
+        Answer("criteria", parameters, results, records, citations, warnings), output,
+        tables=lambda: shown.tables(cards, gal=output.gal), csv=lambda path: shown.write(path, cards),
+        figure=lambda: shown.figure(cards, gal=output.gal),
+    )  # fmt: skip
+
+
+def _card(record: Any, component: str, block: Any, options: dict[str, Any]) -> Card:
+    """Return the criteria and the simulated outcome of one component."""
+    from dataclasses import replace
+
+    from seisblock.criteria.card import overturning_card
+    from seisblock.measures import Conventions, measure
+    from seisblock.present.criteria import Card
+    from seisblock.records import motion_of
+    from seisblock.solvers.rock import solve_rock
+    from seisblock.studies.margin import flips_nearby
+
+    rules = Conventions(gravity_m_s2=options["gravity"])
+    measured = measure(record, (component,), conventions=rules).components[0]
+    motion = motion_of(record, component)
+    response = solve_rock(motion, block, **options)
+    outcome = replace(response.outcome, verdict_flips_within_2_percent=flips_nearby(motion, block, **options))
+    frequencies = asdict(measured.equivalent_frequency_hz)
+    rows = overturning_card(block, measured.pga_m_s2, measured.pgv_m_s, frequencies, options["gravity"])
+    return Card(record, component, block, measured, rows, outcome, rules.velocity_highpass_hz, response.warnings)

@@ -1,0 +1,119 @@
+"""All criteria of overturning side by side for one block and one motion."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from seisblock.bodies.block import Block
+from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, overturning_pga
+from seisblock.criteria.overturning import (
+    housner_acceleration,
+    housner_acceleration_as_printed,
+    ishiyama_acceleration,
+    ishiyama_velocity,
+    static_acceleration,
+    tsutsui_velocity,
+    velocity_step,
+)
+from seisblock.criteria.pulses import half_sine_ratio, one_sine_ratio, rectangular_ratio
+from seisblock.errors import ParameterError
+from seisblock.units import STANDARD_GRAVITY
+
+ACCELERATION, VELOCITY = "m/s^2", "m/s"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One criterion beside its demand.
+
+    Parameters
+    ----------
+    criterion : str
+        Its name.
+    where : str
+        Paper and locator.
+    unit : str
+        ``m/s^2`` or ``m/s``, of threshold and demand.
+    frequency : str or None
+        Which equivalent frequency it was given; None when it needs none.
+    frequency_hz : float or None
+    threshold, demand : float
+        The block overturns, says the criterion, when the demand exceeds the threshold.
+    overturns : bool
+    """
+
+    criterion: str
+    where: str
+    unit: str
+    frequency: str | None
+    frequency_hz: float | None
+    threshold: float
+    demand: float
+    overturns: bool
+
+
+def overturning_card(
+    block: Block, pga: float, pgv: float, frequencies: Mapping[str, float | None], gravity: float = STANDARD_GRAVITY
+) -> tuple[Row, ...]:
+    """Return every criterion of this package for a block and the peaks of a motion.
+
+    The sizes B and H that a formula wants are twice the arm and twice the height of the centre of gravity (gravestone fits: the overall
+    height over width). The rectangular pulse has the impulse of half a sine of the equivalent frequency, t = 1/(pi f)
+    ([Tsutsui]_ eq. (3)). [Ishiyama1982]_ asks for both its acceleration and its velocity. Not here for want of a source that could be
+    read: the overturning ratios of Kaneko and Hayashi (2000).
+
+    Parameters
+    ----------
+    block : Block
+    pga, pgv : float, m/s^2 and m/s
+        Peak ground acceleration and velocity along the block's motion.
+    frequencies : mapping of name to Hz
+        Equivalent frequencies; None for one that is not defined.
+    gravity : float, m/s^2
+
+    Raises
+    ------
+    ParameterError
+        If a peak is negative or not a number.
+    """
+    for name, value in (("PGA", pga), ("PGV", pgv)):
+        if not (math.isfinite(value) and value >= 0.0):
+            raise ParameterError(f"the {name} must be zero or positive, found {value}")
+    width, height = 2 * min(block.arms), 2 * block.centre
+    alpha, p = block.slenderness, block.frequency_parameter(gravity)
+    rows = [
+        _row("West, static", "[Furukawa2009]_ eq. (2)", ACCELERATION, static_acceleration(width, height, gravity), pga),
+        _row("Ishiyama, acceleration", "[Ishiyama1982]_", ACCELERATION, ishiyama_acceleration(width, height, gravity), pga),
+        _row("Ishiyama, velocity", "[Ishiyama1982]_", VELOCITY, ishiyama_velocity(width, height), pgv),
+        _row("Tsutsui, constant force", "[Tsutsui]_ eq. (2)", VELOCITY, tsutsui_velocity(width, height, gravity), pgv),
+        _row("Tsutsui, cosine", "[Tsutsui]_ eq. (4)", VELOCITY, tsutsui_velocity(width, height, gravity, cosine=True), pgv),
+        _row("velocity step, exact", "[Tsutsui]_ eq. (2), exact", VELOCITY, velocity_step(alpha, p, gravity), pgv),
+    ]
+    ratio = block.height / block.width
+
+    def gravestone(fit: GravestoneFit) -> Callable[[float], float]:
+        return lambda f: float(overturning_pga(ratio, f, fit))
+
+    by_frequency: tuple[tuple[str, str, Callable[[float], float]], ...] = (
+        ("Housner, first form", "[Furukawa2009]_ eq. (6)", lambda f: housner_acceleration(alpha, p, f, gravity)),
+        ("Housner, as printed", "[Furukawa2009]_ eq. (6)", lambda f: housner_acceleration_as_printed(width, height, f, gravity)),
+        ("half sine, exact", "[Housner1963]_", lambda f: gravity * alpha * half_sine_ratio(2 * math.pi * f / p)),
+        ("one sine, no impact", "[Zhang2001]_", lambda f: gravity * alpha * one_sine_ratio(2 * math.pi * f / p)),
+        ("rectangular pulse", "[Housner1963]_", lambda f: gravity * alpha * rectangular_ratio(1 / (math.pi * f), p)),
+        ("gravestone", "[Furukawa2009]_ eq. (9)", gravestone(PLAIN)),
+        ("gravestone, dowelled", "[Furukawa2009]_ eq. (10)", gravestone(DOWELLED)),
+    )
+    for criterion, where, threshold in by_frequency:
+        for name, f in frequencies.items():
+            if f is not None:
+                rows.append(_row(criterion, where, ACCELERATION, threshold(f), pga, name, f))
+    return tuple(rows)
+
+
+def _row(
+    criterion: str, where: str, unit: str, threshold: float, demand: float, frequency: str | None = None, hz: float | None = None
+) -> Row:
+    """Return a row with its verdict."""
+    return Row(criterion, where, unit, frequency, hz, threshold, demand, demand > threshold)

@@ -1,0 +1,202 @@
+"""Criteria of overturning in closed form: accelerations and velocities at which a block is said to fall."""
+
+from __future__ import annotations
+
+import math
+
+from seisblock.errors import ParameterError
+from seisblock.units import STANDARD_GRAVITY
+
+
+def static_acceleration(width: float, height: float, gravity: float = STANDARD_GRAVITY) -> float:
+    """Return g B/H, m/s^2: West's acceleration, at which rocking begins ([Furukawa2009]_ eq. (2)).
+
+    Necessary for overturning, not sufficient.
+
+    Parameters
+    ----------
+    width, height : float, m
+        B and H of a homogeneous block, or twice the lever arm and twice the height of its centre of gravity.
+    gravity : float, m/s^2
+
+    Raises
+    ------
+    ParameterError
+        If a size is not positive.
+
+    Examples
+    --------
+    >>> round(static_acceleration(1.0, 4.0, 9.8), 12)
+    2.45
+    """
+    _sizes(width, height, gravity)
+    return gravity * width / height
+
+
+def housner_acceleration(
+    slenderness: float, frequency_parameter: float, frequency: float, gravity: float = STANDARD_GRAVITY
+) -> float:
+    """Return g alpha sqrt(1 + (omega/p)^2), m/s^2: the first form of [Furukawa2009]_ eq. (6), where 4 R/(3 g) = 1/p^2.
+
+    Differs from the true threshold of a half-sine pulse (:func:`~seisblock.criteria.pulses.half_sine_ratio`): it asks that alpha be
+    reached when the pulse ends, and neglects what the block does afterwards; up to 55 % too high at omega = 5 p.
+
+    Parameters
+    ----------
+    slenderness : float, rad
+        alpha.
+    frequency_parameter : float, rad/s
+        p; sqrt(3 g/(4 R)) of a rectangle.
+    frequency : float, Hz
+        Of the sine.
+    gravity : float, m/s^2
+
+    Raises
+    ------
+    ParameterError
+        If something is not positive.
+    """
+    _all_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, frequency=frequency, gravity=gravity)
+    return gravity * slenderness * math.hypot(1.0, 2 * math.pi * frequency / frequency_parameter)
+
+
+def housner_acceleration_as_printed(width: float, height: float, frequency: float, gravity: float = STANDARD_GRAVITY) -> float:
+    """Return g atan(B/H) sqrt(1 + sqrt(B^2 + H^2) omega^2/(3 g)), m/s^2: the second form of [Furukawa2009]_ eq. (6), as printed.
+
+    Differs from the first form: with R = sqrt(B^2 + H^2)/2 there should be 2 sqrt(B^2 + H^2) omega^2/(3 g) under the root.
+
+    Parameters
+    ----------
+    width, height : float, m
+    frequency : float, Hz
+    gravity : float, m/s^2
+
+    Raises
+    ------
+    ParameterError
+        If something is not positive.
+    """
+    _sizes(width, height, gravity)
+    _all_positive(frequency=frequency)
+    omega = 2 * math.pi * frequency
+    return gravity * math.atan2(width, height) * math.sqrt(1.0 + math.hypot(width, height) * omega**2 / (3 * gravity))
+
+
+def tsutsui_velocity(width: float, height: float, gravity: float = STANDARD_GRAVITY, *, cosine: bool = False) -> float:
+    """Return the overturning velocity sqrt(b lambda g), m/s, lambda = b/h ([Tsutsui]_ eq. (2)).
+
+    With the restoring force falling like a cosine, sqrt(b lambda g 2/pi) ([Tsutsui]_ eq. (4), 4 to 8 % below the exact value for a
+    velocity step).
+
+    Parameters
+    ----------
+    width, height : float, m
+        b and h.
+    gravity : float, m/s^2
+    cosine : bool
+        Whether to return eq. (4).
+
+    Raises
+    ------
+    ParameterError
+        If a size is not positive.
+
+    Examples
+    --------
+    >>> round(tsutsui_velocity(0.242, 0.726, 9.8, cosine=True), 3)
+    0.709
+    """
+    _sizes(width, height, gravity)
+    return math.sqrt(width * width / height * gravity * (2 / math.pi if cosine else 1.0))
+
+
+def tsutsui_sine_velocity(acceleration: float, frequency: float) -> float:
+    """Return a/(pi f), m/s: the velocity that half a sine gives ([Tsutsui]_ eq. (3)).
+
+    Parameters
+    ----------
+    acceleration : float, m/s^2
+    frequency : float, Hz
+
+    Raises
+    ------
+    ParameterError
+        If one is not positive.
+    """
+    _all_positive(acceleration=acceleration, frequency=frequency)
+    return acceleration / (math.pi * frequency)
+
+
+def velocity_step(slenderness: float, frequency_parameter: float, gravity: float = STANDARD_GRAVITY) -> float:
+    """Return the sudden ground velocity that just overturns a block, m/s: exact, nonlinear.
+
+    The step gives the angular velocity m v h/I_O, which must reach the barrier p^2 (1 - cos(alpha)):
+    v = (g/p) sqrt(2 (1 - cos(alpha)))/cos(alpha); for a rectangle sqrt((8/3) g R (1 - cos(alpha)))/cos(alpha). The exact form of
+    what [Tsutsui]_ eqs. (2) and (4) approximate.
+
+    Parameters
+    ----------
+    slenderness : float, rad
+        alpha, below pi/2.
+    frequency_parameter : float, rad/s
+        p.
+    gravity : float, m/s^2
+
+    Raises
+    ------
+    ParameterError
+        If something is out of range.
+
+    Examples
+    --------
+    >>> block_of_1_by_4 = velocity_step(math.atan(0.25), math.sqrt(3 * 9.8 / (4 * math.hypot(0.5, 2.0))), 9.8)
+    >>> round(block_of_1_by_4, 4)
+    1.3073
+    """
+    _all_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, gravity=gravity)
+    if slenderness >= math.pi / 2:
+        raise ParameterError(f"the slenderness must be below pi/2 rad, found {slenderness}")
+    return gravity / frequency_parameter * 2 * math.sin(slenderness / 2) / math.cos(slenderness)
+
+
+def ishiyama_acceleration(width: float, height: float, gravity: float = STANDARD_GRAVITY) -> float:
+    """Return g B/H, m/s^2: the acceleration that must be exceeded, together with the velocity ([Ishiyama1982]_).
+
+    Parameters and errors as :func:`static_acceleration`.
+    """
+    return static_acceleration(width, height, gravity)
+
+
+def ishiyama_velocity(width: float, height: float) -> float:
+    """Return 10 B/sqrt(H) cm/s with B and H in cm, that is B/sqrt(H) m/s with B and H in m ([Ishiyama1982]_).
+
+    A lower limit from experiments and simulations: about 0.4 times the velocity step of a slender block at g = 980 cm/s^2.
+
+    Parameters
+    ----------
+    width, height : float, m
+
+    Raises
+    ------
+    ParameterError
+        If a size is not positive.
+
+    Examples
+    --------
+    >>> ishiyama_velocity(0.25, 1.0)
+    0.25
+    """
+    _sizes(width, height, STANDARD_GRAVITY)
+    return width / math.sqrt(height)
+
+
+def _sizes(width: float, height: float, gravity: float) -> None:
+    """Refuse sizes and a gravity that are not positive."""
+    _all_positive(width=width, height=height, gravity=gravity)
+
+
+def _all_positive(**values: float) -> None:
+    """Refuse what is not a positive number."""
+    for name, value in values.items():
+        if not (math.isfinite(value) and value > 0.0):
+            raise ParameterError(f"the {name.replace('_', ' ')} must be positive, found {value}")

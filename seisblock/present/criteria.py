@@ -1,0 +1,113 @@
+"""How the criteria card is shown: one table per component, the simulated outcome on top, and a figure of demand over threshold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rich.text import Text
+
+from seisblock.bodies.block import Block
+from seisblock.criteria.card import ACCELERATION, Row
+from seisblock.measures import ComponentMeasures
+from seisblock.present.files import write_table
+from seisblock.present.tables import acceleration_unit, number, record_line, table
+from seisblock.records import Record
+from seisblock.solvers.rock_outcome import RockOutcome
+from seisblock.units import GAL, KINE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": "pulse width"}
+
+
+@dataclass(frozen=True)
+class Card:
+    """The criteria of one component beside its simulated outcome."""
+
+    record: Record
+    component: str
+    block: Block
+    measures: ComponentMeasures
+    rows: tuple[Row, ...]
+    outcome: RockOutcome
+    velocity_highpass_hz: float | None
+    warnings: tuple[str, ...] = ()
+
+
+def tables(cards: Sequence[Card], *, gal: bool) -> Iterator[Any]:
+    """Yield the record's line, then a table per component with the simulated outcome below."""
+    last: Record | None = None
+    for card in cards:
+        if card.record is not last:
+            last = card.record
+            yield record_line(card.record)
+        yield _table(card, gal=gal)
+        yield Text(simulated(card))
+        yield Text()
+
+
+def simulated(card: Card) -> str:
+    """Return the simulated outcome in words."""
+    outcome = card.outcome
+    if outcome.overturned:
+        said = f"overturns to {outcome.overturned_towards}"
+    elif outcome.rocks:
+        said = f"rocks and stands, {outcome.max_rotation_ratio:.0%} of the way to alpha"
+    else:
+        said = "stands still"
+    flag = "; a change of the record by less than 2 % changes this" if outcome.verdict_flips_within_2_percent else ""
+    right = sum(row.overturns == outcome.overturned for row in card.rows)
+    return f"{card.component}, simulated: {said}{flag}. {right} of {len(card.rows)} criteria agree."
+
+
+def _table(card: Card, *, gal: bool) -> Any:
+    """Return the table of one component."""
+    m = card.measures
+    units = (acceleration_unit(gal=gal), "kine" if gal else "m/s")
+    factors = (GAL, KINE) if gal else (1.0, 1.0)
+    title = f"{card.component}: {card.block.name} {card.block.width:g} x {card.block.height:g} m, " + (
+        f"PGA {m.pga_m_s2 / factors[0]:.4g} {units[0]}, PGV {m.pgv_m_s / factors[1]:.4g} {units[1]}"
+    )
+    rows = []
+    for row in card.rows:
+        kind = 0 if row.unit == ACCELERATION else 1
+        shown = f"{number(row.threshold / factors[kind])} {units[kind]}"
+        hz = "" if row.frequency_hz is None else f"{row.frequency_hz:.2f} {DEFINITIONS.get(row.frequency or '', '')}"
+        agrees = "" if row.overturns == card.outcome.overturned else "  (not so)"
+        verdict = ("falls" if row.overturns else "stands") + agrees
+        rows.append([row.criterion, row.where, hz, shown, number(row.demand / row.threshold), verdict])
+    return table(title, ["criterion", "formula", "f (Hz)", "threshold", "demand/threshold", "verdict"], rows)
+
+
+def write(path: Path, cards: Sequence[Card]) -> None:
+    """Write all rows as CSV, SI."""
+    header = ["component", "criterion", "where", "unit", "frequency", "frequency_hz", "threshold", "demand", "overturns", "simulated"]
+    write_table(path, header, (
+        [card.component, row.criterion, row.where, row.unit, row.frequency or "", "" if row.frequency_hz is None else row.frequency_hz,
+         row.threshold, row.demand, row.overturns, card.outcome.overturned]
+        for card in cards for row in card.rows
+    ))  # fmt: skip
+
+
+def figure(cards: Sequence[Card], *, gal: bool = True) -> Figure:
+    """Return the figure: demand over threshold of every criterion; right of one it says that the block falls."""
+    from seisblock.present import canvas
+
+    made, axes = canvas.new_figure(1, columns=len(cards), width=3.2 + 3.4 * len(cards), height=1.2 + 0.19 * len(cards[0].rows), sharey=True)
+    for axis, card in zip(axes, cards, strict=True):
+        names = [row.criterion + (f" ({DEFINITIONS.get(row.frequency, row.frequency)})" if row.frequency else "") for row in card.rows]
+        ratios = [row.demand / row.threshold for row in card.rows]
+        colours = [canvas.ACCENT if ratio > 1 else canvas.SECOND for ratio in ratios]
+        axis.barh(names, ratios, color=colours, height=0.65)
+        axis.axvline(1.0, color=canvas.THRESHOLD, linewidth=1.0)
+        axis.tick_params(axis="y", labelsize=7)
+        axis.set_ylim(-0.6, len(names) - 0.4)
+        said = "overturns" if card.outcome.overturned else "stands"
+        axis.set_title(f"{card.component}, simulated: {said}", fontsize=9, loc="left")
+        canvas.label(axis, "demand over threshold")
+    axes[0].invert_yaxis()
+    return made
