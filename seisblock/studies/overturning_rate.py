@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.bodies.cemetery import Cemetery
-from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, outside_fit, overturning_level, overturning_ratio
+from seisblock.bodies.cemetery import PAPER_WIDTH, Cemetery, Stone
+from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, outside_fit, overturning_level
+from seisblock.criteria.half_sine import half_sine_pga
 from seisblock.errors import ParameterError
 from seisblock.typing import ArrayLike, BoolArray, FloatArray
-from seisblock.units import GAL
+from seisblock.units import GAL, STANDARD_GRAVITY
+
+Limits = Callable[[Cemetery, float], FloatArray]
+"""A criterion: from a cemetery and a frequency (Hz) to the PGA (m/s^2) beyond which each stone falls, (size,)."""
 
 CONFIDENCE = 0.95
 """Default level of the interval of a rate."""
@@ -58,15 +62,67 @@ class CurvePoint:
     rate: float
 
 
+def fitted_limits(cemetery: Cemetery, frequency: float, *, fits: tuple[GravestoneFit, GravestoneFit] = (PLAIN, DOWELLED)) -> FloatArray:
+    """Return the PGA beyond which each stone falls by the fit of its kind ([Furukawa2009]_ eqs. (9), (10)).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    frequency : float, Hz
+        Of a sine, or equivalent; zero or more.
+    fits : two GravestoneFit
+        For stones without and with a dowel.
+
+    Returns
+    -------
+    (size,) array, m/s^2
+    """
+    plain, dowelled = (float(overturning_level(frequency, fit)) for fit in fits)
+    limits: FloatArray = np.where(cemetery.reinforced, dowelled, plain) / cemetery.ratios
+    return limits
+
+
+def rigid_limits(
+    cemetery: Cemetery, frequency: float, *, width: float = PAPER_WIDTH, gravity: float = STANDARD_GRAVITY
+) -> FloatArray:
+    """Return the PGA beyond which each stone falls as one rigid block under a half-sine pulse ([Housner1963]_).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+        Stones that stand loose: a dowelled pile is no such block.
+    frequency : float, Hz
+        As for :func:`fitted_limits`.
+    width : float, m
+        Of stones whose width is not known.
+    gravity : float, m/s^2
+
+    Returns
+    -------
+    (size,) array, m/s^2
+
+    Raises
+    ------
+    ParameterError
+        If a stone is reinforced.
+    """
+    require_loose(cemetery)
+    return half_sine_pga(cemetery.ratios, cemetery.widths(width), frequency, gravity=gravity)
+
+
+def require_loose(cemetery: Cemetery) -> None:
+    """Refuse reinforced stones where each is judged as one rigid block: eq. (10) of [Furukawa2009]_ is not that of such a block."""
+    if cemetery.reinforced.any():
+        raise ParameterError(
+            f"{cemetery.source or cemetery.name}: a rigid block knows no dowel, but some stones are reinforced; "
+            "judge them with the criterion furukawa"
+        )  # fmt: skip
+
+
 def overturning_rate(
-    cemetery: Cemetery,
-    pga: float,
-    frequency: float,
-    *,
-    fits: tuple[GravestoneFit, GravestoneFit] = (PLAIN, DOWELLED),
-    confidence: float = CONFIDENCE,
+    cemetery: Cemetery, pga: float, frequency: float, *, limits: Limits = fitted_limits, confidence: float = CONFIDENCE
 ) -> Rate:
-    """Return the share of stones whose H/B exceeds the threshold, each by the criterion of its kind ([Furukawa2009]_ section 4(2)).
+    """Return the share of stones that a criterion lets fall, by default those whose H/B exceeds (9) or (10) ([Furukawa2009]_ section 4(2)).
 
     Parameters
     ----------
@@ -76,8 +132,8 @@ def overturning_rate(
         Peak ground acceleration, positive.
     frequency : float, Hz
         Frequency of a sine, or equivalent frequency of a record.
-    fits : two GravestoneFit
-        For stones without and with a dowel.
+    limits : callable
+        The criterion: :func:`fitted_limits` or :func:`rigid_limits`.
     confidence : float
         Level of the interval, between 0 and 1.
 
@@ -100,20 +156,37 @@ def overturning_rate(
     >>> overturning_rate(read_cemetery("aoyama.csv"), 7.25, 2.75).fallen
     35
     """
-    return rate_of(overturns(cemetery, pga, frequency, fits=fits), confidence)
+    return rate_of(overturns(cemetery, pga, frequency, limits=limits), confidence)
 
 
-def overturns(
-    cemetery: Cemetery,
-    pga: float,
-    frequency: float,
-    *,
-    fits: tuple[GravestoneFit, GravestoneFit] = (PLAIN, DOWELLED),
-) -> BoolArray:
-    """Return which stones fall, (size,): those whose H/B exceeds the threshold of their kind ([Furukawa2009]_ eqs. (9), (10))."""
-    plain, dowelled = (float(overturning_ratio(pga, frequency, fit)) for fit in fits)
-    falls: BoolArray = cemetery.ratios > np.where(cemetery.reinforced, dowelled, plain)
+def overturns(cemetery: Cemetery, pga: float, frequency: float, *, limits: Limits = fitted_limits) -> BoolArray:
+    """Return which stones fall, (size,): those whose limit a PGA (m/s^2) exceeds ([Furukawa2009]_ eqs. (9), (10))."""
+    if not (np.isfinite(pga) and pga > 0.0):
+        raise ParameterError(f"the peak ground acceleration must be positive, found {pga} m/s^2")
+    falls: BoolArray = pga > limits(cemetery, frequency)
     return falls
+
+
+def threshold_ratio(
+    pga: float, frequency: float, *, reinforced: bool = False, limits: Limits = fitted_limits
+) -> float:
+    """Return the least H/B that a criterion lets fall, that of an 8-sun stone where size matters ([Furukawa2009]_ eqs. (7)-(10)).
+
+    Parameters
+    ----------
+    pga, frequency : float, m/s^2 and Hz
+    reinforced : bool
+        Whether the stone has a dowel.
+    limits : callable
+        The criterion.
+    """
+    from scipy.optimize import brentq
+
+    def excess(log_ratio: float) -> float:
+        stone = Cemetery((Stone(float(np.exp(log_ratio)), reinforced=reinforced),))
+        return float(np.log(limits(stone, frequency)[0] / pga))
+
+    return float(np.exp(brentq(excess, np.log(1e-6), np.log(1e6), xtol=1e-14, rtol=1e-14)))
 
 
 def rate_of(falls: BoolArray, confidence: float = CONFIDENCE) -> Rate:
@@ -168,7 +241,7 @@ def rate_curve(
     pga: ArrayLike = CURVE_PGA,
     frequencies: Sequence[float] = FREQUENCIES,
     *,
-    fits: tuple[GravestoneFit, GravestoneFit] = (PLAIN, DOWELLED),
+    limits: Limits = fitted_limits,
 ) -> tuple[CurvePoint, ...]:
     """Return the rate against PGA for each frequency ([Furukawa2009]_ figs. 16, 17).
 
@@ -177,8 +250,8 @@ def rate_curve(
     cemetery : Cemetery
     pga : (n,) array, m/s^2
     frequencies : sequence of float, Hz
-    fits : two GravestoneFit
-        For stones without and with a dowel.
+    limits : callable
+        The criterion.
 
     Returns
     -------
@@ -188,17 +261,9 @@ def rate_curve(
     grid = np.atleast_1d(np.asarray(pga, dtype=np.float64))
     points = []
     for frequency in frequencies:
-        limits = np.sort(_limits(cemetery, frequency, fits))
-        rates = np.searchsorted(limits, grid, side="left") / cemetery.size
+        rates = np.searchsorted(np.sort(limits(cemetery, frequency)), grid, side="left") / cemetery.size
         points += [CurvePoint(float(a), float(frequency), float(rate)) for a, rate in zip(grid, rates, strict=True)]
     return tuple(points)
-
-
-def _limits(cemetery: Cemetery, frequency: float, fits: tuple[GravestoneFit, GravestoneFit]) -> FloatArray:
-    """Return the PGA above which each stone falls, (size,), m/s^2."""
-    plain, dowelled = (float(overturning_level(frequency, fit)) for fit in fits)
-    limits: FloatArray = np.where(cemetery.reinforced, dowelled, plain) / cemetery.ratios
-    return limits
 
 
 def stones_saved(cemetery: Cemetery, pga: float, frequency: float, *, most_fragile: int | None = None) -> int:
@@ -217,8 +282,16 @@ def stones_saved(cemetery: Cemetery, pga: float, frequency: float, *, most_fragi
     return overturning_rate(cemetery, pga, frequency).fallen - overturning_rate(after, pga, frequency).fallen
 
 
-def remarks(cemetery: Cemetery, pga: float, frequency: float) -> tuple[str, ...]:
-    """Return what the user should know before believing a rate at this shaking, a sentence each ([Furukawa2009]_ section 3(3))."""
+def remarks(cemetery: Cemetery, pga: float, frequency: float, *, fitted: bool = True) -> tuple[str, ...]:
+    """Return what the user should know before believing a rate at this shaking, a sentence each ([Furukawa2009]_ section 3(3)).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    pga, frequency : float, m/s^2 and Hz
+    fitted : bool
+        Whether the range of the fit matters.
+    """
     if pga < IMPLAUSIBLE_PGA:
         return (f"a PGA of {pga / GAL:.3g} gal overturns nothing: was m/s^2 given where gal is meant?",)
-    return outside_fit(pga, frequency, cemetery.ratios)
+    return outside_fit(pga, frequency, cemetery.ratios) if fitted else ()

@@ -11,7 +11,16 @@ from seisblock.bodies.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery_csv import read_cemetery
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, overturning_ratio
 from seisblock.errors import ParameterError
-from seisblock.studies.overturning_rate import clopper_pearson, overturning_rate, overturns, rate_curve, remarks, stones_saved
+from seisblock.studies.overturning_rate import (
+    clopper_pearson,
+    overturning_rate,
+    overturns,
+    rate_curve,
+    remarks,
+    rigid_limits,
+    stones_saved,
+    threshold_ratio,
+)
 
 AOYAMA = read_cemetery("aoyama.csv")
 
@@ -22,6 +31,25 @@ def test_the_rate_is_the_share_above_the_threshold():
         assert overturning_rate(AOYAMA, pga, f).rate == AOYAMA.share_above(float(overturning_ratio(pga, f)))
         dowelled = overturning_rate(AOYAMA.dowelled(), pga, f)
         assert dowelled.rate == AOYAMA.share_above(float(overturning_ratio(pga, f, DOWELLED)))
+
+
+def test_the_threshold_is_where_the_rate_steps():
+    """The threshold H/B of either criterion divides the stones that fall from those that stand."""
+    for reinforced, fit in ((False, PLAIN), (True, DOWELLED)):
+        found = threshold_ratio(7.25, 2.75, reinforced=reinforced)
+        assert found == pytest.approx(float(overturning_ratio(7.25, 2.75, fit)), rel=1e-12)
+    rigid = threshold_ratio(7.25, 1.0, limits=rigid_limits)
+    alike = Cemetery(tuple(Stone(rigid * factor) for factor in (0.999, 1.001)))
+    assert overturns(alike, 7.25, 1.0, limits=rigid_limits).tolist() == [False, True]
+
+
+def test_a_rigid_block_at_low_frequency_is_west():
+    """Under a slow pulse a rigid block falls beyond g B/H ([Furukawa2009]_ eq. (2)), and needs more the faster the pulse."""
+    assert threshold_ratio(5.0, 0.0, limits=rigid_limits) == pytest.approx(9.80665 / 5.0, rel=1e-12)
+    rates = [overturning_rate(AOYAMA, 5.0, f, limits=rigid_limits).rate for f in (0.0, 0.5, 1.0, 2.0)]
+    assert rates == sorted(rates, reverse=True)
+    with pytest.raises(ParameterError, match="knows no dowel"):
+        overturning_rate(AOYAMA.dowelled(), 5.0, 1.0, limits=rigid_limits)
 
 
 def test_stones_of_both_kinds_are_judged_each_by_its_own_criterion():

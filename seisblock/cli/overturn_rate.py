@@ -1,0 +1,181 @@
+"""``seisblock overturn-rate``: which share of a cemetery falls."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from seisblock.cli.command import Command, option
+from seisblock.cli.emit import emit
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.talk import say
+from seisblock.cli.types import FLOATS, LENGTH
+
+if TYPE_CHECKING:
+    from seisblock.studies.cemetery_rates import FrequencyKind
+
+KINDS: dict[str, FrequencyKind] = {"pga-pgv": "pga_pgv", "fourier": "fourier", "pulse-width": "pulse_width"}
+"""Definitions of the equivalent frequency, as they are spelled here and in the library."""
+
+
+def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[float, float, float] | None:
+    """Accept P,Q,R in gal, Hz and 1."""
+    if value is None:
+        return None
+    try:
+        p, q, r = (float(part) for part in value.split(","))
+    except ValueError as error:
+        raise click.BadParameter(f"{value!r} is not P,Q,R in gal, Hz and 1, for example 826.8,1.92,4.6", ctx, param) from error
+    return p, q, r
+
+
+def _share(ctx: click.Context, param: click.Parameter, value: float) -> float:
+    """Refuse a level that is none."""
+    if not 0.0 < value < 1.0:
+        raise click.BadParameter(f"must lie between 0 and 1, found {value}", ctx, param)
+    return value
+
+
+@click.command(
+    "overturn-rate",
+    cls=Command,
+    examples=(
+        "seisblock overturn-rate --cemetery aoyama.csv",
+        "seisblock overturn-rate --cemetery aoyama.csv record.csv --both --plot rate.png",
+    ),
+)
+@record_options
+@option("--cemetery", required=True, metavar="FILE|NAME", section="Body",
+        help="CSV of gravestones: height_over_width, or height and width; optional reinforced, fallen, azimuth_deg, count. "
+        "Bundled: aoyama.csv.")
+@option("--reinforced", is_flag=True, section="Body", help="Judge as if every stone were reinforced.")
+@option("--both", is_flag=True, section="Body", help="Compare with every stone reinforced, and say how many that saves.")
+@option("--most-fragile", type=click.IntRange(min=1), metavar="K", section="Body", help="Compare with the K most slender reinforced.")
+@option("--stone-width", type=LENGTH, section="Body",
+        help="Width of stones whose width is not in the file, m or with a unit. [default: 8sun]")
+@option("--pga", type=FLOATS, metavar="GAL",
+        help="Without RECORD: peak ground acceleration, gal; a list or range is answered one by one.")
+@option("--frequency", type=FLOATS, metavar="HZ",
+        help="Without RECORD: frequency, Hz, or a list or range (also of the curves). With RECORD: instead of its equivalent frequency.")
+@option("--equivalent", type=click.Choice(list(KINDS)), default="pga-pgv", show_default=True,
+        help="Equivalent frequency of RECORD: PGA/(2 pi PGV), dominant Fourier frequency, or from the width of the pulse of the PGA.")
+@option("--criterion", type=click.Choice(["furukawa", "rigid", "simulate"]), default="furukawa", show_default=True,
+        help="Fit to whole stones (9), (10); one rigid block under a half sine; or each stone rocking under RECORD or a 20 s sine.")
+@option("--inset", type=float, default=1.0, show_default=True,
+        help="simulate: half width of the pivots over that of the stone; 0.8 comes close to (9).")
+@option("--fit", callback=_fit, metavar="P,Q,R",
+        help="furukawa: own parameters without a dowel, gal, Hz, 1. [default: 826.8,1.92,4.6]")
+@option("--fit-reinforced", callback=_fit, metavar="P,Q,R",
+        help="furukawa: own parameters with a dowel, gal, Hz, 1. [default: 1162.9,1.84,4.5]")
+@option("--confidence", type=float, default=0.95, show_default=True, callback=_share, help="Level of the interval of a rate.")
+@gravity_option
+@output_options
+def overturn_rate(
+    source: Source, output: Output, cemetery: str, reinforced: bool, both: bool, most_fragile: int | None, **asked: Any
+) -> None:
+    """Tell which share of a cemetery's gravestones falls (Furukawa et al. 2009).
+
+    A stone falls when its height over width exceeds a(f)/PGA. Without RECORD the curve of rates against PGA is printed, or the rate
+    at --pga and --frequency; with one the rate for each horizontal component and for the larger of them.
+    """
+    from seisblock.bodies.cemetery_csv import read_cemetery
+    from seisblock.present.document import Answer
+    from seisblock.studies import cemetery_rates as study
+    from seisblock.studies.overturning_rate import FREQUENCIES
+
+    if reinforced + both + (most_fragile is not None) > 1:
+        raise click.UsageError("give one of --reinforced, --both and --most-fragile")
+    stones = read_cemetery(cemetery)
+    for note in stones.notes[:1]:
+        say(f"{cemetery}: {note}")
+    stones = stones.dowelled() if reinforced else stones
+    after = stones.dowelled(most_fragile) if both or most_fragile else None
+    method = _method(asked)
+    groups = _groups(source, asked)
+    judged = [(record, [study.judge_cemetery(stones, each, method, after=after) for each in shakings]) for record, shakings in groups]
+    found = [(record, [*rates, study.larger_of(rates)] if record is not None and len(rates) > 1 else rates) for record, rates in judged]
+    frequencies = asked["frequency"] or FREQUENCIES
+    curve = study.curve_of(stones, method, frequencies=frequencies)
+    warnings = [text for _, shakings in groups for each in shakings for text in study.warnings_of(stones, each, method)]
+    parameters = _parameters(stones, after, method, asked)
+    answer = Answer(
+        "overturn-rate", parameters, _results(found) or [{"curve": curve}], [r for r, _ in groups if r is not None], method.citations,
+        list(dict.fromkeys(warnings)), {"curve": curve},
+    )  # fmt: skip
+
+    def tables() -> Any:
+        from seisblock.present.overturn_rate import tables as shown
+
+        return shown(stones, found, curve, gal=output.gal, confidence=method.confidence)
+
+    def figure() -> Any:
+        from seisblock.present.cemetery import overturn_rate_figure
+
+        return overturn_rate_figure(stones, found, curve)
+
+    def csv(path: Path) -> None:
+        from seisblock.present.files import write_table
+        from seisblock.present.overturn_rate import curve_columns
+
+        write_table(path, *curve_columns(curve, study.curve_of(after, method, frequencies=frequencies) if after else None))
+
+    emit(answer, output, tables=tables, figure=figure, csv=csv)
+
+
+def _method(asked: dict[str, Any]) -> Any:
+    """Return how stones are judged."""
+    from seisblock.bodies.cemetery import PAPER_WIDTH
+    from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit
+    from seisblock.studies.cemetery_rates import Method
+
+    plain, dowelled = (
+        preset if own is None else GravestoneFit(own[0] / 100.0, own[1], own[2])
+        for own, preset in ((asked["fit"], PLAIN), (asked["fit_reinforced"], DOWELLED))
+    )
+    width = PAPER_WIDTH if asked["stone_width"] is None else asked["stone_width"]
+    return Method(asked["criterion"], (plain, dowelled), asked["inset"], width, asked["gravity"], asked["confidence"])
+
+
+def _groups(source: Source, asked: dict[str, Any]) -> list[tuple[Any, list[Any]]]:
+    """Return the shakings to judge, under the record they belong to, or None."""
+    from seisblock.studies.cemetery_rates import Shaking, shakings_of
+    from seisblock.studies.overturning_rate import FREQUENCIES
+
+    pga, frequency = asked["pga"], asked["frequency"]
+    if not source.record:
+        return [(None, [Shaking(a / 100.0, f) for a in pga for f in frequency or FREQUENCIES])] if pga else []
+    if pga:
+        raise click.UsageError("give either RECORD or --pga; --target-pga scales a record")
+    if frequency and len(frequency) > 1:
+        raise click.UsageError(f"with RECORD --frequency takes one value, found {len(frequency)}")
+    from seisblock.cli.inputs import components, load
+
+    own = frequency[0] if frequency else None
+    return [
+        (record, shakings_of(record, components(record, source), kind=KINDS[asked["equivalent"]], frequency=own)) for record in load(source)
+    ]
+
+
+def _results(found: list[tuple[Any, list[Any]]]) -> list[dict[str, Any]]:
+    """Return the entries of the document, with the index of their record when there are several."""
+    from dataclasses import asdict
+
+    several = len(found) > 1
+    return [{**({"record_index": i} if several else {}), **asdict(each)} for i, (_, rates) in enumerate(found) for each in rates]
+
+
+def _parameters(stones: Any, after: Any, method: Any, asked: dict[str, Any]) -> dict[str, Any]:
+    """Return everything that determines the answer."""
+    from seisblock.measures import Conventions
+
+    rules = Conventions()
+    return {
+        "cemetery": stones.source, "stones": stones.size, "reinforced_stones": int(stones.reinforced.sum()),
+        "compared_with_reinforced_stones": None if after is None else int(after.reinforced.sum()),
+        "criterion": method.criterion, "fit": method.fits[0], "fit_reinforced": method.fits[1], "inset": method.inset,
+        "stone_width_m": method.width, "gravity_m_s2": method.gravity, "confidence": method.confidence,
+        "equivalent_frequency": "given" if asked["frequency"] else KINDS[asked["equivalent"]],
+        "velocity_highpass_hz": rules.velocity_highpass_hz, "velocity_baseline": rules.velocity_baseline,
+    }  # fmt: skip

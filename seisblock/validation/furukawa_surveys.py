@@ -1,0 +1,53 @@
+"""Table 6 of [Furukawa2009]_, repaired: shaking and overturning rates after the western Tottori earthquake of 2000."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from seisblock.units import GAL, KINE
+
+
+@dataclass(frozen=True)
+class Survey:
+    """One row of table 6; the scan's lost digits follow from f = PGA/(2 pi PGV).
+
+    Parameters
+    ----------
+    name : str
+    pga_gal, pgv_kine, printed_frequency_hz : float
+        As printed; fig. 18 repeats the frequency.
+    rate : float
+        Surveyed around the station.
+    estimate, estimate_reinforced : float or None
+        Read by the authors off figs. 16 and 17; None where the scan lost it.
+    """
+
+    name: str
+    pga_gal: float
+    pgv_kine: float
+    printed_frequency_hz: float
+    rate: float
+    estimate: float | None
+    estimate_reinforced: float | None
+
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration, m/s^2."""
+        return self.pga_gal * GAL
+
+    @property
+    def frequency(self) -> float:
+        """Equivalent frequency PGA/(2 pi PGV), Hz ([Furukawa2009]_ section 3(5)e)."""
+        return self.pga_gal * GAL / (2.0 * math.pi * self.pgv_kine * KINE)
+
+
+SURVEYS = (
+    Survey("Hakuta", 720, 36, 3.18, 0.05, 0.10, 0.02),
+    Survey("Kofu", 725, 42, 2.75, 0.30, 0.35, 0.08),
+    Survey("Yonago", 280, 27, 1.65, 0.07, 0.10, 0.04),
+    Survey("Nichinan", 629, 36, 2.78, 0.40, 0.20, 0.05),
+    Survey("Hino", 927, 113, 1.31, 0.90, 1.0, None),
+    Survey("Sakaiminato", 213, 90, 0.38, 0.36, None, None),
+)
+"""Its six rows, in the order printed. The last row's estimates, 0.05 and 0, contradict the other rows and are left out."""

@@ -1,0 +1,210 @@
+"""``seisblock overturn-rate`` tells which share of a cemetery falls: the curve, a record's rates, what dowels would save."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.cli import main
+from seisblock.criteria.gravestones import DOWELLED, overturning_ratio
+from seisblock.readers import sample_path
+from seisblock.studies.overturning_rate import clopper_pearson
+
+AOYAMA = read_cemetery("aoyama.csv")
+KEYS = {"pga_m_s2", "equivalent_frequency_hz", "threshold_ratio", "rate", "rate_interval"}
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Return a function that runs the command in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    return lambda *words: CliRunner().invoke(main, ["overturn-rate", *map(str, words)])
+
+
+@pytest.fixture
+def document(run):
+    """Return a function that runs the command and returns its JSON document."""
+    return lambda *words: json.loads(run(*words, "--json").stdout)
+
+
+@pytest.fixture
+def sines(tmp_path):
+    """A plain CSV: 1 Hz, 300 gal north; 2 Hz, 400 gal east; 20 s."""
+    t = np.arange(4001) * 0.005
+    rows = np.column_stack([t, 300 * np.sin(2 * math.pi * t), 400 * np.sin(4 * math.pi * t)])
+    np.savetxt(tmp_path / "sines.csv", rows, delimiter=",", header="time,NS (gal),EW (gal)", comments="", fmt="%.17g")
+    return "sines.csv"
+
+
+@pytest.mark.parametrize("words", [["aoyama.csv"], ["aoyama"]])
+def test_the_users_line_by_bundled_name(run, words):
+    """``seisblock overturn-rate --cemetery aoyama.csv`` prints the curve where there is no such file."""
+    found = run("--cemetery", *words)
+    assert found.exit_code == 0
+    assert "aoyama: 100 stones" in found.stdout
+    assert "RECONSTRUCTED" in found.stderr
+    assert "0.5 Hz" in found.stdout
+
+
+def test_the_users_line_with_the_users_file(run, tmp_path):
+    """The same line from a directory that holds a file of that name takes that file."""
+    (tmp_path / "aoyama.csv").write_text("height_over_width\n2.0\n3.0\n", encoding="utf-8")
+    assert "aoyama: 2 stones" in run("--cemetery", "aoyama.csv").stdout
+    shutil.copy(sample_path("aoyama.csv"), tmp_path / "aoyama.csv")
+    assert "aoyama: 100 stones" in run("--cemetery", "aoyama.csv").stdout
+
+
+def test_the_curve_in_the_document(document):
+    """Without a record the one result holds the curve, which stands at the top level, too; each point is the share above (9)."""
+    found = document("--cemetery", "aoyama.csv")
+    assert found["schema"] == "seisblock/overturn-rate/1"
+    assert found["results"] == [{"curve": found["curve"]}]
+    assert found["record"] is None
+    assert {point["frequency_hz"] for point in found["curve"]} == {0.5, 1.0, 1.5, 2.0, 2.5, 3.0}
+    for point in found["curve"]:
+        assert point["rate"] == AOYAMA.share_above(float(overturning_ratio(point["pga_m_s2"], point["frequency_hz"])))
+    assert found["citations"] == ["Furukawa2009"]
+    assert found["parameters"]["fit"] == {"p_m_s2": 8.268, "q_hz": 1.92, "r": 4.6, "name": "plain"}
+
+
+def test_a_record(document, sines):
+    """One result per horizontal and one for the larger of them, with PGA, equivalent frequency, threshold, rate and interval."""
+    found = document("--cemetery", "aoyama.csv", sines)
+    assert [each["component"] for each in found["results"]] == ["NS", "EW", "larger"]
+    for each, (pga, f) in zip(found["results"], ((3.0, 1.0), (4.0, 2.0)), strict=False):
+        assert set(each) >= KEYS
+        assert each["pga_m_s2"] == pytest.approx(pga, rel=1e-9)
+        assert each["equivalent_frequency_hz"] == pytest.approx(f, rel=5e-3)
+        assert each["threshold_ratio"] == pytest.approx(float(overturning_ratio(each["pga_m_s2"], each["equivalent_frequency_hz"])))
+        assert each["rate"] == AOYAMA.share_above(each["threshold_ratio"])
+        assert each["rate_interval"] == pytest.approx(clopper_pearson(each["fallen"], 100))
+        assert any(point["frequency_hz"] == each["equivalent_frequency_hz"] for point in each["curve"])
+    ns, _, larger = found["results"]
+    assert larger["of"] == "NS"
+    assert {**larger, "component": "NS", "of": None} == ns
+    assert found["parameters"]["velocity_highpass_hz"] == 0.05
+    assert found["record"]["sha256"]
+
+
+def test_bare_numbers(document):
+    """--pga in gal and --frequency in Hz give one result per pair; the rate of Kofu in table 6 is 0.35."""
+    found = document("--cemetery", "aoyama.csv", "--pga", "725,280", "--frequency", "2.75,1.65")
+    pairs = [(r["pga_m_s2"], r["equivalent_frequency_hz"]) for r in found["results"]]
+    assert pairs == [(7.25, 2.75), (7.25, 1.65), (2.8, 2.75), (2.8, 1.65)]
+    assert found["results"][0]["rate"] == 0.35
+    assert found["results"][3]["rate"] == 0.10
+    assert len(document("--cemetery", "aoyama.csv", "--pga", "725")["results"]) == 6
+
+
+def test_reinforcing(run, document):
+    """--reinforced judges by (10), --both says what all dowels save, --most-fragile what a few do."""
+    words = ("--cemetery", "aoyama.csv", "--pga", 725, "--frequency", 2.75)
+    (dowelled,) = document(*words, "--reinforced")["results"]
+    assert dowelled["threshold_ratio"] == pytest.approx(float(overturning_ratio(7.25, 2.75, DOWELLED)))
+    assert dowelled["rate"] == 0.08
+    (both,) = document(*words, "--both")["results"]
+    assert both["rate"] == 0.35
+    assert both["reinforced"]["rate"] == 0.08
+    assert both["reinforced"]["stones_saved"] == 27
+    (few,) = document(*words, "--most-fragile", 12)["results"]
+    assert few["reinforced"]["stones_saved"] == 4
+    assert "27 fewer" in run(*words, "--both").stdout
+    assert run(*words, "--both", "--reinforced").exit_code == 2
+
+
+def test_own_parameters(document):
+    """--fit and --fit-reinforced replace p (gal), q (Hz) and r."""
+    words = ("--cemetery", "aoyama.csv", "--pga", 894, "--frequency", 2.2)
+    (found,) = document(*words, "--fit", "900,2,4", "--fit-reinforced", "1362.9,1.84,4.5")["results"]
+    assert found["threshold_ratio"] == pytest.approx(900 * math.sqrt(1 + 1.1**4) / 894)
+    assert found["threshold_ratio_reinforced"] == pytest.approx(2.742, abs=5e-4)
+
+
+def test_other_criteria(document, sines):
+    """A rigid block needs no fit; simulated stones come close to (9) with inset pivots and say no threshold."""
+    words = ("--cemetery", "aoyama.csv", "--pga", 300, "--frequency", 1)
+    (rigid,) = document(*words, "--criterion", "rigid")["results"]
+    assert rigid["rate"] == 0.04
+    (inset,) = document(*words, "--criterion", "simulate", "--inset", 0.8)["results"]
+    assert inset["threshold_ratio"] is None
+    assert inset["rate"] == pytest.approx(0.35, abs=0.05)
+    found = document("--cemetery", "aoyama.csv", sines, "--criterion", "simulate", "--inset", 0.8)
+    assert found["results"][0]["rate"] == pytest.approx(0.35, abs=0.05)
+    assert {point["frequency_hz"] for point in found["results"][0]["curve"]} == {found["results"][0]["equivalent_frequency_hz"]}
+    assert "Housner1963" in found["citations"]
+
+
+def test_frequencies_of_a_record(document, sines):
+    """The kind of equivalent frequency can be chosen, or the frequency given."""
+    words = ("--cemetery", "aoyama.csv", sines, "--component", "EW")
+    for kind in ("fourier", "pulse-width"):
+        (found,) = document(*words, "--equivalent", kind)["results"]
+        assert found["equivalent_frequency_hz"] == pytest.approx(2.0, rel=1e-2)
+    (given,) = document(*words, "--frequency", 1.5)["results"]
+    assert given["equivalent_frequency_hz"] == 1.5
+
+
+def test_files(run, sines):
+    """--csv writes the curve, --plot a figure."""
+    done = run("--cemetery", "aoyama.csv", sines, "--both", "--csv", "curve.csv", "--plot", "rate.png")
+    assert done.exit_code == 0
+    rows = list(csv.DictReader(Path("curve.csv").read_text(encoding="utf-8").splitlines()))
+    assert list(rows[0]) == ["pga_m_s2", "frequency_hz", "rate", "rate_reinforced"]
+    assert len(rows) == 6 * 36
+    assert Path("rate.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--pga", 5.5, "--frequency", 1), "was m/s^2 given where gal is meant?"),
+        (("--pga", 1400, "--frequency", 1), "1400 gal lies outside the range of the fit"),
+        (("--pga", 700, "--frequency", 4.5), "4.5 Hz lies outside the range of the fit"),
+    ],
+)
+def test_warnings(run, words, message):
+    """An implausible PGA and numbers outside the fit are said on stderr, and in the document."""
+    found = run("--cemetery", "aoyama.csv", *words, "--json")
+    assert message in found.stderr
+    assert any(message in text for text in json.loads(found.stdout)["warnings"])
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "message"),
+    [
+        ((), 2, "Missing option '--cemetery'"),
+        (("--cemetery", "nothing.csv"), 3, "no cemetery file nothing.csv"),
+        (("--cemetery", "bad.csv"), 3, "bad.csv, line 3: height over width must be positive, found 0"),
+        (("--cemetery", "empty.csv"), 3, "empty.csv: there is no gravestone in it"),
+        (("--cemetery", "aoyama.csv", "--pga", -3, "--frequency", 1), 3, "peak ground acceleration must be positive"),
+        (("--cemetery", "aoyama.csv", "--pga", 3, "--frequency", -1), 3, "frequency must be zero or positive"),
+        (("--cemetery", "aoyama.csv", "--pga", 300, "sines.csv"), 2, "give either RECORD or --pga"),
+        (("--cemetery", "aoyama.csv", "--frequency", "1,2", "sines.csv"), 2, "--frequency takes one value"),
+        (("--cemetery", "aoyama.csv", "--pga", 300, "--criterion", "rigid", "--both"), 3, "a rigid block knows no dowel"),
+        (("--cemetery", "aoyama.csv", "--criterion", "simulate", "--inset", 1.2), 3, "inset"),
+        (("--cemetery", "aoyama.csv", "--fit", "826.8,1.92"), 2, "is not P,Q,R"),
+        (("--cemetery", "aoyama.csv", "--fit", "0,1,1"), 3, "must be positive"),
+        (("--cemetery", "aoyama.csv", "--confidence", 95), 2, "between 0 and 1"),
+        (("--cemetery", "aoyama.csv", "nothing.csv"), 3, "nothing.csv"),
+        (("--cemetery", "aoyama.csv", "zero.csv"), 3, "component NS has no equivalent frequency pga_pgv"),
+    ],
+)
+def test_bad_input_is_one_sentence(run, sines, tmp_path, words, code, message):
+    """What the user can mend is one sentence on stderr and an exit code, never a traceback."""
+    (tmp_path / "bad.csv").write_text("H/B\n2.5\n0\n", encoding="utf-8")
+    (tmp_path / "empty.csv").write_text("", encoding="utf-8")
+    (tmp_path / "zero.csv").write_text("time,NS (gal)\n0,0\n0.01,0\n0.02,0\n", encoding="utf-8")
+    found = run(*words)
+    assert found.exit_code == code
+    assert message in found.stderr
+    assert "Traceback" not in found.stderr
+    assert found.stdout == ""
