@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
 
-Progress = Callable[[int], None]
-"""Called now and then with the number of runs finished."""
+Progress = Callable[[int, int], None]
+"""Called now and then with the number of runs done and the number in all."""
 
 CHUNK = 128
 """Runs handed out at a time."""
@@ -27,7 +27,7 @@ def cores() -> int:
 
 
 def in_threads(
-    work: Callable[[Item], Answer], items: Iterable[Item], *, progress: Progress | None = None, workers: int | None = None
+    work: Callable[[Item], Answer], items: Sequence[Item], *, progress: Progress | None = None, workers: int | None = None
 ) -> Iterator[Answer]:
     """Yield the answers of many runs, in the order of their items.
 
@@ -37,10 +37,10 @@ def in_threads(
     ----------
     work : callable
         One run.
-    items : iterable
+    items : sequence
         What each run is given.
     progress : callable
-        Told the number of runs finished.
+        Told the number of runs done and the number in all.
     workers : int
         Threads; as many as there are cores when left out.
     """
@@ -51,4 +51,4 @@ def in_threads(
             yield from pool.map(work, chunk)
             finished += len(chunk)
             if progress is not None:
-                progress(finished)
+                progress(finished, len(items))

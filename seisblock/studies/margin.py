@@ -79,7 +79,7 @@ def find_margin(
     limit, step : float
         Largest factor, and distance of the factors looked at; changes are then bisected to 1e-6.
     progress : callable
-        Told the number of runs finished.
+        Told the number of runs done and the number in all.
     options
         ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve_rock`.
 
@@ -119,6 +119,6 @@ def _bisected(overturns: Any, low: float, high: float, above: bool) -> float:
 
 def flips_nearby(motion: Motion, block: Block, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Any) -> bool:
     """Return whether some factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
-    factors = np.linspace(1.0 - share, 1.0 + share, steps)
-    verdicts = set(in_threads(lambda factor: rock_verdict(motion, block, scale=float(factor), **options).overturned, factors))
+    factors = [float(factor) for factor in np.linspace(1.0 - share, 1.0 + share, steps)]
+    verdicts = set(in_threads(lambda factor: rock_verdict(motion, block, scale=factor, **options).overturned, factors))
     return len(verdicts) > 1

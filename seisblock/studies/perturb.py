@@ -92,7 +92,7 @@ def perturb(
     restitution : float
         Its middle value; that of each changed block's angular momentum when left out. Never above 1.
     progress : callable
-        Told the number of runs finished.
+        Told the number of runs done and the number in all.
     options
         ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve_rock`.
 
@@ -114,7 +114,7 @@ def perturb(
             restitution=min(middle * (1.0 + spread.restitution * bounce), 1.0), **options,
         ).overturned  # fmt: skip
 
-    count = sum(in_threads(once, draws, progress=progress))
+    count = sum(in_threads(once, list(draws), progress=progress))
     return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)
 
 

@@ -1,0 +1,80 @@
+"""``seisblock spectrum``: one record, and blocks of all sizes and slendernesses."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from seisblock.cli.body import rocking_options
+from seisblock.cli.command import Command, option
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.rock import along
+from seisblock.cli.types import FLOATS, LENGTHS
+from seisblock.errors import ParameterError
+
+KINDS = ("rocking", "overturning")
+
+
+@click.command(
+    cls=Command,
+    examples=(
+        "seisblock spectrum --component NS --plot spectrum.png",
+        "seisblock spectrum record.csv --kind overturning --sizes 0.2:4:0.1 --height-over-width 2:8:0.25 --csv falls.csv",
+    ),
+)
+@record_options
+@option("--kind", type=click.Choice(KINDS), default="rocking", show_default=True,
+        help="Largest lean over alpha, or overturning alone.")
+@option("--sizes", type=LENGTHS, section="Body", metavar="LIST|RANGE", help="Diagonals 2R, m or with units. [default: 0.2 to 8, geometric]")
+@option("--frequency-parameter", type=FLOATS, section="Body", metavar="LIST|RANGE", help="p = sqrt(3g/4R), rad/s, instead of --sizes.")
+@option("--height-over-width", type=FLOATS, section="Body", metavar="LIST|RANGE", help="H/B of the blocks, 1. [default: 1.5 to 10]")
+@option("--slenderness-rad", type=FLOATS, section="Body", metavar="LIST|RANGE",
+        help="alpha = atan(B/H), rad, instead of --height-over-width.")
+@option("--steps", type=click.IntRange(2, 1000), default=40, show_default=True, help="Points of each axis that is left to its default.")
+@rocking_options
+@gravity_option
+@output_options
+def spectrum(source: Source, output: Output, gravity: float, kind: str, sizes: tuple[float, ...] | None,
+             frequency_parameter: tuple[float, ...] | None, height_over_width: tuple[float, ...] | None,
+             slenderness_rad: tuple[float, ...] | None, steps: int, restitution: float | None, linear: bool, vertical: bool,
+             azimuth: tuple[str, ...]) -> None:
+    """Largest lean of rectangular blocks over their alpha, against size and slenderness, for each component.
+
+    Overturning is not monotone: look for islands in the figure.
+    """
+    from seisblock.cli.emit import emit
+    from seisblock.cli.inputs import load, motions
+    from seisblock.cli.progress import progress
+    from seisblock.present import spectrum as shown
+    from seisblock.present.document import Answer
+    from seisblock.solvers.rock import check_options
+    from seisblock.studies.spectra import default_sizes, default_slendernesses, rocking_spectrum, size_of, slenderness_of
+
+    check_options(restitution, gravity)
+    _one_of(sizes, "--sizes", frequency_parameter, "--frequency-parameter")
+    _one_of(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
+    diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else default_sizes(steps))
+    alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else default_slendernesses(steps))
+    options: dict[str, Any] = {"restitution": restitution, "linear": linear, "vertical": vertical}
+    records = load(source)
+    found = []
+    for record in records:
+        for motion in motions(record, along(source, azimuth)):
+            with progress(f"spectrum {motion.name}") as tell:
+                found.append((motion, rocking_spectrum(motion, diagonals, alphas, gravity=gravity, progress=tell, **options)))
+    results = [
+        {**({"record_index": records.index(motion.record)} if len(records) > 1 and motion.record else {}), **shown.document(motion, answer)}
+        for motion, answer in found
+    ]
+    emit(
+        Answer("spectrum", {"kind": kind, "gravity_m_s2": gravity, **options}, results, records, ["Housner1963", "Zhang2001"]), output,
+        tables=lambda: shown.tables(found, kind), csv=lambda path: shown.write(path, found),
+        figure=lambda: shown.figure(found, kind, gravity),
+    )  # fmt: skip
+
+
+def _one_of(first: Any, name: str, second: Any, other: str) -> None:
+    """Refuse two ways of saying the same."""
+    if first and second:
+        raise ParameterError(f"give either {name} or {other}, not both")

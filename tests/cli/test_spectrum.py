@@ -1,0 +1,105 @@
+"""``seisblock spectrum`` solves a grid of blocks, and says where they overturn."""
+
+import csv
+import json
+import math
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.bodies.block import Block
+from seisblock.cli import main
+from seisblock.records import Motion
+from seisblock.solvers.rock import solve_rock
+from seisblock.studies.spectra import rocking_spectrum
+
+GRID = ("--component", "NS", "--scale", 0.6, "--sizes", "30cm,1,3", "--height-over-width", "2,4")
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Return a function that runs the command in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "120")
+    return lambda *words: CliRunner().invoke(main, ["spectrum", *map(str, words)])
+
+
+def test_each_point_is_a_run_of_rock(run):
+    """A matrix with a row per size and a column per slenderness, equal to what rock says of each block."""
+    found = json.loads(run(*GRID, "--json").stdout)
+    assert found["schema"] == "seisblock/spectrum/1"
+    result = found["results"][0]
+    assert np.shape(result["max_rotation_ratio"]) == np.shape(result["overturned"]) == (3, 2)
+    for i, size in enumerate((0.3, 1.0, 3.0)):
+        assert result["frequency_parameter_rad_s"][i] == pytest.approx(math.sqrt(1.5 * 9.80665 / size))
+        for j, ratio in enumerate((2.0, 4.0)):
+            alpha = math.atan(1 / ratio)
+            words = ["rock", "--component", "NS", "--scale", "0.6", "--json", "--width", repr(size * math.sin(alpha))]
+            answer = CliRunner().invoke(main, [*words, "--height", repr(size * math.cos(alpha))])
+            expected = json.loads(answer.stdout)["results"][0]
+            assert result["overturned"][i][j] == expected["overturned"]
+            assert result["max_rotation_ratio"][i][j] == pytest.approx(expected["max_rotation_ratio"], rel=1e-9)
+
+
+def test_frequency_parameter_and_alpha_say_the_same(run):
+    """--frequency-parameter and --slenderness-rad are other words for size and H/B."""
+    p = ",".join(repr(math.sqrt(1.5 * 9.80665 / size)) for size in (0.3, 1.0, 3.0))
+    alpha = ",".join(repr(math.atan(1 / ratio)) for ratio in (2, 4))
+    words = ("--component", "NS", "--scale", 0.6, "--frequency-parameter", p, "--slenderness-rad", alpha, "--json")
+    ours, theirs = (json.loads(run(*some).stdout)["results"][0] for some in (words, (*GRID, "--json")))
+    assert ours["overturned"] == theirs["overturned"]
+    np.testing.assert_allclose(ours["max_rotation_ratio"], theirs["max_rotation_ratio"], rtol=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["rocking", "overturning"])
+def test_table_file_and_figure(run, tmp_path, kind):
+    """The table is thinned, the file holds every block, the figure is drawn."""
+    answer = run("--scale", 0.6, "--steps", 14, "--kind", kind, "--csv", "s.csv", "--plot", "s.png")
+    assert answer.exit_code == 0, answer.output
+    assert "of 196 blocks overturn" in answer.stdout
+    assert "falls" in answer.stdout
+    rows = list(csv.DictReader((tmp_path / "s.csv").open()))
+    assert len(rows) == 2 * 196
+    assert {row["overturned"] for row in rows} == {"True", "False"}
+    assert (tmp_path / "s.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--sizes", "0"], "size 2R must be positive"),
+        (["--sizes", "1,-2"], "size 2R must be positive"),
+        (["--slenderness-rad", "20"], "below 1.571"),
+        (["--height-over-width", "-3"], "height over width must be positive"),
+        (["--sizes", "1", "--frequency-parameter", "2"], "not both"),
+        (["--sizes", "1:2"], "range"),
+        (["--restitution", "2"], "(0, 1]"),
+    ],
+)
+def test_bad_input_is_one_sentence(run, words, says):
+    """No traceback for what a user can get wrong; degrees cannot pass for radians."""
+    answer = run(*words)
+    assert answer.exit_code in (2, 3)
+    assert says in " ".join(answer.stderr.split())
+    assert answer.stdout == ""
+
+
+def test_progress_is_told_and_memory_is_bounded():
+    """The bar hears of every chunk and ends at the number of runs."""
+    told = []
+    motion = Motion.from_arrays(3 * np.sin(np.arange(400) * 0.1), 0.02)
+    rocking_spectrum(motion, np.linspace(0.5, 3, 20), np.linspace(0.1, 0.4, 20), progress=lambda done, total: told.append((done, total)))
+    assert told[-1] == (400, 400)
+    assert len(told) > 2
+
+
+def test_similarity():
+    """Length L and time sqrt(L): the same leans over alpha."""
+    a = 3 * np.sin(np.arange(400) * 0.12)
+    small = rocking_spectrum(Motion.from_arrays(a, 0.02), [0.5, 1.0], [0.15, 0.3])
+    large = rocking_spectrum(Motion.from_arrays(a, 0.04), [2.0, 4.0], [0.15, 0.3])
+    np.testing.assert_array_equal(small.overturned, large.overturned)
+    np.testing.assert_allclose(small.max_rotation_ratio, large.max_rotation_ratio, rtol=1e-9)
+    one = solve_rock(Motion.from_arrays(a, 0.02), Block(0.5 * math.sin(0.15), 0.5 * math.cos(0.15))).outcome
+    assert small.max_rotation_ratio[0, 0] == pytest.approx(one.max_rotation_ratio, rel=1e-12)
