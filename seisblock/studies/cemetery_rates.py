@@ -13,16 +13,15 @@ from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit
 from seisblock.errors import ParameterError
 from seisblock.measures import Conventions, measure
 from seisblock.records import Motion, Record, motion_of
+from seisblock.studies.overturning_limits import fitted_limits, rigid_limits
 from seisblock.studies.overturning_rate import (
     CONFIDENCE,
     CURVE_PGA,
     FREQUENCIES,
     CurvePoint,
-    fitted_limits,
     rate_curve,
     rate_of,
     remarks,
-    rigid_limits,
     threshold_ratio,
 )
 from seisblock.studies.overturning_simulated import SIMULATED_PGA, simulated_curve, simulated_overturns, sine_motion

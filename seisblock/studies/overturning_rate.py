@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.bodies.cemetery import PAPER_WIDTH, Cemetery, Stone
-from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, outside_fit, overturning_level
-from seisblock.criteria.half_sine import half_sine_pga
+from seisblock.bodies.cemetery import Cemetery, Stone
+from seisblock.criteria.gravestones import outside_fit
 from seisblock.errors import ParameterError
-from seisblock.typing import ArrayLike, BoolArray, FloatArray
-from seisblock.units import GAL, STANDARD_GRAVITY
-
-Limits = Callable[[Cemetery, float], FloatArray]
-"""A criterion: from a cemetery and a frequency (Hz) to the PGA (m/s^2) beyond which each stone falls, (size,)."""
+from seisblock.studies.overturning_limits import Limits, fitted_limits
+from seisblock.typing import ArrayLike, BoolArray
+from seisblock.units import GAL
 
 CONFIDENCE = 0.95
 """Default level of the interval of a rate."""
@@ -62,63 +59,6 @@ class CurvePoint:
     rate: float
 
 
-def fitted_limits(cemetery: Cemetery, frequency: float, *, fits: tuple[GravestoneFit, GravestoneFit] = (PLAIN, DOWELLED)) -> FloatArray:
-    """Return the PGA beyond which each stone falls by the fit of its kind ([Furukawa2009]_ eqs. (9), (10)).
-
-    Parameters
-    ----------
-    cemetery : Cemetery
-    frequency : float, Hz
-        Of a sine, or equivalent; zero or more.
-    fits : two GravestoneFit
-        For stones without and with a dowel.
-
-    Returns
-    -------
-    (size,) array, m/s^2
-    """
-    plain, dowelled = (float(overturning_level(frequency, fit)) for fit in fits)
-    limits: FloatArray = np.where(cemetery.reinforced, dowelled, plain) / cemetery.ratios
-    return limits
-
-
-def rigid_limits(
-    cemetery: Cemetery, frequency: float, *, width: float = PAPER_WIDTH, gravity: float = STANDARD_GRAVITY
-) -> FloatArray:
-    """Return the PGA beyond which each stone falls as one rigid block under a half-sine pulse ([Housner1963]_).
-
-    Parameters
-    ----------
-    cemetery : Cemetery
-        Stones that stand loose: a dowelled pile is no such block.
-    frequency : float, Hz
-        As for :func:`fitted_limits`.
-    width : float, m
-        Of stones whose width is not known.
-    gravity : float, m/s^2
-
-    Returns
-    -------
-    (size,) array, m/s^2
-
-    Raises
-    ------
-    ParameterError
-        If a stone is reinforced.
-    """
-    require_loose(cemetery)
-    return half_sine_pga(cemetery.ratios, cemetery.widths(width), frequency, gravity=gravity)
-
-
-def require_loose(cemetery: Cemetery) -> None:
-    """Refuse reinforced stones where each is judged as one rigid block: eq. (10) of [Furukawa2009]_ is not that of such a block."""
-    if cemetery.reinforced.any():
-        raise ParameterError(
-            f"{cemetery.source or cemetery.name}: a rigid block knows no dowel, but some stones are reinforced; "
-            "judge them with the criterion furukawa"
-        )  # fmt: skip
-
-
 def overturning_rate(
     cemetery: Cemetery, pga: float, frequency: float, *, limits: Limits = fitted_limits, confidence: float = CONFIDENCE
 ) -> Rate:
@@ -133,7 +73,7 @@ def overturning_rate(
     frequency : float, Hz
         Frequency of a sine, or equivalent frequency of a record.
     limits : callable
-        The criterion: :func:`fitted_limits` or :func:`rigid_limits`.
+        The criterion, see :mod:`seisblock.studies.overturning_limits`.
     confidence : float
         Level of the interval, between 0 and 1.
 

@@ -17,7 +17,8 @@ from seisblock.bodies.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.rock import rock_verdict
-from seisblock.studies.overturning_rate import CurvePoint, require_loose
+from seisblock.studies.overturning_limits import require_loose
+from seisblock.studies.overturning_rate import CurvePoint
 from seisblock.typing import BoolArray
 from seisblock.units import STANDARD_GRAVITY
 

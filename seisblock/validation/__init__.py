@@ -13,6 +13,7 @@ PAPERS: tuple[str, ...] = (
     "okumura",
     "tsutsui",
     "housner",
+    "furukawa",
 )
 """Modules of this package that export CASES."""
 

@@ -11,13 +11,13 @@ from seisblock.bodies.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery_csv import read_cemetery
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, overturning_ratio
 from seisblock.errors import ParameterError
+from seisblock.studies.overturning_limits import rigid_limits
 from seisblock.studies.overturning_rate import (
     clopper_pearson,
     overturning_rate,
     overturns,
     rate_curve,
     remarks,
-    rigid_limits,
     stones_saved,
     threshold_ratio,
 )
