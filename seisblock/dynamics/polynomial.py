@@ -77,6 +77,8 @@ def lower_bound_of_row(c, i, degree, h):
 @kernel(_t.float64(_VECTOR, _t.int64, _t.float64))
 def _root_between(c, degree, high):
     """Return the root in [0, high] of a polynomial that falls from positive to negative there (Newton inside a bracket)."""
+    if c[0] <= 0.0:
+        return 0.0
     low = 0.0
     t = high
     for _ in range(100):
@@ -89,14 +91,13 @@ def _root_between(c, degree, high):
             low = t
         else:
             high = t
-        step = value / slope if slope != 0.0 else 0.0
-        following = t - step
+        following = t - value / slope if slope != 0.0 else t
+        if value == 0.0 or (slope != 0.0 and abs(following - t) <= 2.3e-16 * t):
+            return following
         if not (low < following < high):
             following = 0.5 * (low + high)
-        if following == t or high - low <= 2.3e-16 * high:
-            return following
-        if abs(following - t) <= 1.2e-16 * following:
-            return following
+            if high - low <= 2.3e-16 * high:
+                return following
         t = following
     return t
 
