@@ -23,6 +23,8 @@ _HOME = {
     "sample_path": "seisblock.readers",
     "solve_jump": "seisblock.solvers.jump",
     "SpringBlock": "seisblock.bodies.spring_block",
+    "slide_study": "seisblock.studies.sliding",
+    "solve_slide": "seisblock.solvers.slide",
     "natural_modes": "seisblock.solvers.uplift_modes",
     "solve_rock": "seisblock.solvers.rock",
     "solve_uplift": "seisblock.solvers.uplift",

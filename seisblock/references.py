@@ -93,6 +93,14 @@ _ALL = (
         doi="10.1680/geot.1965.15.2.139",
     ),
     Reference(
+        "WestermoUdwadia1983",
+        "Westermo, B. and Udwadia, F.",
+        1983,
+        "Periodic response of a sliding oscillator system to harmonic excitation",
+        "Earthquake Engineering and Structural Dynamics, 11(1), 135-146",
+        doi="10.1002/eqe.4290110111",
+    ),
+    Reference(
         "Ishiyama1982",
         "Ishiyama, Y.",
         1982,

@@ -21,6 +21,7 @@ from seisblock.errors import SeisblockError
 
 COMMANDS: dict[str, tuple[str, str]] = {
     "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
+    "slide": ("seisblock.cli.slide:slide", "Sliding on a level or sloping base, with Coulomb friction."),
     "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
     "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with its margins."),
     "samples": ("seisblock.cli.samples:samples", "The bundled records and bodies: list them, copy them."),

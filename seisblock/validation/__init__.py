@@ -9,6 +9,7 @@ from seisblock.errors import ParameterError
 from seisblock.validation.case import CONVERGED, EXACT, Case, CaseResult
 
 PAPERS: tuple[str, ...] = (
+    "fujino",
     "sugimoto",
     "okumura",
     "tsutsui",

@@ -1,0 +1,107 @@
+"""What an object slides on: two friction coefficients and a slope."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from seisblock.errors import ParameterError
+
+
+@dataclass(frozen=True)
+class SlidingBase:
+    """A rigid base with Coulomb friction, level or sloping.
+
+    Parameters
+    ----------
+    mu : float
+        Static friction coefficient, positive.
+    mu_kinetic : float
+        Kinetic friction coefficient, 0 to `mu`.
+    slope_deg : float, degrees
+        Angle by which the base falls towards the component's positive direction, -90 to 90 exclusive; negative falls the other way.
+    slope_length : float or None, m
+        Distance along the slope from the object to the foot, beyond which the ground is level; None is a slope without end.
+    one_way : bool
+        Whether the object can slide in the positive direction (downhill) only, as in [Newmark1965]_.
+
+    Raises
+    ------
+    ParameterError
+        If a number lies outside its range, or the object would slide down without any shaking.
+    """
+
+    mu: float
+    mu_kinetic: float
+    slope_deg: float = 0.0
+    slope_length: float | None = None
+    one_way: bool = False
+
+    def __post_init__(self) -> None:
+        _finite("mu, the static friction coefficient,", self.mu)
+        _finite("the kinetic friction coefficient", self.mu_kinetic)
+        _finite("the slope", self.slope_deg)
+        if self.mu <= 0.0:
+            raise ParameterError(f"mu, the static friction coefficient, must be positive, found {self.mu:g}")
+        if not 0.0 <= self.mu_kinetic <= self.mu:
+            raise ParameterError(
+                f"the kinetic friction coefficient must lie between 0 and mu = {self.mu:g} (kappa between 0 and 1), "
+                f"found {self.mu_kinetic:g}"
+            )
+        if not -90.0 < self.slope_deg < 90.0:
+            raise ParameterError(f"the slope must lie between -90 and 90 degrees, found {self.slope_deg:g}")
+        if not holds_at_rest(self.mu, self.slope_deg):
+            raise ParameterError(
+                f"a slope of {self.slope_deg:g} degrees is steeper than mu = {self.mu:g} holds at rest "
+                f"({math.degrees(math.atan(self.mu)):.2f} degrees): the object slides under gravity alone, without any shaking"
+            )
+        if self.slope_length is not None:
+            _finite("the slope's length", self.slope_length)
+            if self.slope_length <= 0.0:
+                raise ParameterError(f"the slope's length must be positive, found {self.slope_length:g} m")
+            if self.slope_deg == 0.0:
+                raise ParameterError("a slope's length needs a slope: give its angle, which is 0 degrees here")
+        if self.one_way and self.slope_deg < 0.0:
+            raise ParameterError("one-way sliding goes downhill, the component's positive direction: give a slope that is not negative")
+
+    @property
+    def angle(self) -> float:
+        """Slope, rad."""
+        return math.radians(self.slope_deg)
+
+    @property
+    def slides_for_ever(self) -> bool:
+        """Whether an object that slides downhill on still ground is never stopped by the slope itself ([Fujino1978]_ eq. (14))."""
+        return self.slope_deg != 0.0 and self.mu_kinetic <= abs(math.tan(self.angle))
+
+
+def holds_at_rest(mu: float, slope_deg: float) -> bool:
+    """Whether static friction holds an object on a slope while nothing shakes ([Fujino1978]_ eq. (10)); equality holds."""
+    return mu >= abs(math.tan(math.radians(slope_deg))) * (1.0 - 1e-15)
+
+
+def sliding_base(
+    mu: float, *, mu_kinetic: float | None = None, kappa: float | None = None, slope_deg: float = 0.0,
+    slope_length: float | None = None, one_way: bool = False,
+) -> SlidingBase:  # fmt: skip
+    """Return a base whose kinetic friction is given, or is `kappa` times the static one, or equals it.
+
+    Raises
+    ------
+    ParameterError
+        If both `mu_kinetic` and `kappa` are given, `kappa` is not in (0, 1], or a number lies outside its range.
+    """
+    if mu_kinetic is not None and kappa is not None:
+        raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
+    if kappa is not None:
+        _finite("kappa", kappa)
+        if not 0.0 < kappa <= 1.0:
+            raise ParameterError(f"kappa, kinetic over static friction, must lie in 0 < kappa <= 1, found {kappa:g}")
+        mu_kinetic = kappa * mu
+    return SlidingBase(mu, mu if mu_kinetic is None else mu_kinetic, slope_deg, slope_length, one_way)
+
+
+def _finite(what: str, value: float) -> None:
+    """Refuse what is no finite number."""
+    if not math.isfinite(value):
+        raise ParameterError(f"{what} must be a finite number, found {value}")

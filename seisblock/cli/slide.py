@@ -1,0 +1,156 @@
+"""``seisblock slide``: how far an object slides on a level or sloping base."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from seisblock.cli.command import Command, option
+from seisblock.cli.emit import emit, response_answer
+from seisblock.cli.inputs import load, motions
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.progress import progress
+from seisblock.cli.talk import say
+from seisblock.cli.types import FLOATS, LENGTH
+
+if TYPE_CHECKING:
+    from seisblock.records import Motion, Record
+
+ALL_AZIMUTHS = "all-azimuths"
+AZIMUTH_STEP = 5
+
+
+def _needed(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
+    """Say what --mu is when it is missing."""
+    if value is None and not ctx.resilient_parsing:
+        raise click.UsageError(
+            "--mu is needed: the static friction coefficient between the object and its base, for example --mu 0.2; "
+            "a list 0.1,0.2 or a range 0.05:0.20:0.005 makes a parameter study", ctx,
+        )  # fmt: skip
+    return value
+
+
+@click.command(
+    cls=Command,
+    examples=(
+        "seisblock slide --mu 0.2",
+        "seisblock slide record.csv --mu 0.3 --kappa 0.5 --vertical --csv slide.csv --plot slide.png",
+        "seisblock slide --mu 0.05:0.20:0.005 --kappa 0.333,0.5,0.75,1 --plot study.png",
+    ),
+)
+@record_options
+@option("--mu", type=FLOATS, callback=_needed, metavar="MU", section="Body",
+        help="Static friction coefficient, 1; a list or a range first:last:step makes a study, as with the next four.  [required]")
+@option("--mu-kinetic", type=FLOATS, metavar="MU", section="Body", help="Kinetic friction coefficient, 1. [default: as --mu]")
+@option("--kappa", type=FLOATS, metavar="RATIO", section="Body", help="Kinetic over static friction, 1, instead of --mu-kinetic.")
+@option("--slope", type=FLOATS, default="0", metavar="DEG", section="Body",
+        help="Angle of the base, degrees; the component's positive direction points downhill. [default: 0]")
+@option("--slope-length", type=LENGTH, metavar="M", section="Body",
+        help="Distance to the foot of the slope, m or with a unit, with level ground beyond. [default: no end]")
+@option("--one-way", is_flag=True, section="Body", help="Slide downhill (or in the positive direction) only, as Newmark assumed.")
+@option("--vertical", is_flag=True, help="Let the vertical component act too.")
+@option("--vertical-scale", type=FLOATS, metavar="GAMMA", help="Factor on the vertical component, 1; implies --vertical. [default: 1]")
+@gravity_option
+@output_options
+def slide(source: Source, output: Output, mu: tuple[float, ...], mu_kinetic: tuple[float, ...] | None, kappa: tuple[float, ...] | None,
+          slope: tuple[float, ...], slope_length: float | None, one_way: bool, vertical: bool, vertical_scale: tuple[float, ...] | None,
+          gravity: float) -> None:
+    """Sliding of an object on a level or sloping base (Fujino et al. 1978).
+
+    Displacements are relative to the base, along it, positive in the component's positive direction. Each horizontal
+    component is solved by itself; --component all-azimuths sweeps the directions in steps of 5 degrees and reports the worst.
+    """  # fmt: skip
+    scales = vertical_scale or ((1.0,) if vertical else (0.0,))
+    choice = {
+        "mu": mu, "mu_kinetic": mu_kinetic, "kappa": kappa, "vertical_scale": scales, "slope_deg": slope,
+    }  # fmt: skip
+    fixed = {"slope_length": slope_length, "one_way": one_way, "gravity": gravity}
+    sweeps = [name.lower() for name in source.component] == [ALL_AZIMUTHS]
+    several = any(values is not None and len(values) > 1 for values in choice.values())
+    records = load(_without_azimuths(source) if sweeps else source)
+    directions = _azimuths(both=one_way or any(slope)) if sweeps else None
+    if several:
+        _study(records, source, output, directions, choice, fixed)
+    else:
+        single = {name: values[0] for name, values in choice.items() if values is not None}
+        _one(records, source, output, directions, single, fixed)
+
+
+def _one(
+    records: list[Record], source: Source, output: Output, directions: list[str] | None, single: dict[str, float], fixed: dict[str, Any]
+) -> None:
+    """Solve one set of parameters for each direction, or for the worst one."""
+    from seisblock.present import slide as shown
+    from seisblock.records import motion_of
+    from seisblock.solvers.slide import solve_slide
+    from seisblock.studies.sliding import slide_study, worst_directions
+
+    responses, sweep = [], []
+    for record in records:
+        if directions is None:
+            chosen = list(_motions(record, source, None))
+        else:
+            points = slide_study(_motions(record, source, directions), **single, **fixed)  # type: ignore[arg-type]
+            sweep += points
+            worst = worst_directions(points)[0].component
+            say(f"largest slip of {len(directions)} directions at azimuth {worst} degrees")
+            chosen = [motion_of(record, worst)]
+        responses += [solve_slide(motion, **single, **fixed) for motion in chosen]  # type: ignore[arg-type]
+    extra = {"azimuths": [asdict(point) for point in sweep]} if sweep else None
+    emit(
+        response_answer("slide", responses, dict(responses[0].options), extra=extra), output, responses=responses,
+        tables=lambda: shown.tables(responses, sweep), figure=lambda: shown.figure(responses),
+    )  # fmt: skip
+
+
+def _study(
+    records: list[Record], source: Source, output: Output, directions: list[str] | None, choice: dict[str, Any], fixed: dict[str, Any]
+) -> None:
+    """Compute every combination of parameters."""
+    from seisblock.present import slide_study as shown
+    from seisblock.present.document import Answer
+    from seisblock.present.files import write_table
+    from seisblock.studies.sliding import slide_study, worst_directions
+
+    points, results = [], []
+    for index, record in enumerate(records):
+        with progress("sliding") as tell:
+            found = slide_study(_motions(record, source, directions), **choice, **fixed, progress=tell)
+        found = found if directions is None else worst_directions(found)
+        points.append(found)
+        results += [{**({"record_index": index} if len(records) > 1 else {}), **asdict(point)} for point in found]
+    steep = sum(not point.holds_at_rest for found in points for point in found)
+    warnings = [f"{steep} combinations were left out: friction does not hold at rest, or kinetic exceeds static friction"] if steep else []
+    parameters = {**choice, "slope_length_m": fixed["slope_length"], "one_way": fixed["one_way"], "gravity_m_s2": fixed["gravity"]}
+    emit(
+        Answer("slide", parameters, results, records, ["Fujino1978"], warnings), output,
+        tables=lambda: shown.tables(records, points),
+        csv=lambda path: write_table(path, list(results[0]), ([*row.values()] for row in results)),
+        figure=lambda: shown.figure(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"]),
+    )  # fmt: skip
+
+
+def _motions(record: Record, source: Source, directions: list[str] | None) -> Iterator[Motion]:
+    """Yield the motions along the directions, or along the components asked for."""
+    from seisblock.records import motion_of
+
+    if directions is None:
+        yield from motions(record, source)
+    else:
+        for name in directions:
+            yield motion_of(record, name)
+
+
+def _azimuths(*, both: bool) -> list[str]:
+    """Return the azimuths of a sweep: half the circle, all of it where the two senses of a direction differ."""
+    return [str(azimuth) for azimuth in range(0, 360 if both else 180, AZIMUTH_STEP)]
+
+
+def _without_azimuths(source: Source) -> Source:
+    """Return the record options with every horizontal component instead of the sweep."""
+    from dataclasses import replace
+
+    return replace(source, component=())

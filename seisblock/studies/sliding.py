@@ -1,0 +1,229 @@
+"""The parameter studies of [Fujino1978]_: slip against friction, friction ratio, slope and vertical motion (figs. 7, 9, 10, 15, 16)."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.sliding_base import SlidingBase, holds_at_rest, sliding_base
+from seisblock.dynamics import follow_many
+from seisblock.errors import ParameterError
+from seisblock.records.motion import Motion
+from seisblock.solvers.slide import check
+from seisblock.solvers.slide_model import BACKWARD, CONTACT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, parameters
+from seisblock.solvers.slide_rest import slip_at_rest
+from seisblock.units import STANDARD_GRAVITY
+
+SLIDING_MODES = [FORWARD, BACKWARD, LEVEL + FORWARD, LEVEL + BACKWARD]
+
+Progress = Callable[[int, int], None]
+"""Called with the number of runs done and the number in all."""
+
+SAMPLES_AT_ONCE = 4_000_000
+"""Samples times runs that one thread takes before it says how far it is."""
+
+
+@dataclass(frozen=True)
+class SlidePoint:
+    """One run of a study: where it stands in the space of parameters, and how far the object slid.
+
+    Parameters
+    ----------
+    component : str
+    mu, mu_kinetic, kappa, slope_deg, vertical_scale : float
+    holds_at_rest : bool
+        Whether static friction holds without shaking; if not nothing was computed, and what follows is None.
+    slips : bool
+    slip_start_s, max_slip_m, max_slip_time_s, residual_slip_m, final_slip_m, slip_count, fell_off_slope, lifted_off, slides_at_end
+        As in :class:`seisblock.solvers.slide.SlideOutcome`.
+    beta : float or None
+        Largest slip over that of the horizontal motion alone; None without vertical motion, or when nothing slips without it.
+    """
+
+    component: str
+    mu: float
+    mu_kinetic: float
+    kappa: float
+    slope_deg: float
+    vertical_scale: float
+    holds_at_rest: bool
+    slips: bool | None = None
+    slip_start_s: float | None = None
+    max_slip_m: float | None = None
+    max_slip_time_s: float | None = None
+    residual_slip_m: float | None = None
+    final_slip_m: float | None = None
+    slip_count: int | None = None
+    fell_off_slope: bool | None = None
+    lifted_off: bool | None = None
+    slides_at_end: bool | None = None
+    beta: float | None = None
+
+
+def slide_study(
+    motions: Motion | Iterable[Motion],
+    mu: float | Sequence[float],
+    *,
+    mu_kinetic: float | Sequence[float] | None = None,
+    kappa: float | Sequence[float] | None = None,
+    vertical_scale: float | Sequence[float] = 0.0,
+    slope_deg: float | Sequence[float] = 0.0,
+    slope_length: float | None = None,
+    one_way: bool = False,
+    gravity: float = STANDARD_GRAVITY,
+    progress: Progress | None = None,
+    workers: int | None = None,
+) -> list[SlidePoint]:
+    """Return the slip for every combination of parameters, on all cores ([Fujino1978]_ figs. 7, 9, 10, 15, 16).
+
+    Parameters
+    ----------
+    motions : Motion or several
+    mu, mu_kinetic, kappa, vertical_scale, slope_deg : float or sequence
+        As in :func:`seisblock.solvers.slide.solve_slide`; every combination is computed. A combination in which static friction does
+        not hold at rest, or kinetic exceeds static friction, is listed with nothing computed.
+    slope_length, one_way, gravity
+        As in :func:`seisblock.solvers.slide.solve_slide`.
+    progress : callable or None
+        Told how many runs are done, of how many.
+    workers : int or None
+        Threads; None: one per core.
+
+    Returns
+    -------
+    list of SlidePoint
+        Ordered by motion, then mu, friction ratio, slope, vertical scale; the last varies fastest.
+
+    Raises
+    ------
+    ParameterError
+        If a value lies outside its range.
+    """
+    chosen = [motions] if isinstance(motions, Motion) else list(motions)
+    if mu_kinetic is not None and kappa is not None:
+        raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
+    scales = _values(vertical_scale)
+    for motion, scale in itertools.product(chosen, scales):
+        check(motion, scale, gravity)
+    bases = [
+        _base(m, d, k, slope, slope_length, one_way)
+        for m, d, k, slope in itertools.product(_values(mu), _values(mu_kinetic), _values(kappa), _values(slope_deg))
+    ]
+    if not any(isinstance(base, SlidingBase) for base in bases) or (slope_length is not None and not any(_values(slope_deg))):
+        # nothing can be computed, or the slope's length means nothing: the first combination says why
+        sliding_base(
+            _values(mu)[0], mu_kinetic=_values(mu_kinetic)[0], kappa=_values(kappa)[0], slope_deg=_values(slope_deg)[0],
+            slope_length=slope_length, one_way=one_way,
+        )  # fmt: skip
+    # the horizontal motion alone is what beta compares with
+    computed = tuple(dict.fromkeys((*scales, 0.0))) if any(scales) else scales
+    rows = [(base, scale) for base in bases if isinstance(base, SlidingBase) for scale in computed]
+    found = _run(chosen, rows, gravity, progress, workers or os.cpu_count() or 1)
+    points = []
+    for motion, base in itertools.product(chosen, bases):
+        if isinstance(base, SlidingBase):
+            by_scale = {scale: next(found) for scale in computed}
+            points += [_with_beta(by_scale[scale], by_scale[0.0]) if any(scales) else by_scale[scale] for scale in scales]
+        else:
+            points += [SlidePoint(motion.name, **base, vertical_scale=scale, holds_at_rest=False) for scale in scales]
+    return points
+
+
+def worst_directions(points: Sequence[SlidePoint]) -> list[SlidePoint]:
+    """Return, for each combination of parameters, the point of the direction with the largest slip, in the order of the study."""
+    worst: dict[tuple[float, ...], SlidePoint] = {}
+    for point in points:
+        key = (point.mu, point.mu_kinetic, point.slope_deg, point.vertical_scale)
+        if key not in worst or (point.max_slip_m or 0.0) > (worst[key].max_slip_m or 0.0):
+            worst[key] = point
+    return list(worst.values())
+
+
+def _values(given: float | Sequence[float] | None) -> tuple[Any, ...]:
+    """Return one or several values as a tuple without repetition; None is one value."""
+    if given is None or isinstance(given, (int, float)):
+        return (given,)
+    values = tuple(dict.fromkeys(float(value) for value in given))
+    if not values:
+        raise ParameterError("a parameter of a study needs at least one value")
+    return values
+
+
+def _base(
+    mu: float, mu_kinetic: float | None, kappa: float | None, slope_deg: float, slope_length: float | None, one_way: bool
+) -> SlidingBase | dict[str, Any]:
+    """Return a base, or the parameters of one that cannot be: too steep, or with more kinetic than static friction."""
+    level = sliding_base(mu, kappa=kappa)
+    kinetic = level.mu_kinetic if mu_kinetic is None else mu_kinetic
+    if kinetic > mu or not holds_at_rest(mu, slope_deg):
+        return {"mu": mu, "mu_kinetic": kinetic, "kappa": kinetic / mu, "slope_deg": slope_deg}
+    return SlidingBase(mu, kinetic, slope_deg, slope_length if slope_deg else None, one_way)
+
+
+def _run(
+    motions: Sequence[Motion], rows: Sequence[tuple[SlidingBase, float]], gravity: float, progress: Progress | None, workers: int
+) -> Iterator[SlidePoint]:
+    """Compute all rows for all motions on several threads; yield the points motion by motion, row by row."""
+    jobs = []
+    for motion in motions:
+        share = max(1, min(SAMPLES_AT_ONCE // motion.samples, math.ceil(len(rows) / workers)))
+        jobs += [(motion, rows[first : first + share]) for first in range(0, len(rows), share)]
+    total = len(motions) * len(rows)
+    done = 0
+    with ThreadPoolExecutor(workers) as pool:
+        futures = {pool.submit(_points, *job, gravity): len(job[1]) for job in jobs}
+        for future in as_completed(futures):
+            future.result()
+            done += futures[future]
+            if progress is not None:
+                progress(done, total)
+    return itertools.chain.from_iterable(future.result() for future in futures)
+
+
+def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: float) -> list[SlidePoint]:
+    """Compute some rows for one motion."""
+    p = [parameters(base, gravity) for base, _ in rows]
+    gains = [check(motion, scale, gravity) for _, scale in rows]
+    many = follow_many(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
+    entered = many.tally.sum(axis=1) - many.tally[:, FOOT]
+    numbers = zip(
+        rows, p, many.final.tolist(), many.final_mode.tolist(), many.extrema[:, 0].tolist(), many.first_change.tolist(),
+        entered[:, SLIDING_MODES].sum(axis=1).tolist(), (many.tally[:, :, LEVEL:].sum(axis=(1, 2)) > 0).tolist(),
+        (many.tally[:, CONTACT].sum(axis=1) > 0).tolist(), strict=True,
+    )  # fmt: skip
+    points = []
+    for (base, scale), row, final, mode, (highest, highest_time, lowest, lowest_time), first, slips, fell, flew in numbers:
+        slip, at = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
+        rest = slip_at_rest(final, mode, row)
+        moved = first == first  # not NaN
+        points.append(
+            SlidePoint(
+                motion.name, base.mu, base.mu_kinetic, base.mu_kinetic / base.mu, base.slope_deg, scale,
+                holds_at_rest=True,
+                slips=moved,
+                slip_start_s=motion.start_s + first if moved else None,
+                max_slip_m=slip,
+                max_slip_time_s=motion.start_s + at,
+                residual_slip_m=final[SLIP],
+                final_slip_m=rest if math.isfinite(rest) else None,
+                slip_count=slips,
+                fell_off_slope=fell,
+                lifted_off=flew,
+                slides_at_end=mode % LEVEL != STICK,
+            )
+        )  # fmt: skip
+    return points
+
+
+def _with_beta(point: SlidePoint, without: SlidePoint) -> SlidePoint:
+    """Add the ratio of the largest slip to that of the horizontal motion alone."""
+    if not without.max_slip_m or point.max_slip_m is None:
+        return point
+    return replace(point, beta=point.max_slip_m / without.max_slip_m)

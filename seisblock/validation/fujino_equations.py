@@ -1,0 +1,178 @@
+"""[Fujino1978]_ eqs. (1)-(15) and the sine example: each equation's closed form against the solver."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from seisblock.criteria.sliding import friction_that_holds, friction_that_stops, pulse_slip, slip_acceleration, slip_limits, steady_slip
+from seisblock.records import Motion
+from seisblock.results import Response
+from seisblock.solvers.slide import SlideOutcome, solve_slide
+from seisblock.validation.case import CONVERGED, EXACT, Case
+
+G = 9.8
+"""Gravity in the paper, m/s^2."""
+
+MU, KAPPA, TH = 0.3, 0.5, 8.0
+UP = 2.0
+"""Constant vertical ground acceleration of the cases of (5)-(8), m/s^2."""
+
+
+def ramp(sign: float = 1.0, up: float = 0.0) -> Motion:
+    """Return a ground acceleration that grows by 1 m/s^2 in each second."""
+    a = sign * np.linspace(0.0, 12.0, 25)
+    return Motion.from_arrays(a, 0.5, vertical=np.full(25, up))
+
+
+def constant(along: float, up: float = 0.0, duration: float = 1.0) -> Motion:
+    """Return a constant ground acceleration."""
+    return Motion.from_arrays(np.full(5, along), duration / 4.0, vertical=np.full(5, up))
+
+
+def sine(displacement_cm: float | None, acceleration_gal: float | None = None) -> Motion:
+    """Return the ground motion of the sine example, 4 s, from the amplitude of its displacement or of its acceleration."""
+    t = 1e-4 * np.arange(40001)
+    amplitude = acceleration_gal if displacement_cm is None else -4.0 * displacement_cm
+    return Motion.from_arrays(0.01 * (amplitude or 0.0) * np.sin(2.0 * t), 1e-4)
+
+
+def _start(motion: Motion, **how: float) -> Callable[[], float]:
+    """Return what computes the start of the slip."""
+    return lambda: solve_slide(motion, MU, gravity=G, **how).outcome.slip_start_s or math.nan  # type: ignore[arg-type]
+
+
+def _last(motion: Motion, channel: str, **how: float) -> Callable[[], float]:
+    """Return what computes the last value of a channel."""
+    return lambda: float(solve_slide(motion, MU, gravity=G, kappa=KAPPA, **how)[channel][-1])  # type: ignore[arg-type]
+
+
+def _final(motion: Motion, **how: float) -> Callable[[], float]:
+    """Return what computes the slip once at rest."""
+    return lambda: solve_slide(motion, MU, gravity=G, **how).outcome.final_slip_m or math.nan  # type: ignore[arg-type]
+
+
+def _sine_response() -> Response[SlideOutcome]:
+    """Return the sine example in the reading that fits the figure."""
+    return solve_slide(sine(60.0), 0.2, mu_kinetic=0.175, gravity=G)
+
+
+def _event(number: int) -> Callable[[], float]:
+    """Return what computes the time of an event of the sine example."""
+    return lambda: _sine_response().events[number].time_s
+
+
+def _steepest_that_stops() -> float:
+    """Return by bisection the static friction at which a slide, once started, just stops."""
+    low, high = math.tan(math.radians(TH)), 1.0
+    for _ in range(60):
+        mu = 0.5 * (low + high)
+        stops = solve_slide(constant(-9.0), mu, kappa=KAPPA, slope_deg=TH, gravity=G).outcome.final_slip_m is not None
+        low, high = (low, mu) if stops else (mu, high)
+    return high
+
+
+def _least_that_holds(along: float, up: float, slope: float) -> float:
+    """Return by bisection the static friction at which a triangular pulse just sets nothing in motion."""
+    pulse = np.array([0.0, 1.0, 0.0])
+    motion = Motion.from_arrays(along * G * pulse, 0.1, vertical=up * G * pulse)
+    low, high = math.tan(math.radians(slope)), 5.0
+    for _ in range(60):
+        mu = 0.5 * (low + high)
+        slips = solve_slide(motion, mu, slope_deg=slope, vertical_scale=1.0, gravity=G).outcome.slips
+        low, high = (mu, high) if slips else (low, mu)
+    return high
+
+
+def _equation_15(alpha: float, ratio: float, slope: float) -> float:
+    """Return eq. (15) as printed."""
+    s, c = math.sin(math.radians(slope)), math.cos(math.radians(slope))
+    return (s + alpha * (ratio * s - c)) / (c + alpha * (ratio * c + s))
+
+
+def _steady() -> float:
+    """Return the simulated swing of the slip after the transient of a harmonic base."""
+    t = 2e-4 * np.arange(250001)
+    u = solve_slide(Motion.from_arrays(4.0 * np.sin(2.0 * math.pi * t), 2e-4), 0.1, kappa=0.9, gravity=G)["relative_displacement"]
+    tail = u[u.size * 49 // 50 :]
+    return float(tail.max() - tail.min())
+
+
+TAN = math.tan(math.radians(TH))
+COS, SIN = math.cos(math.radians(TH)), math.sin(math.radians(TH))
+PHI = math.atan(MU)
+HACHINOHE = (-169.75 / 980.0, 60.98 / 169.75)
+"""The paper's alpha and mu of fig. 16."""
+
+# relative acceleration of a slide that has started, from the corrected equations
+LEVEL_PULL = -4.0 + KAPPA * MU * (G + UP)
+SLOPE_PULL = G * SIN + 4.0 * COS - KAPPA * MU * (G * COS - 4.0 * SIN)
+WHERE = "[Fujino1978]_ "
+
+EQUATIONS = (
+    Case("fujino-1", WHERE + "eq. (1)", "start of the slip on a ramp of 1 m/s^3: mu g", "s", float(slip_acceleration(MU, gravity=G)),
+         1e-12, _start(ramp()), note="equality sticks; the slip starts where the ramp exceeds mu g"),
+    Case("fujino-1-equal", WHERE + "eq. (1) against (5)", "slip under exactly mu g", "m", 0.0, 0.0,
+         lambda: solve_slide(constant(MU * G), MU, kappa=KAPPA, gravity=G).outcome.max_slip_m,
+         note="(1) prints <=, (5) <: equality sticks here"),
+    Case("fujino-2", WHERE + "eq. (2)", "relative acceleration, level base, no vertical motion", "m/s^2", -4.0 + KAPPA * MU * G, EXACT,
+         _last(constant(4.0), "relative_acceleration")),
+    Case("fujino-3", WHERE + "eq. (3)", "relative velocity after 1 s", "m/s", -4.0 + KAPPA * MU * G, EXACT,
+         _last(constant(4.0), "relative_velocity")),
+    Case("fujino-4", WHERE + "eq. (4)", "relative displacement after 1 s", "m", 0.5 * (-4.0 + KAPPA * MU * G), EXACT,
+         _last(constant(4.0), "relative_displacement"), note="the scan drops the dot of z' in (4)"),
+    Case("fujino-5", WHERE + "eq. (5)", "start of the slip on a ramp with vertical motion: mu (g + y'')", "s", MU * (G - UP), 1e-12,
+         _start(ramp(up=-UP), vertical_scale=1.0)),
+    Case("fujino-6", WHERE + "eq. (6)", "relative acceleration with vertical motion", "m/s^2", LEVEL_PULL, EXACT,
+         _last(constant(4.0, UP), "relative_acceleration", vertical_scale=1.0)),
+    Case("fujino-7", WHERE + "eq. (7)", "relative velocity after 1 s with vertical motion", "m/s", LEVEL_PULL, EXACT,
+         _last(constant(4.0, UP), "relative_velocity", vertical_scale=1.0)),
+    Case("fujino-8", WHERE + "eq. (8)", "relative displacement after 1 s with vertical motion", "m", 0.5 * LEVEL_PULL, EXACT,
+         _last(constant(4.0, UP), "relative_displacement", vertical_scale=1.0),
+         note="the last term of (8) must be -/+ rho_d y'_t0 (t - t0), as in (13)"),
+    Case("fujino-9", WHERE + "eq. (9)", "start of an uphill slip on a ramp: g tan(th + atan mu)", "s",
+         G * math.tan(math.radians(TH) + PHI), 1e-11, _start(ramp(), slope_deg=TH), note="both inputs resolved on the slope"),
+    Case("fujino-10", WHERE + "eq. (10)", "start of a downhill slip on a ramp: g tan(atan mu - th)", "s",
+         G * math.tan(PHI - math.radians(TH)), 1e-11, _start(ramp(-1.0), slope_deg=TH)),
+    Case("fujino-9-10", WHERE + "eqs. (9), (10)", "width of the band in which friction holds: 2 mu g cos th", "m/s^2",
+         2.0 * MU * G * COS, EXACT, lambda: float(np.diff(slip_limits(TH, MU, gravity=G))[0])),
+    Case("fujino-11", WHERE + "eq. (11)", "relative acceleration downhill", "m/s^2", SLOPE_PULL, EXACT,
+         _last(constant(-4.0), "relative_acceleration", slope_deg=TH),
+         note="rho_s in (11)-(13) must be rho_d, and its sign follows which of (9), (10) was met"),
+    Case("fujino-12", WHERE + "eq. (12)", "relative velocity downhill after 1 s", "m/s", SLOPE_PULL, EXACT,
+         _last(constant(-4.0), "relative_velocity", slope_deg=TH), note="(12) lacks the initial velocity z'_t0"),
+    Case("fujino-13", WHERE + "eq. (13)", "relative displacement downhill after 1 s", "m", 0.5 * SLOPE_PULL, EXACT,
+         _last(constant(-4.0), "relative_displacement", slope_deg=TH)),
+    Case("fujino-14", WHERE + "eq. (14)", "static friction above which a slide stops: tan th / kappa", "1",
+         friction_that_stops(TH, KAPPA), 1e-12, _steepest_that_stops),
+    Case("fujino-15", WHERE + "eq. (15)", "eq. (15) as printed at 30 degrees with fig. 16's alpha and mu", "1",
+         _equation_15(*HACHINOHE, 30.0), EXACT, lambda: float(friction_that_holds(30.0, HACHINOHE[0], HACHINOHE[0] * HACHINOHE[1])),
+         note="computed as tan(th - atan(alpha/(1 + alpha mu)))"),
+    Case("fujino-15-simulated", WHERE + "eq. (15)", "least friction that holds in a pulse of fig. 16's alpha and mu, 30 degrees", "1",
+         _equation_15(*HACHINOHE, 30.0), 1e-12, lambda: _least_that_holds(HACHINOHE[0], HACHINOHE[0] * HACHINOHE[1], 30.0)),
+    Case("fujino-sine-printed", WHERE + "sec. 2.2.2", "slip under 60 sin 2t as an acceleration in gal", "m", 0.0, 0.0,
+         lambda: solve_slide(sine(None, 60.0), 0.2, mu_kinetic=0.175, gravity=G).outcome.max_slip_m,
+         note="as printed the example never slides: 60 gal against 0.2 g"),
+    Case("fujino-sine-printed-slides", WHERE + "fig. 4", "slip of the example as printed against that of its figure", "m", 0.2226306,
+         0.01, lambda: solve_slide(sine(None, 60.0), 0.2, mu_kinetic=0.175, gravity=G).outcome.max_slip_m, status="differs",
+         note="fig. 4 slides although 60 gal is less than 0.2 g; read as a ground displacement of 60 sin 2t cm (240 gal) it fits"),
+    *(
+        Case(f"fujino-sine-{name}", WHERE + "fig. 4", f"sine example, {what}", "s", expected, 5e-6, _event(number),
+             note="ground displacement 60 sin 2t cm; expected from the closed form")
+        for number, (name, what, expected) in enumerate((
+            ("start", "first slip starts", 0.47781), ("stop", "first slip stops", 1.58117),
+            ("start-2", "second slip starts", 2.04860), ("stop-2", "second slip stops", 3.15197),
+        ))
+    ),
+    Case("fujino-sine-slip", WHERE + "fig. 4", "sine example, first slip", "m", 0.2226306, 5e-8,
+         lambda: float(_sine_response().events[1].after[0])),
+    Case("fujino-sine-back", WHERE + "sec. 2.2.2", "sine example, displacement after the second slip: no ratcheting", "m", 0.0, CONVERGED,
+         lambda: float(_sine_response().events[3].after[0])),
+    Case("newmark-pulse", "[Newmark1965]_ rectangular pulse", "one-way slip under 6 m/s^2 for 1 s", "m",
+         pulse_slip(6.0, 1.0, MU * G), 1e-12, _final(constant(-6.0), one_way=True)),
+    Case("westermo-steady", "[WestermoUdwadia1983]_ steady sliding", "swing of the slip on a harmonic base, 4 m/s^2 at 1 Hz", "m",
+         steady_slip(4.0, 1.0, 0.1, kappa=0.9, gravity=G) or math.nan, 2e-7, _steady),
+)  # fmt: skip
+"""Equations (1) to (15), the sine example, and two closed forms of others."""

@@ -1,0 +1,92 @@
+"""How fast sliding is: nanoseconds per sample and parameter set, a study of 10 000 points, and pySLAMMER side by side."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+
+from seisblock.bodies.sliding_base import sliding_base
+from seisblock.dynamics import follow_many
+from seisblock.records import Motion
+from seisblock.solvers.slide import solve_slide
+from seisblock.solvers.slide_model import SLIDE, STICK, parameters
+from seisblock.studies.sliding import slide_study
+from tests.crosscheck.test_slide import PYSLAMMER, G, pyslammer_motion
+
+NANOSECONDS_PER_SAMPLE = 20.0
+STUDY_S = 6.0
+"""A study of 10 000 points takes 0.6 s on two free cores; shared ones get time to spare."""
+
+TIMES_FASTER = 100.0
+
+
+def strong_motion(samples=10_000, dt=0.01):
+    """Return 100 s of shaking with a strong phase of 30 s, peak 3 m/s^2, vertical half of that."""
+    rng = np.random.default_rng(0)
+    t = dt * np.arange(samples)
+    rows = [np.convolve(rng.normal(size=samples), np.hanning(20), "same") * np.exp(-(((t - 30.0) / 15.0) ** 2)) for _ in range(2)]
+    rows = [peak * row / np.abs(row).max() for peak, row in zip((3.0, 1.5), rows, strict=True)]
+    return Motion.from_arrays(rows[0], dt, vertical=rows[1])
+
+
+def best(work, repeats=7):
+    """Return the shortest of several times, s."""
+    times = []
+    for _ in range(repeats):
+        began = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - began)
+    return min(times)
+
+
+def test_kernel_speed(benchmark):
+    """The kernel needs at most 20 ns per sample and parameter set, over the friction coefficients of a study, with vertical motion."""
+    motion = strong_motion()
+    mus = np.linspace(0.02, 0.30, 57)
+    p = np.array([parameters(sliding_base(mu, kappa=0.5), G) for mu in mus])
+
+    def work():
+        return follow_many(SLIDE, motion, p, np.zeros(4), STICK, gains=[1.0, 0.0, 1.0])
+
+    benchmark.pedantic(work, rounds=5, warmup_rounds=1)
+    per_sample = best(work) / (mus.size * motion.samples) * 1e9
+    benchmark.extra_info["ns_per_sample"] = per_sample
+    print(f"slide kernel: {per_sample:.1f} ns per sample and parameter set on one core")
+    assert per_sample < NANOSECONDS_PER_SAMPLE
+
+
+def test_study_of_ten_thousand_points(benchmark):
+    """10 000 combinations of friction, ratio and vertical motion over a 100 s record take about a second."""
+    motion = strong_motion()
+
+    def work():
+        return slide_study(motion, np.linspace(0.02, 0.4, 50), kappa=np.linspace(0.3, 1.0, 20), vertical_scale=np.linspace(0.0, 2.0, 10))
+
+    benchmark.pedantic(work, rounds=1, warmup_rounds=1)
+    seconds = best(work, repeats=2)
+    benchmark.extra_info["study_s"] = seconds
+    print(f"slide study: 10 000 points of a 100 s record in {seconds:.2f} s")
+    assert seconds < STUDY_S
+
+
+def test_faster_than_pyslammer(benchmark):
+    """One record takes at most a hundredth of pySLAMMER's rigid analysis; both measured side by side in one run."""
+    from pyslammer.ground_motion import GroundMotion
+    from pyslammer.rigid_analysis import RigidAnalysis
+
+    records = [(Motion.from_arrays(-G * a, dt), GroundMotion(a, dt, name)) for name in PYSLAMMER for a, dt in [pyslammer_motion(name)]]
+    p = np.array([parameters(sliding_base(0.1, one_way=True), G)])
+
+    def mine():
+        return [follow_many(SLIDE, motion, p, np.zeros(4), STICK, gains=[1.0, 0.0, 0.0]) for motion, _ in records]
+
+    def theirs():
+        return [RigidAnalysis(0.1, other) for _, other in records]
+
+    benchmark.pedantic(mine, rounds=3, warmup_rounds=1)
+    ratio = best(theirs, repeats=3) / best(mine)
+    full = best(theirs, repeats=3) / best(lambda: [solve_slide(motion, 0.1, one_way=True) for motion, _ in records], repeats=3)
+    benchmark.extra_info["times_faster"] = ratio
+    print(f"slide: {ratio:.0f} times faster per record than pySLAMMER's rigid analysis; {full:.0f} times with full time histories")
+    assert ratio > TIMES_FASTER

@@ -1,0 +1,176 @@
+"""``seisblock slide`` answers as its issue promises, and refuses bad input in one sentence."""
+
+from __future__ import annotations
+
+import csv
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import seisblock
+from seisblock.cli import main
+from seisblock.readers import read
+
+KEYS = {"component", "slips", "slip_start_s", "max_slip_m", "residual_slip_m", "slip_count", "fell_off_slope"}
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, ["slide", *map(str, arguments)])
+
+
+def answer(*arguments):
+    result = run(*arguments, "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+def test_mu_alone_uses_the_bundled_record():
+    """``seisblock slide --mu 0.2`` works as written, says which record it took, and fits 80 columns."""
+    result = run("--mu", "0.2")
+    assert result.exit_code == 0
+    assert "synthetic_jma.csv" in result.stderr
+    assert "residual (mm)" in result.stdout
+    assert max(map(len, result.stdout.splitlines())) <= 80
+
+
+def test_document_keeps_the_contract_and_the_library_agrees():
+    """One entry per horizontal component with the promised keys, and the numbers of ``solve_slide``."""
+    document = answer("--mu", "0.2", "--kappa", "0.5", "--vertical")
+    assert document["schema"] == "seisblock/slide/1"
+    assert document["parameters"]["mu_kinetic"] == 0.1
+    assert document["parameters"]["vertical_scale"] == 1.0
+    assert [entry["component"] for entry in document["results"]] == ["NS", "EW"]
+    record = read("synthetic_jma.csv")
+    for entry in document["results"]:
+        assert set(entry) >= KEYS
+        alone = seisblock.solve_slide(seisblock.motion_of(record, entry["component"]), 0.2, kappa=0.5, vertical_scale=1.0)
+        assert entry["max_slip_m"] == alone.outcome.max_slip_m
+        assert entry["residual_slip_m"] == alone.outcome.residual_slip_m
+
+
+def test_an_azimuth_is_a_component():
+    """--component 37 rotates the horizontals, and one component can be chosen."""
+    assert [entry["component"] for entry in answer("--mu", "0.2", "--component", "37")["results"]] == ["37"]
+    assert [entry["component"] for entry in answer("--mu", "0.2", "--component", "EW")["results"]] == ["EW"]
+
+
+def test_all_azimuths_reports_the_worst_direction():
+    """Every 5 degrees is solved on a level base; the result is the direction with the largest slip."""
+    document = answer("--mu", "0.3", "--component", "all-azimuths")
+    sweep = document["azimuths"]
+    assert [entry["component"] for entry in sweep] == [str(5 * k) for k in range(36)]
+    (worst,) = document["results"]
+    assert worst["max_slip_m"] == max(entry["max_slip_m"] for entry in sweep)
+    uphill = answer("--mu", "0.3", "--component", "all-azimuths", "--slope", "5")
+    assert len(uphill["azimuths"]) == 72
+    study = answer("--mu", "0.3,0.4", "--component", "all-azimuths")
+    assert [entry["mu"] for entry in study["results"]] == [0.3, 0.4]
+    assert study["results"][0]["max_slip_m"] == worst["max_slip_m"]
+
+
+def test_lists_and_ranges_make_the_study(tmp_path):
+    """A range of mu times a list of kappa gives every combination as table, CSV, JSON and figure."""
+    files = tmp_path / "study.csv", tmp_path / "study.png"
+    document = answer("--mu", "0.05:0.20:0.05", "--kappa", "0.5,1", "--component", "NS", "--csv", files[0], "--plot", files[1])
+    points = document["results"]
+    assert [(p["mu"], p["kappa"]) for p in points] == [(m, k) for m in (0.05, 0.1, 0.15, 0.2) for k in (0.5, 1.0)]
+    with files[0].open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["max_slip_m"]) for row in rows] == [point["max_slip_m"] for point in points]
+    assert files[1].stat().st_size > 10_000
+    table = run("--mu", "0.05:0.20:0.05", "--kappa", "0.5,1", "--component", "NS").stdout
+    assert "κ 0.5" in table
+
+
+def test_vertical_study_reports_beta():
+    """With vertical motion the study holds the ratio to the slip without it; without vertical motion there is none."""
+    points = answer("--mu", "0.1,0.2", "--vertical-scale", "0,1,3", "--component", "NS")["results"]
+    base = {point["mu"]: point["max_slip_m"] for point in points if point["vertical_scale"] == 0.0}
+    for point in points:
+        assert point["beta"] == pytest.approx(point["max_slip_m"] / base[point["mu"]], rel=1e-15)
+    assert "beta" in run("--mu", "0.1,0.2", "--vertical").stdout
+    assert all(point["beta"] is None for point in answer("--mu", "0.1,0.2")["results"])
+
+
+def test_slopes_too_steep_are_left_out_of_a_study_and_counted():
+    """In a study the combinations that friction does not hold are null, and a warning counts them."""
+    result = run("--mu", "0.2,0.4", "--slope", "0,15", "--component", "NS", "--json")
+    points = json.loads(result.stdout)["results"]
+    assert [point["holds_at_rest"] for point in points] == [True, False, True, True]
+    assert points[1]["max_slip_m"] is None
+    assert "1 combinations were left out" in result.stderr
+
+
+@pytest.mark.parametrize("extra", [(), ("--slope", "0:20:2", "--kappa", "0.5"), ("--slope", "5", "--slope-length", "1m", "--vertical")])
+def test_every_figure_can_be_drawn(tmp_path, extra):
+    """Histories, the plane of fig. 16 and the slope with a foot each make a file."""
+    target = tmp_path / "figure.svg"
+    mu = "0.4:0.8:0.05" if "0:20:2" in extra else "0.3"
+    result = run("--mu", mu, *extra, "--plot", target, "--quiet")
+    assert result.exit_code == 0, result.stderr
+    assert target.read_text().startswith("<?xml")
+    assert result.stderr == ""
+
+
+def test_time_history_has_both_limits_of_each_event(tmp_path):
+    """--csv holds t, ground acceleration, relative motion and phase; velocity is zero wherever the phase says stick."""
+    target = tmp_path / "history.csv"
+    assert run("--mu", "0.2", "--component", "NS", "--csv", target).exit_code == 0
+    with target.open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert {"time_s", "ground_acceleration_m_s2", "relative_acceleration_m_s2", "relative_velocity_m_s", "relative_displacement_m",
+            "phase"} <= set(rows[0])  # fmt: skip
+    assert {row["phase"] for row in rows} == {"stick", "slip forward", "slip backward"}
+    assert all(float(row["relative_velocity_m_s"]) == 0.0 for row in rows if row["phase"] == "stick")
+    times = np.array([float(row["time_s"]) for row in rows])
+    assert (np.diff(times) >= 0).all()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "says"),
+    [
+        ((), 2, "--mu is needed"),
+        (("--mu", "x"), 2, "not a number"),
+        (("--mu", "0"), 3, "must be positive"),
+        (("--mu", "-0.2"), 3, "must be positive"),
+        (("--mu", "0.2", "--kappa", "1.2"), 3, "kappa"),
+        (("--mu", "0.2", "--kappa", "0"), 3, "kappa"),
+        (("--mu", "0.2", "--mu-kinetic", "0.3"), 3, "between 0 and mu"),
+        (("--mu", "0.2", "--mu-kinetic", "0.1", "--kappa", "0.5"), 3, "not both"),
+        (("--mu", "0.2", "--slope", "90"), 3, "between -90 and 90"),
+        (("--mu", "0.2", "--slope", "15"), 3, "slides under gravity alone"),
+        (("--mu", "0.1,0.2", "--slope", "15"), 3, "slides under gravity alone"),
+        (("--mu", "0.2", "--slope-length", "1"), 3, "needs a slope"),
+        (("--mu", "0.1,0.2", "--slope-length", "1"), 3, "needs a slope"),
+        (("--mu", "0.2", "--slope", "5", "--slope-length", "-1"), 3, "must be positive"),
+        (("--mu", "0.3", "--slope", "-5", "--one-way"), 3, "downhill"),
+        (("--mu", "0.2,-0.1"), 3, "must be positive"),
+        (("elcentro_1940_ns", "--mu", "0.2", "--vertical"), 3, "no vertical component"),
+        (("--mu", "0.2", "--component", "UD"), 3, "vertical"),
+        (("elcentro_1940_ns", "--mu", "0.2", "--component", "all-azimuths"), 3, "two horizontal"),
+        (("--mu", "0.2", "--gravity", "0"), 2, "positive"),
+    ],
+)
+def test_bad_input_is_one_sentence(arguments, code, says):
+    """What a user can get wrong ends with exit code 2 or 3, a sentence that says so, and no traceback."""
+    result = run(*arguments)
+    assert result.exit_code == code, result.output
+    assert says in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+def test_unequal_lengths_are_refused():
+    """Horizontal and vertical motion of different lengths are one sentence."""
+    with pytest.raises(seisblock.errors.ParameterError, match="differ in length"):
+        seisblock.Motion.from_arrays(np.zeros(5), 0.01, vertical=np.zeros(4))
+
+
+def test_progress_is_told_to_the_end():
+    """A study tells how many of its runs are done, and ends with all of them."""
+    told = []
+    motion = seisblock.motion_of(read("elcentro_1940_ns"), "NS")
+    seisblock.slide_study(motion, [0.1, 0.2, 0.3], kappa=[0.5, 1.0], progress=lambda done, total: told.append((done, total)), workers=2)
+    assert told[-1] == (6, 6)
+    assert [done for done, _ in told] == sorted(done for done, _ in told)

@@ -1,0 +1,153 @@
+"""Sliding obeys the symmetries and balances of its equations, whatever the record."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from seisblock.records import Motion
+from seisblock.solvers.slide import SLIDING, solve_slide
+from seisblock.studies.sliding import slide_study
+
+QUICK = settings(max_examples=40, deadline=None, derandomize=True)
+seeds = st.integers(0, 10_000)
+mus = st.floats(0.05, 0.6)
+kappas = st.one_of(st.just(1.0), st.floats(0.2, 1.0))
+
+
+def noise(seed, n=120, dt=0.02, peak=4.0):
+    """Return a smooth random motion, horizontal and vertical."""
+    rng = np.random.default_rng(seed)
+    rows = np.stack([np.convolve(rng.normal(size=n), np.hanning(9), "same") for _ in range(2)])
+    rows *= peak / np.abs(rows[0]).max()
+    rows[:, :2] = 0.0
+    return Motion.from_arrays(rows[0], dt, vertical=rows[1])
+
+
+@QUICK
+@given(seeds, mus, kappas)
+def test_mirror(seed, mu, kappa):
+    """On a level base the mirrored motion gives the mirrored slip, bit by bit."""
+    motion = noise(seed)
+    mirrored = Motion(motion.acceleration * [[-1.0], [1.0], [1.0]], motion.dt)
+    one, other = (solve_slide(m, mu, kappa=kappa, vertical_scale=1.0) for m in (motion, mirrored))
+    np.testing.assert_array_equal(one["relative_displacement"], -other["relative_displacement"])
+
+
+@QUICK
+@given(seeds, mus, kappas, st.floats(2.0, 12.0))
+def test_slope_mirrored_with_the_motion(seed, mu, kappa, slope):
+    """A slope that falls the other way under the mirrored motion gives the mirrored slip."""
+    motion = noise(seed)
+    mu += np.tan(np.radians(slope))
+    mirrored = Motion(motion.acceleration * [[-1.0], [1.0], [1.0]], motion.dt)
+    one = solve_slide(motion, mu, kappa=kappa, slope_deg=slope, slope_length=0.01, vertical_scale=1.0).outcome
+    other = solve_slide(mirrored, mu, kappa=kappa, slope_deg=-slope, slope_length=0.01, vertical_scale=1.0).outcome
+    assert one.residual_slip_m == pytest.approx(-other.residual_slip_m, rel=1e-12, abs=1e-15)
+    assert one.fell_off_slope == other.fell_off_slope
+
+
+@QUICK
+@given(seeds, mus, kappas, st.sampled_from([0.25, 2.0, 8.0]))
+def test_accelerations_scale_together(seed, mu, kappa, factor):
+    """Scaling ground acceleration and gravity together scales the slip."""
+    motion = noise(seed)
+    one = solve_slide(motion, mu, kappa=kappa, gravity=9.8).outcome
+    other = solve_slide(Motion(motion.acceleration * factor, motion.dt), mu, kappa=kappa, gravity=9.8 * factor).outcome
+    assert other.max_slip_m == factor * one.max_slip_m
+    assert other.slip_start_s == one.slip_start_s
+
+
+@QUICK
+@given(seeds, mus, kappas)
+def test_friction_scales_with_gravity(seed, mu, kappa):
+    """On a level base only mu g counts: twice the friction with half the gravity changes nothing."""
+    motion = noise(seed)
+    one = solve_slide(motion, mu, kappa=kappa, gravity=9.8).outcome
+    other = solve_slide(motion, 2.0 * mu, kappa=kappa, gravity=4.9).outcome
+    assert other == one
+
+
+@QUICK
+@given(seeds, mus, kappas)
+def test_time_scales_slip_with_its_square(seed, mu, kappa):
+    """The same samples at twice the interval give four times the slip."""
+    motion = noise(seed)
+    one = solve_slide(motion, mu, kappa=kappa).outcome
+    other = solve_slide(Motion(motion.acceleration, 2.0 * motion.dt), mu, kappa=kappa).outcome
+    assert other.max_slip_m == pytest.approx(4.0 * one.max_slip_m, rel=1e-12, abs=1e-15)
+
+
+@QUICK
+@given(seeds, mus, kappas, st.floats(0.0, 10.0))
+def test_refining_the_record_changes_nothing(seed, mu, kappa, slope):
+    """Linear interpolation to a third of the interval is the same motion: the same slip but for round-off."""
+    motion = noise(seed)
+    n = motion.samples
+    fine = np.stack([np.interp(np.arange(3 * n - 2) / 3.0, np.arange(n), row) for row in motion.acceleration])
+    mu += np.tan(np.radians(slope))
+    one = solve_slide(motion, mu, kappa=kappa, slope_deg=slope, vertical_scale=1.0).outcome
+    other = solve_slide(Motion(fine, motion.dt / 3.0), mu, kappa=kappa, slope_deg=slope, vertical_scale=1.0).outcome
+    assert other.residual_slip_m == pytest.approx(one.residual_slip_m, rel=1e-9, abs=1e-12)
+    assert other.max_slip_m == pytest.approx(one.max_slip_m, rel=1e-9, abs=1e-12)
+
+
+@QUICK
+@given(seeds, mus, kappas)
+def test_energy_lost_is_friction_work(seed, mu, kappa):
+    """Relative to the base, work of the inertial force less work of friction is the kinetic energy left."""
+    motion = noise(seed)
+    response = solve_slide(motion, mu, kappa=kappa)
+    u, v, a = (response[name] for name in ("relative_displacement", "relative_velocity", "ground_acceleration"))
+    h = np.diff(response.time)
+    # v is a quadratic and a straight line within each step: Simpson's rule on the cubic a v is exact, with v in mid-step from
+    # its ends and its slope there
+    slope = response["relative_acceleration"]
+    middle = 0.5 * (v[:-1] + v[1:]) + h / 8.0 * (slope[:-1] - slope[1:])
+    power = h / 6.0 * (a[:-1] * v[:-1] + 2.0 * (a[:-1] + a[1:]) * middle + a[1:] * v[1:])
+    work = -power.sum()
+    lost = kappa * mu * 9.80665 * np.abs(np.diff(u)).sum()
+    assert work - lost == pytest.approx(0.5 * v[-1] ** 2, abs=1e-12 * max(1.0, lost))
+
+
+@QUICK
+@given(seeds, mus, kappas, st.integers(1, 100))
+def test_ground_velocity_does_not_matter(seed, mu, kappa, sample):
+    """Starting the record at any instant of rest, whatever the ground's velocity is then, gives what is left of the slip."""
+    motion = noise(seed)
+    whole = solve_slide(motion, mu, kappa=kappa)
+    names = np.array([phase.name for phase in whole.phases])[whole.phase_of_row()]
+    resting = [k for k in range(sample, motion.samples - 1) if (names[whole.time == k * motion.dt] == "stick").all()]
+    if resting:
+        before = whole["relative_displacement"][whole.time == resting[0] * motion.dt][0]
+        rest = solve_slide(Motion(motion.acceleration[:, resting[0] :], motion.dt), mu, kappa=kappa).outcome
+        assert rest.residual_slip_m == pytest.approx(whole.outcome.residual_slip_m - before, abs=1e-13)
+
+
+@QUICK
+@given(seeds, mus, kappas)
+def test_speed_has_one_sign_in_each_slip(seed, mu, kappa):
+    """Phases named forward have u' >= 0, backward u' <= 0, and sticking ones zero."""
+    response = solve_slide(noise(seed), mu, kappa=kappa, vertical_scale=1.0)
+    names = np.array([phase.name for phase in response.phases])[response.phase_of_row()]
+    v = response["relative_velocity"]
+    assert (v[names == SLIDING[0]] >= -1e-12).all()
+    assert (v[names == SLIDING[1]] <= 1e-12).all()
+    assert (v[names == "stick"] == 0.0).all()
+
+
+@QUICK
+@given(seeds, kappas, st.floats(0.0, 12.0), st.floats(0.0, 6.0))
+def test_study_gives_the_single_answers(seed, kappa, slope, scale):
+    """A study's numbers are those of the single solver, also with flights and with a foot of the slope."""
+    motion = noise(seed, peak=6.0)
+    mu = 0.3
+    length = 0.05 if slope else None
+    points = slide_study(motion, [mu, 0.5], kappa=kappa, slope_deg=slope, slope_length=length, vertical_scale=[scale, 0.5], workers=1)
+    for point in points:
+        alone = solve_slide(
+            motion, point.mu, kappa=kappa, slope_deg=slope, slope_length=length, vertical_scale=point.vertical_scale
+        ).outcome
+        for name in ("slips", "slip_start_s", "max_slip_m", "residual_slip_m", "final_slip_m", "slip_count", "fell_off_slope",
+                     "lifted_off", "slides_at_end"):  # fmt: skip
+            assert getattr(point, name) == getattr(alone, name), name
