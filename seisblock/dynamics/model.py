@@ -146,6 +146,16 @@ class Trajectory:
         times = np.repeat([change.time for change in self.changes], 2)
         return np.insert(time, where, times), np.insert(states, where, both, axis=0), np.insert(modes, where, kinds)
 
+    def sampled(self, values: FloatArray) -> FloatArray:
+        """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
+        part = values[self.first : self.end.sample + 1]
+        if not self.changes:
+            return part
+        at = np.array([change.at.sample for change in self.changes])
+        share = np.array([change.at.tau for change in self.changes]) / self.dt
+        there = values[at] + share * (values[np.minimum(at + 1, values.size - 1)] - values[at])
+        return np.insert(part, np.clip(np.repeat(at + 1 - self.first, 2), 0, part.size), np.repeat(there, 2))
+
 
 def follow(
     model: Model,

@@ -95,12 +95,11 @@ def solve_rock(
         block, motion, trajectory, after, gains=gains, gravity=gravity, restitution=restitution, linear=linear
     )  # fmt: skip
     time, states, _ = trajectory.table()
-    clock = motion.dt * np.arange(motion.samples)
     channels = (
         Channel("rotation", "rad", states[:, model.THETA], "θ"),
         Channel("angular_velocity", "rad/s", states[:, model.OMEGA], "θ'"),
-        Channel("ground_acceleration", "m/s^2", np.interp(time, clock, motion.horizontal), "a"),
-        Channel("vertical_acceleration", "m/s^2", np.interp(time, clock, gains[2] * motion.vertical), "a_v"),
+        Channel("ground_acceleration", "m/s^2", trajectory.sampled(motion.horizontal), "a"),
+        Channel("vertical_acceleration", "m/s^2", gains[2] * trajectory.sampled(motion.vertical), "a_v"),
     )
     return Response(
         "rock", outcome, motion, block, motion.start_s + time, channels, phases(trajectory, motion.start_s),

@@ -1,13 +1,14 @@
 """Contact forces of a rocking block: when pure rocking is the wrong model, because it would slip or leave the ground.
 
-Between the rows of a trajectory the lean is the quintic that has its angle, angular velocity and angular acceleration at both ends,
-which is closer than 1e-9 of the lean at 100 Hz; so forces are known between samples, too.
+Forces are computed at every row of a trajectory, then between the rows that come nearest to the extreme. There the lean is the quintic that
+has its angle, angular velocity and angular acceleration at both ends, which is closer than 1e-9 of the lean at 100 Hz.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -15,10 +16,13 @@ from seisblock.bodies.block import LEFT, RIGHT, Block
 from seisblock.dynamics import Trajectory
 from seisblock.records import Motion
 from seisblock.solvers.rock_model import BEYOND_LEFT, REST, TO_LEFT
-from seisblock.typing import FloatArray
+from seisblock.typing import FloatArray, IntArray
 
 INNER = np.linspace(0.0, 1.0, 9)
 """Where forces are looked at between two rows, as shares of the interval; both ends are among them."""
+
+LOOKED_AT = 200
+"""Between so many rows at most, those of the largest demand and those of the least normal force."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +44,42 @@ class Demand:
     contact_lost_s: float | None
 
 
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """Rows of a trajectory with the ground motion, and the block as a table by mode."""
+
+    time: FloatArray
+    theta: FloatArray
+    omega: FloatArray
+    push: FloatArray
+    weight: FloatArray
+    mode: IntArray
+    lean: FloatArray
+    lever: FloatArray
+    radius: FloatArray
+    linear: bool
+
+    def pick(self, index: IntArray) -> _Rows:
+        """Return some of the rows, as a column."""
+        arrays: dict[str, Any] = {key: values[index, None] for key, values in vars(self).items() if isinstance(values, np.ndarray)}
+        return replace(self, **arrays)
+
+    def angular(self, theta: FloatArray, push: FloatArray, weight: FloatArray) -> FloatArray:
+        """Return the angular acceleration at other leans and ground accelerations, rad/s^2."""
+        psi = self.lean - theta
+        return -self.lever * (weight * (psi if self.linear else np.sin(psi)) + push * (1.0 if self.linear else np.cos(psi)))
+
+    def forces(self, theta: FloatArray, omega: FloatArray, push: FloatArray, weight: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return H/m and N/m at other states: psi = s alpha - theta turns R into the horizontal and the vertical."""
+        psi = self.lean - theta
+        sine, cosine = np.sin(psi), np.cos(psi)
+        alpha = -self.lever * (weight * (psi if self.linear else sine) + push * (1.0 if self.linear else cosine))
+        along = push + self.radius * (alpha * cosine + omega**2 * sine)
+        normal = weight + self.radius * (alpha * sine - omega**2 * cosine)
+        at_rest = self.mode == REST
+        return np.where(at_rest, push, along), np.where(at_rest, weight, normal)
+
+
 def demand(
     block: Block, motion: Motion, trajectory: Trajectory, *, gravity: float, linear: bool, gains: FloatArray, until_s: float
 ) -> Demand:
@@ -48,52 +88,67 @@ def demand(
     The block's acceleration relative to the ground is that of a point at R from the corner in contact ([Ishiyama1982]_): with
     psi = s alpha - theta, H/m = a + R (theta'' cos(psi) + theta'^2 sin(psi)), N/m = g + a_v + R (theta'' sin(psi) - theta'^2 cos(psi)).
     """
-    time, states, modes = trajectory.table()
-    clock = trajectory.dt * np.arange(motion.samples)
-    push = np.interp(time, clock, gains[0] * motion.horizontal)
-    weight = gravity + np.interp(time, clock, gains[2] * motion.vertical)
-    keep = (modes[:-1] == modes[1:]) & (np.diff(time) > 0) & (time[1:] <= until_s) & (modes[:-1] >= REST)
-    at = np.flatnonzero(keep)
-    if at.size == 0:
+    rows = _rows(block, motion, trajectory, gravity, linear, gains, until_s)
+    if rows.time.size == 0:
         return Demand(0.0, None, None)
-    step = (time[at + 1] - time[at])[:, None]
-    u = INNER[None, :]
-    a = push[at, None] * (1 - u) + push[at + 1, None] * u
-    w = weight[at, None] * (1 - u) + weight[at + 1, None] * u
-    mode = modes[at, None]
-    left = (mode == TO_LEFT) | (mode == BEYOND_LEFT)
-    lean = np.where(left, -block.slendernesses[LEFT], block.slendernesses[RIGHT])
-    lever = np.where(left, block.lever_ratios[LEFT], block.lever_ratios[RIGHT])
-    radius = np.where(left, block.radii[LEFT], block.radii[RIGHT])
-
-    def angular(theta: FloatArray, push: FloatArray, weight: FloatArray) -> FloatArray:
-        psi = lean - theta
-        return -lever * (weight * (psi if linear else np.sin(psi)) + push * (1.0 if linear else np.cos(psi)))
-
-    first, last = states[at], states[at + 1]
-    start, end = (
-        (y[:, :1], y[:, 1:] * step, angular(y[:, :1], a[:, [i]], w[:, [i]]) * step**2) for y, i in ((first, 0), (last, -1))
-    )  # fmt: skip
-    theta, omega = _quintic(start, end, u)
-    omega = omega / step
-    alpha = angular(theta, a, w)
-    psi = lean - theta
-    along = a + radius * (alpha * np.cos(psi) + omega**2 * np.sin(psi))
-    normal = w + radius * (alpha * np.sin(psi) - omega**2 * np.cos(psi))
-    at_rest = mode == REST
-    along, normal = np.where(at_rest, a, along), np.where(at_rest, w, normal)
-    moments = time[at, None] + u * step
+    along, normal = rows.forces(rows.theta, rows.omega, rows.push, rows.weight)
+    with np.errstate(divide="ignore"):
+        ratio = np.where(normal > 0.0, np.abs(along) / np.maximum(normal, 1e-300), math.inf)
+    best = int(np.argmax(ratio))
+    if not (rows.mode != REST).any():
+        return Demand(float(ratio[best]), float(rows.time[best]), float(rows.time[best]) if ratio[best] == math.inf else None)
+    near = min(LOOKED_AT, ratio.size)
+    chosen = np.concatenate([np.argpartition(-ratio, near - 1)[:near], np.argpartition(normal, near - 1)[:near]])
+    at = np.unique(np.concatenate([chosen, chosen - 1]))
+    at = at[(at >= 0) & (at < rows.time.size - 1)]
+    at = at[(rows.mode[at] == rows.mode[at + 1]) & (rows.time[at] < rows.time[at + 1])]
+    moments, along, normal = _between(rows, at)
     lost = np.flatnonzero((normal <= 0.0).ravel())
+    first = float(rows.time[np.isinf(ratio)].min()) if np.isinf(ratio).any() else math.inf
     if lost.size:
         row, column = divmod(int(lost[0]), INNER.size)
         moment = moments[row, column]
         if column > 0:
             high, low = normal[row, column - 1], normal[row, column]
-            moment -= step[row, 0] * (INNER[column] - INNER[column - 1]) * low / (low - high)
-        return Demand(math.inf, float(moment), float(moment))
-    ratio = np.abs(along) / normal
-    row, column = divmod(int(np.argmax(ratio)), INNER.size)
-    return _polished(ratio[row], moments[row], column)
+            moment -= (moment - moments[row, column - 1]) * low / (low - high)
+        first = min(first, float(moment))
+    if first < math.inf:
+        return Demand(math.inf, first, first)
+    inside = np.abs(along) / normal
+    if inside.size == 0 or inside.max() <= ratio[best]:
+        return Demand(float(ratio[best]), float(rows.time[best]), None)
+    row, column = divmod(int(np.argmax(inside)), INNER.size)
+    return _polished(inside[row], moments[row], column)
+
+
+def _rows(
+    block: Block, motion: Motion, trajectory: Trajectory, gravity: float, linear: bool, gains: FloatArray, until_s: float
+) -> _Rows:
+    """Return the rows up to a time, with what the forces need."""
+    time, states, modes = trajectory.table()
+    n = int(np.searchsorted(time, until_s, side="right")) if math.isfinite(until_s) else time.size
+    push = trajectory.sampled(motion.horizontal) * gains[0]
+    weight = gravity + (trajectory.sampled(motion.vertical) * gains[2] if gains[2] != 0.0 else np.zeros(time.size))
+    left = (modes[:n] == TO_LEFT) | (modes[:n] == BEYOND_LEFT)
+    return _Rows(
+        time[:n], states[:n, 0], states[:n, 1], push[:n], weight[:n], modes[:n],
+        lean=np.where(left, -block.slendernesses[LEFT], block.slendernesses[RIGHT]),
+        lever=np.where(left, block.lever_ratios[LEFT], block.lever_ratios[RIGHT]),
+        radius=np.where(left, block.radii[LEFT], block.radii[RIGHT]),
+        linear=linear,
+    )  # fmt: skip
+
+
+def _between(rows: _Rows, at: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return times, H/m and N/m at the inner points of some intervals, (k, 9) each."""
+    first, last = rows.pick(at), rows.pick(at + 1)
+    step = last.time - first.time
+    u = INNER[None, :]
+    start, end = ((row.theta, row.omega * step, row.angular(row.theta, row.push, row.weight) * step**2) for row in (first, last))
+    theta, omega = _quintic(start, end, u)
+    push = first.push * (1 - u) + last.push * u
+    weight = first.weight * (1 - u) + last.weight * u
+    return first.time + u * step, *first.forces(theta, omega / step, push, weight)
 
 
 def _quintic(

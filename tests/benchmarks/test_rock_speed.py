@@ -1,0 +1,56 @@
+"""How fast rocking answers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from seisblock.bodies.block import Block, from_slenderness
+from seisblock.dynamics import follow
+from seisblock.records import Motion
+from seisblock.solvers.rock import rock_verdict, solve_rock
+from seisblock.solvers.rock_model import REST, ROCKING, TO_RIGHT, parameters
+from seisblock.studies.spectra import default_sizes, default_slendernesses, rocking_spectrum
+
+SAMPLES = 10_000
+
+
+def bound(benchmark, seconds):
+    """Hold the fastest round against a bound, when rounds are timed at all."""
+    assert benchmark.stats is None or benchmark.stats.stats.min < seconds
+
+
+def test_a_sample_of_rocking(benchmark):
+    """At most 500 ns per sample while rocking, at round-off accuracy."""
+    block = from_slenderness(0.25, 2.14)
+    motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
+    p = parameters(block, 0.01, 9.80665, 0.9999, False)
+    answer = benchmark(follow, ROCKING, motion, p, (0.15, 0.0), TO_RIGHT, keep_path=False, keep_events=False)
+    assert answer.final_mode != REST
+    bound(benchmark, 500e-9 * SAMPLES)
+
+
+def test_a_sample_at_rest(benchmark):
+    """At most 10 ns per sample at rest."""
+    motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(10 * SAMPLES)), 0.01)
+    verdict = benchmark(rock_verdict, motion, Block(0.3, 1.0))
+    assert not verdict.overturned
+    bound(benchmark, 10e-9 * 10 * SAMPLES)
+
+
+def test_whole_answer_of_a_rocking_block(benchmark):
+    """Channels, phases, forces and outcome included: at most 1 microsecond per sample."""
+    motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
+    response = benchmark(solve_rock, motion, from_slenderness(0.25, 2.14), restitution=0.9999, initial=(0.15, 0.0))
+    assert response.outcome.impacts > 50
+    bound(benchmark, 1e-6 * SAMPLES)
+
+
+def test_spectrum_of_a_hundred_seconds(benchmark):
+    """10 x 10 blocks under 100 s at 100 Hz take less than a hundredth of the minute that 100 x 100 may take."""
+    rng = np.random.default_rng(0)
+    t = np.arange(SAMPLES) * 0.01
+    a = np.convolve(rng.normal(size=SAMPLES), np.ones(8) / 8, "same") * np.exp(-(((t - 35) / 18) ** 2))
+    motion = Motion.from_arrays(5 * a / np.abs(a).max(), 0.01)
+    answer = benchmark.pedantic(rocking_spectrum, (motion, default_sizes(10), default_slendernesses(10)), rounds=3, warmup_rounds=1)
+    assert answer.overturned.any()
+    bound(benchmark, 0.6)

@@ -1,0 +1,108 @@
+"""What must hold of every rocking block, whatever the shaking."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from seisblock.bodies.block import Block, resized
+from seisblock.records import Motion
+from seisblock.solvers.rock import rock_verdict, solve_rock
+from seisblock.units import STANDARD_GRAVITY as G
+
+pytestmark = pytest.mark.kernel
+
+shakings = st.builds(
+    lambda seed, amplitude, n: amplitude * np.random.default_rng(seed).normal(size=n).cumsum() / 3,
+    st.integers(0, 10**6), st.floats(0.3, 3.0), st.integers(20, 60),
+)  # fmt: skip
+blocks = st.builds(
+    lambda height, ratio, offset: Block(height / ratio, height, centroid_offset=offset * height / ratio / 2),
+    st.floats(0.3, 3.0), st.floats(2.0, 8.0), st.sampled_from([0.0, 0.0, -0.3, 0.4]),
+)  # fmt: skip
+few = settings(max_examples=25, deadline=None)
+
+
+@few
+@given(shakings, blocks, st.booleans())
+def test_mirror(a, block, linear):
+    """The mirrored block under the mirrored motion gives the mirrored answer, bit by bit."""
+    mirrored = Block(block.width, block.height, centroid_offset=-block.centroid_offset)
+    one, other = (solve_rock(Motion.from_arrays(x, 0.03), b, linear=linear) for x, b in ((a, block), (-a, mirrored)))
+    np.testing.assert_array_equal(one["rotation"], -other["rotation"])
+    assert one.outcome.impacts == other.outcome.impacts
+    assert one.outcome.overturning_time_s == other.outcome.overturning_time_s
+
+
+@few
+@given(shakings, blocks, st.floats(0.2, 9.0))
+def test_similarity(a, block, length):
+    """Length L and time sqrt(L): the same angles at the same samples, and the same forces per weight."""
+    small = solve_rock(Motion.from_arrays(a, 0.03), block)
+    large = solve_rock(Motion.from_arrays(a, 0.03 * math.sqrt(length)), resized(block, size=length))
+    assert small.outcome.overturned == large.outcome.overturned
+    assert large.outcome.max_rotation_rad == pytest.approx(small.outcome.max_rotation_rad, rel=1e-7, abs=1e-12)
+    if small.outcome.overturned:
+        assert large.outcome.overturning_time_s == pytest.approx(small.outcome.overturning_time_s * math.sqrt(length), rel=1e-7)
+    if small.outcome.max_friction_demand is not None and large.outcome.max_friction_demand is not None:
+        assert large.outcome.max_friction_demand == pytest.approx(small.outcome.max_friction_demand, rel=1e-5)
+
+
+@few
+@given(blocks, st.floats(0.1, 0.95), st.floats(-1.0, 1.0), st.booleans())
+def test_energy_never_grows_unforced(block, share, push, linear):
+    """Without shaking, m R/I_O-scaled energy is kept between impacts and falls at each of them."""
+    alpha = block.slendernesses[0]
+    p = math.sqrt(G * block.lever_ratios[0])
+    response = solve_rock(Motion.from_arrays(np.zeros(60), 0.02), block, initial=(share * alpha, push * p * alpha * 0.3), linear=linear)
+    theta, omega = response["rotation"], response["angular_velocity"]
+    energy = np.empty(theta.size)
+    for i, (angle, rate) in enumerate(zip(theta, omega, strict=True)):
+        # at the instant of an impact the angular velocity tells about which corner it turns, before and after
+        rows = (response.time == response.time[i]).nonzero()[0]
+        right = ((rate > 0) == (i == rows[-1])) if abs(angle) < 1e-12 else angle > 0
+        side = 0 if right else 1
+        slender, radius = block.slendernesses[side], block.radii[side]
+        lean = abs(angle)
+        rise = slender * lean - lean**2 / 2 if linear else math.cos(slender - lean) - math.cos(slender)
+        inertia = block.corner_inertias[side] / block.total_mass
+        energy[i] = 0.5 * inertia * rate**2 + G * radius * rise
+    assert np.all(np.diff(energy) <= 1e-12 * energy[0])
+
+
+@few
+@given(shakings, blocks)
+def test_halving_the_step_changes_nothing(a, block):
+    """The same straight lines sampled twice as densely give the same answer."""
+    fine = np.interp(np.arange(2 * a.size - 1) / 2, np.arange(a.size), a)
+    one, other = solve_rock(Motion.from_arrays(a, 0.03), block), solve_rock(Motion.from_arrays(fine, 0.015), block)
+    assert one.outcome.overturned == other.outcome.overturned
+    assert other.outcome.max_rotation_rad == pytest.approx(one.outcome.max_rotation_rad, rel=1e-7, abs=1e-13)
+    if one.outcome.alpha_passed_s is not None:
+        assert other.outcome.alpha_passed_s == pytest.approx(one.outcome.alpha_passed_s, abs=1e-8)
+
+
+@few
+@given(shakings, blocks, st.floats(0.2, 2.0), st.booleans())
+def test_ensembles_agree_with_single_runs(a, block, scale, vertical):
+    """The short way gives the verdict and the ratio of the long one."""
+    motion = Motion.from_arrays(a, 0.03, vertical=0.5 * a[::-1])
+    scaled = Motion.from_arrays(scale * a, 0.03, vertical=scale * 0.5 * a[::-1])
+    short, long = rock_verdict(motion, block, scale=scale, vertical=vertical), solve_rock(scaled, block, vertical=vertical).outcome
+    assert short.overturned == long.overturned
+    assert short.max_rotation_ratio == pytest.approx(long.max_rotation_ratio, rel=1e-9, abs=1e-15)
+
+
+@few
+@given(shakings, blocks)
+def test_below_the_threshold_nothing_moves(a, block):
+    """A motion scaled to the threshold itself does not start rocking: equality rests."""
+    peak = float(np.abs(a).max())
+    if peak == 0.0:
+        return
+    outcome = solve_rock(Motion.from_arrays(a / peak * block.rocking_threshold() * (1 - 1e-12), 0.03), block).outcome
+    assert outcome.rocks is outcome.overturned is False
+    assert outcome.max_rotation_rad == outcome.impacts == 0
+    assert outcome.max_friction_demand == pytest.approx(block.rocking_threshold() / G, rel=1e-9)
