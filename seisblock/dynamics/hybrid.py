@@ -200,6 +200,7 @@ def integrate(
     found = 0
     repeated = 0
     status = RECORD_ENDED
+    still = True
     per_dt = 1.0 / dt
     for i in range(n_tracked):
         extrema[i, HIGHEST] = y[i]
@@ -210,7 +211,7 @@ def integrate(
         path[sample, :] = y
         modes[sample] = mode
     while sample < n - 1 and status == RECORD_ENDED:
-        if tau == 0.0:
+        if tau == 0.0 and still:
             ahead = skip(mode, acceleration, gains, sample, p)
             if ahead > sample:
                 if record:
@@ -226,6 +227,7 @@ def integrate(
                 f[row, 1] = slope
         while True:
             degree = series(mode, y, f, p, order, c, g)
+            still = degree == CONSTANT
             guard_degree = max(degree, 1)
             left = dt - tau
             h = left

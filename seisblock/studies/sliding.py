@@ -177,6 +177,8 @@ def _run(
         jobs += [(motion, rows[first : first + share]) for first in range(0, len(rows), share)]
     total = len(motions) * len(rows)
     done = 0
+    if len(jobs) == 1:
+        return iter(_points(*jobs[0], gravity))
     with ThreadPoolExecutor(workers) as pool:
         futures = {pool.submit(_points, *job, gravity): len(job[1]) for job in jobs}
         for future in as_completed(futures):

@@ -27,6 +27,7 @@ def test_statement_of_the_paper(case: Case):
     assert result.verdict == case.status, f"{case.quantity}: expected {case.expected}, computed {result.computed}"
 
 
+@pytest.mark.kernel
 def test_eq_1_equality_sticks():
     """A ground acceleration of exactly mu g moves nothing; one part in 10^9 more does."""
     flat = np.full(11, 0.25 * 8.0)
@@ -34,6 +35,7 @@ def test_eq_1_equality_sticks():
     assert solve_slide(Motion.from_arrays(flat * (1 + 1e-9), 0.1), 0.25, gravity=8.0).outcome.slips
 
 
+@pytest.mark.kernel
 def test_section_2_2_slip_reverses_at_once_where_static_friction_is_exceeded():
     """When the relative velocity reaches zero under 0.5 g and mu = 0.1, the object slips the other way without a rest."""
     square = np.concatenate([np.full(50, 4.9), np.full(150, -4.9)])
@@ -42,6 +44,7 @@ def test_section_2_2_slip_reverses_at_once_where_static_friction_is_exceeded():
     assert [event.name for event in response.events[:2]] == ["slip start", "reversal"]
 
 
+@pytest.mark.kernel
 def test_section_3_1_speed_is_kept_at_the_foot():
     """The relative speed along the path is the same on both sides of the foot, and the object can climb again."""
     a = np.concatenate([np.full(100, -3.0), np.full(400, 6.0)])
@@ -54,6 +57,7 @@ def test_section_3_1_speed_is_kept_at_the_foot():
     assert response.outcome.fell_off_slope
 
 
+@pytest.mark.kernel
 def test_flight_is_ballistic_and_lands_with_a_friction_impulse():
     """Where the base falls away faster than g the object flies; at landing friction takes mu times the normal impulse."""
     up = np.concatenate([np.zeros(10), np.full(30, -2.0 * G), np.full(60, 2.0 * G), np.zeros(100)])
@@ -72,6 +76,7 @@ def test_flight_is_ballistic_and_lands_with_a_friction_impulse():
     assert on.after[1] == pytest.approx(on.before[1] + 0.3 * abs(on.before[3]), rel=1e-12)
 
 
+@pytest.mark.kernel
 def test_object_still_sliding_slides_on_after_the_record():
     """At the record's end and at rest are two answers: the second by v^2 / (2 mu_k g)."""
     motion = Motion.from_arrays(np.full(11, 4.0), 0.1)
