@@ -13,7 +13,7 @@ from seisblock.cli.rock import along
 from seisblock.cli.types import FLOATS, LENGTHS
 from seisblock.errors import ParameterError
 
-KINDS = ("rocking", "overturning")
+KINDS = ("rocking", "overturning", "sliding")
 
 
 @click.command(
@@ -21,11 +21,13 @@ KINDS = ("rocking", "overturning")
     examples=(
         "seisblock spectrum --component NS --plot spectrum.png",
         "seisblock spectrum record.csv --kind overturning --sizes 0.2:4:0.1 --height-over-width 2:8:0.25 --csv falls.csv",
+        "seisblock spectrum record.csv --kind sliding --mu 0.05:0.6:0.01 --plot sliding.png",
     ),
 )
 @record_options
 @option("--kind", type=click.Choice(KINDS), default="rocking", show_default=True,
-        help="Largest lean over alpha, or overturning alone.")
+        help="Largest lean over alpha; overturning alone; or the largest slip against friction.")
+@option("--mu", type=FLOATS, section="Body", metavar="LIST|RANGE", help="Friction, for --kind sliding. [default: 0.02 to 0.8]")
 @option("--sizes", type=LENGTHS, section="Body", metavar="LIST|RANGE", help="Diagonals 2R, m or with units. [default: 0.2 to 8, geometric]")
 @option("--frequency-parameter", type=FLOATS, section="Body", metavar="LIST|RANGE", help="p = sqrt(3g/4R), rad/s, instead of --sizes.")
 @option("--height-over-width", type=FLOATS, section="Body", metavar="LIST|RANGE", help="H/B of the blocks, 1. [default: 1.5 to 10]")
@@ -35,14 +37,22 @@ KINDS = ("rocking", "overturning")
 @rocking_options
 @gravity_option
 @output_options
-def spectrum(source: Source, output: Output, gravity: float, kind: str, sizes: tuple[float, ...] | None,
+def spectrum(source: Source, output: Output, gravity: float, kind: str, mu: tuple[float, ...] | None, sizes: tuple[float, ...] | None,
              frequency_parameter: tuple[float, ...] | None, height_over_width: tuple[float, ...] | None,
              slenderness_rad: tuple[float, ...] | None, steps: int, restitution: float | None, linear: bool, vertical: bool,
              azimuth: tuple[str, ...]) -> None:
     """Largest lean of rectangular blocks over their alpha, against size and slenderness, for each component.
 
-    Overturning is not monotone: look for islands in the figure.
+    Overturning is not monotone: look for islands in the figure. With --kind sliding, the largest slip against friction.
     """
+    source = along(source, azimuth)
+    if kind == "sliding":
+        given = {"sizes": sizes, "frequency-parameter": frequency_parameter, "height-over-width": height_over_width,
+                 "slenderness-rad": slenderness_rad, "restitution": restitution, "linear": linear}  # fmt: skip
+        _refuse(kind, given)
+        _sliding(source, output, gravity, mu, vertical)
+        return
+    _refuse(kind, {"mu": mu})
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import load, motions
     from seisblock.cli.progress import progress
@@ -60,7 +70,7 @@ def spectrum(source: Source, output: Output, gravity: float, kind: str, sizes: t
     records = load(source)
     found = []
     for record in records:
-        for motion in motions(record, along(source, azimuth)):
+        for motion in motions(record, source):
             with progress(f"spectrum {motion.name}") as tell:
                 found.append((motion, rocking_spectrum(motion, diagonals, alphas, gravity=gravity, progress=tell, **options)))
     results = [
@@ -71,6 +81,36 @@ def spectrum(source: Source, output: Output, gravity: float, kind: str, sizes: t
         Answer("spectrum", {"kind": kind, "gravity_m_s2": gravity, **options}, results, records, ["Housner1963", "Zhang2001"]), output,
         tables=lambda: shown.tables(found, kind), csv=lambda path: shown.write(path, found),
         figure=lambda: shown.figure(found, kind, gravity),
+    )  # fmt: skip
+
+
+def _refuse(kind: str, given: dict[str, Any]) -> None:
+    """Refuse options that mean nothing to a kind of spectrum."""
+    for name, value in given.items():
+        if value:
+            raise ParameterError(f"--{name} means nothing to --kind {kind}: leave it out")
+
+
+def _sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ...] | None, vertical: bool) -> None:
+    """Answer ``--kind sliding``."""
+    from seisblock.cli.emit import emit
+    from seisblock.cli.inputs import load, motions
+    from seisblock.cli.progress import progress
+    from seisblock.present import sliding_spectrum as shown
+    from seisblock.present.document import Answer
+    from seisblock.studies.sliding import slide_study
+
+    frictions = mu or tuple(round(0.02 * i, 2) for i in range(1, 41))
+    records, found = load(source), []
+    for motion in (motion for record in records for motion in motions(record, source)):
+        with progress(f"sliding {motion.name}") as tell:
+            found.append((motion, slide_study(motion, frictions, vertical_scale=float(vertical), gravity=gravity, progress=tell)))
+    index = {id(record): i for i, record in enumerate(records)}
+    several = len(records) > 1
+    results = [{**({"record_index": index[id(m.record)]} if several else {}), **shown.document(m, points)} for m, points in found]
+    emit(
+        Answer("spectrum", {"kind": "sliding", "gravity_m_s2": gravity, "vertical": vertical}, results, records, ["Fujino1978"]), output,
+        tables=lambda: shown.tables(found), csv=lambda path: shown.write(path, found), figure=lambda: shown.figure(found),
     )  # fmt: skip
 
 

@@ -14,6 +14,7 @@ PAPERS: tuple[str, ...] = (
     "okumura",
     "tsutsui",
     "housner",
+    "furukawa_rocking",
     "furukawa",
 )
 """Modules of this package that export CASES."""

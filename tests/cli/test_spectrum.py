@@ -75,6 +75,9 @@ def test_table_file_and_figure(run, tmp_path, kind):
         (["--sizes", "1", "--frequency-parameter", "2"], "not both"),
         (["--sizes", "1:2"], "range"),
         (["--restitution", "2"], "(0, 1]"),
+        (["--mu", "0.2"], "means nothing"),
+        (["--kind", "sliding", "--sizes", "1"], "means nothing"),
+        (["--kind", "sliding", "--mu", "-0.1"], "friction"),
     ],
 )
 def test_bad_input_is_one_sentence(run, words, says):
@@ -83,6 +86,18 @@ def test_bad_input_is_one_sentence(run, words, says):
     assert answer.exit_code in (2, 3)
     assert says in " ".join(answer.stderr.split())
     assert answer.stdout == ""
+
+
+def test_sliding(run, tmp_path):
+    """Each point is a run of slide; more friction, in the end, no slip."""
+    answer = run("--kind", "sliding", "--mu", "0.1,0.3,2", "--component", "NS", "--json", "--csv", "s.csv", "--plot", "s.png")
+    found = json.loads(answer.stdout)["results"][0]
+    for mu, slip in zip(found["mu"], found["max_slip_m"], strict=True):
+        single = json.loads(CliRunner().invoke(main, ["slide", "--mu", str(mu), "--component", "NS", "--json"]).stdout)["results"][0]
+        assert slip == pytest.approx(single["max_slip_m"], rel=1e-9, abs=1e-15)
+    assert found["max_slip_m"][0] > 0 == found["max_slip_m"][-1]
+    assert len(list(csv.DictReader((tmp_path / "s.csv").open()))) == 3
+    assert (tmp_path / "s.png").stat().st_size > 5_000
 
 
 def test_progress_is_told_and_memory_is_bounded():
