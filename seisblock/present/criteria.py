@@ -21,6 +21,9 @@ from seisblock.units import GAL, KINE
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+HEADINGS = {"pga_pgv": "PGA/2πPGV", "fourier": "Fourier", "pulse_width": "pulse"}
+"""The equivalent frequencies, as short as a column."""
+
 DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": "pulse width"}
 
 
@@ -45,7 +48,7 @@ def tables(cards: Sequence[Card], *, gal: bool) -> Iterator[Any]:
         if card.record is not last:
             last = card.record
             yield record_line(card.record)
-        yield _table(card, gal=gal)
+        yield from _tables(card, gal=gal)
         yield Text(simulated(card))
         yield Text()
 
@@ -64,23 +67,47 @@ def simulated(card: Card) -> str:
     return f"{card.component}, simulated: {said}{flag}. {right} of {len(card.rows)} criteria agree."
 
 
-def _table(card: Card, *, gal: bool) -> Any:
-    """Return the table of one component."""
+def _tables(card: Card, *, gal: bool) -> Iterator[Any]:
+    """Yield the criteria that ask for no frequency, then those that do, with a column per equivalent frequency."""
     m = card.measures
     units = (acceleration_unit(gal=gal), "kine" if gal else "m/s")
     factors = (GAL, KINE) if gal else (1.0, 1.0)
     title = f"{card.component}: {card.block.name} {card.block.width:g} x {card.block.height:g} m, " + (
         f"PGA {m.pga_m_s2 / factors[0]:.4g} {units[0]}, PGV {m.pgv_m_s / factors[1]:.4g} {units[1]}"
     )
-    rows = []
-    for row in card.rows:
+    plain = [row for row in card.rows if row.frequency is None]
+    cells = []
+    for row in plain:
         kind = 0 if row.unit == ACCELERATION else 1
         shown = f"{number(row.threshold / factors[kind])} {units[kind]}"
-        hz = "" if row.frequency_hz is None else f"{row.frequency_hz:.2f} {DEFINITIONS.get(row.frequency or '', '')}"
-        agrees = "" if row.overturns == card.outcome.overturned else "  (not so)"
-        verdict = ("falls" if row.overturns else "stands") + agrees
-        rows.append([row.criterion, row.where, hz, shown, number(row.demand / row.threshold), verdict])
-    return table(title, ["criterion", "formula", "f (Hz)", "threshold", "demand/threshold", "verdict"], rows)
+        cells.append([row.criterion, _formula(row), shown, f"{row.demand / row.threshold:.2f}", _verdict(row, card)])
+    yield table(title, ["criterion", "formula", "falls above", "ratio", "says"], cells)
+
+    asked = {row.frequency: row.frequency_hz for row in card.rows if row.frequency is not None}
+    columns = [f"{HEADINGS.get(key, key)}\n{hz:.2f} Hz" for key, hz in asked.items() if hz is not None]
+    names = list(dict.fromkeys((row.criterion, _formula(row)) for row in card.rows if row.frequency is not None))
+    found = {(row.criterion, row.frequency): row for row in card.rows}
+    body = []
+    for name, formula in names:
+        row_cells = [name, formula]
+        for key in asked:
+            match = found.get((name, key))
+            row_cells.append("-" if match is None else f"{match.demand / match.threshold:.2f} {_verdict(match, card)}")
+        body.append(row_cells)
+    if body:
+        caption = "ratio: demand over threshold. ! : not what the simulation says. Thresholds of the lower table: --csv, --json"
+        yield table("", ["ratio at f =", "formula", *columns], body, caption=caption)
+
+
+def _formula(row: Row) -> str:
+    """Return where a criterion is printed, without the brackets of the citation."""
+    return row.where.replace("[", "").replace("]_", "")
+
+
+def _verdict(row: Row, card: Card) -> str:
+    """Return what a criterion says, marked where the simulation says otherwise."""
+    mark = " " if row.overturns == card.outcome.overturned else "!"
+    return ("falls " if row.overturns else "stands") + mark
 
 
 def write(path: Path, cards: Sequence[Card]) -> None:
