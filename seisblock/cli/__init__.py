@@ -35,6 +35,9 @@ COMMANDS: dict[str, tuple[str, str]] = {
 }
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
 
+EXAMPLES = ("seisblock jump", "seisblock measure record.csv --plot record.png")
+"""Two lines to begin with, at the end of the help."""
+
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 
@@ -63,15 +66,15 @@ class SeisblockGroup(click.Group):
         """Write the list of commands without importing them."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
+        with formatter.section("Examples"):
+            for line in EXAMPLES:
+                formatter.write(f"  {line}\n")
 
     def main(self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any) -> Any:  # type: ignore[override]
         """Run the command; errors of the user become a message on stderr and an exit code."""
-        try:
-            return super().main(args, prog_name or "seisblock", **extra)
-        except BrokenPipeError:
-            # the reader went away (| head): nothing to say, and nothing may be flushed at exit
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            sys.exit(BROKEN_PIPE)
+        if os.environ.get("NO_COLOR"):
+            extra.setdefault("color", False)
+        return super().main(args, prog_name or "seisblock", **extra)
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""
@@ -84,8 +87,12 @@ class SeisblockGroup(click.Group):
             click.secho(f"seisblock: {error}", fg="red", err=True)
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
-            click.echo("\nseisblock: interrupted; no file was changed", err=True)
+            click.echo("\nseisblock: interrupted; no half-written file is left", err=True)
             ctx.exit(INTERRUPTED)
+        except BrokenPipeError:
+            # the reader went away (| head): nothing to say, and nothing may be flushed at exit
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            ctx.exit(BROKEN_PIPE)
         finally:
             _jit.announce = None
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,7 +13,16 @@ from seisblock.cli.options import Output
 from seisblock.cli.talk import say, warn
 from seisblock.errors import OutputError
 from seisblock.present.document import Answer, to_json
+from seisblock.present.words import language
 from seisblock.results import Response
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from seisblock.present.animation import Filming
+
+STDOUT = Path("-")
+"""The name that stands for stdout."""
 
 
 def emit(
@@ -22,8 +32,8 @@ def emit(
     tables: Callable[[], Iterable[Any]],
     responses: Sequence[Response[Any]] = (),
     csv: Callable[[Path], None] | None = None,
-    figure: Callable[[], Any] | None = None,
-    animation: Callable[[Path], None] | None = None,
+    figure: Callable[[], Figure] | None = None,
+    animation: Callable[[Path, Filming], None] | None = None,
 ) -> None:
     """Show an answer and write the files asked for.
 
@@ -41,27 +51,27 @@ def emit(
     figure : callable
         Returns the matplotlib Figure of ``--plot``.
     animation : callable
-        Writes the file of ``--animate``.
+        Writes the file of ``--animate``, at the speed, in the language and with the progress it is told.
     """
     for message in answer.warnings:
         warn(message)
+    if output.plot is not None and figure is None:
+        raise OutputError(f"{answer.command} has no figure here: leave --plot out")
+    if output.animate is not None and animation is None:
+        raise OutputError(f"{answer.command} has no animation here: leave --animate out")
     if output.csv is not None:
         from seisblock.present.files import write_histories
 
         (csv or (lambda path: write_histories(path, responses)))(output.csv)
         say(f"wrote {output.csv}")
-    if output.plot is not None:
-        if figure is None:
-            raise OutputError(f"{answer.command} has no figure: leave --plot out")
-        from seisblock.present.canvas import save
-
-        save(figure(), output.plot)
-        say(f"wrote {output.plot}")
-    if output.animate is not None:
-        if animation is None:
-            raise OutputError(f"{answer.command} has no animation: leave --animate out")
-        animation(output.animate)
+    if output.animate is not None and animation is not None:
+        _animate(animation, output)
         say(f"wrote {output.animate}")
+    if output.plot is not None and figure is not None:
+        _draw(figure, output.plot, language(output.lang))
+        if output.plot == STDOUT:
+            return
+        say(f"wrote {output.plot}")
     # stdout comes last: a reader that goes away (| head) takes no file with it
     if output.json:
         click.echo(to_json(answer))
@@ -71,6 +81,37 @@ def emit(
         screen = console()
         for part in tables():
             screen.print(part)
+
+
+def _draw(figure: Callable[[], Figure], target: Path, lang: str) -> None:
+    """Write a figure to a file, or its .png to stdout."""
+    from seisblock.present.canvas import save, save_png
+    from seisblock.present.fonts import MISSING, speak
+
+    if target == STDOUT and sys.stdout.isatty():
+        raise OutputError("--plot - writes a .png to stdout, which is a terminal: send it to a file or a viewer, or give a file name")
+    drawn = figure()
+    if not speak(drawn, lang):
+        say(MISSING)
+    if target == STDOUT:
+        save_png(drawn, sys.stdout.buffer)
+    else:
+        save(drawn, target)
+
+
+def _animate(animation: Callable[[Path, Filming], None], output: Output) -> None:
+    """Write an animation, with a bar while its pictures are drawn."""
+    from seisblock.cli.progress import progress
+    from seisblock.present.animation import Filming
+    from seisblock.present.fonts import MISSING, japanese_font
+
+    assert output.animate is not None
+    lang = language(output.lang)
+    if lang != "en" and japanese_font() is None and output.animate.suffix.lower() != ".html":
+        say(MISSING)
+        lang = "en"
+    with progress("drawing") as tell:
+        animation(output.animate, Filming(output.slow, lang, tell))
 
 
 def response_answer(

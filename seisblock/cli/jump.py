@@ -68,4 +68,12 @@ def jump(source: Source, output: Output, gravity: float, drop: float, spin: str,
     emit(
         response_answer("jump", responses, parameters), output, responses=responses,
         tables=lambda: shown.tables(responses, gal=output.gal, tenon=tenon), figure=lambda: shown.figure(responses),
+        animation=lambda path, filming: _film(responses[0], path, filming),
     )  # fmt: skip
+
+
+def _film(response: Any, path: Any, filming: Any) -> None:
+    """Write the animation of the first component."""
+    from seisblock.present.jump_film import animate_jump
+
+    animate_jump(response, path, filming)

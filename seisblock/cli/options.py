@@ -14,6 +14,7 @@ from click.shell_completion import CompletionItem
 from seisblock.cli.command import option
 from seisblock.cli.talk import quietly
 from seisblock.cli.types import WINDOW
+from seisblock.present.words import LANGUAGES
 from seisblock.units import STANDARD_GRAVITY
 
 Function = Callable[..., Any]
@@ -45,6 +46,8 @@ class Output:
     csv: Path | None
     plot: Path | None
     animate: Path | None
+    slow: float
+    lang: str | None
     gal: bool
     quiet: bool
 
@@ -100,8 +103,12 @@ _RECORD_OPTIONS = (
 _OUTPUT_OPTIONS = (
     option("--json", is_flag=True, section="Output", help="One JSON document on stdout, SI units."),
     option("--csv", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the time history, SI units."),
-    option("--plot", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Draw the figure: .png, .svg or .pdf."),
+    option("--plot", type=click.Path(path_type=Path, allow_dash=True), section="Output", metavar="FILE",
+           help="Draw the figure: .png, .svg or .pdf; - writes a .png to stdout, and nothing else."),
     option("--animate", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Draw the animation: .gif, .mp4 or .html."),
+    option("--slow", type=float, default=1.0, callback=_positive, metavar="FACTOR", section="Output",
+           help="Play the animation this many times slower than life. [default: 1]"),
+    option("--lang", type=click.Choice(LANGUAGES), section="Output", help="Language of figures. [default: of the locale, else en]"),
     option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables. [default: gal]"),
     option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors."),
 )  # fmt: skip

@@ -70,10 +70,10 @@ def rock(source: Source, output: Output, gravity: float, restitution: float | No
     for result, extra in zip(answer.results, extras, strict=True):
         result.update({key: asdict(value) for key, value in extra.items()})  # type: ignore[attr-defined]
 
-    def animation(path: Path) -> None:
+    def animation(path: Path, filming: Any) -> None:
         from seisblock.present.rock_animation import animate_rocking
 
-        animate_rocking(responses[0], path)
+        animate_rocking(responses[0], path, filming)
 
     emit(
         answer, output, responses=responses, tables=lambda: shown.tables(responses, extras, gal=output.gal),

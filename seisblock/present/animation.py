@@ -8,6 +8,7 @@ import json
 import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,30 @@ FRAMES_PER_SECOND = 20
 
 MOST_FRAMES = 1200
 """A longer answer plays faster than it was, rather than filling the disk."""
+
+Progress = Callable[[int, int], None]
+"""Called with the number of pictures drawn and of all."""
+
+
+@dataclass(frozen=True)
+class Filming:
+    """How an animation is wanted.
+
+    Parameters
+    ----------
+    slow : float
+        How many times slower than life it plays.
+    lang : "en" or "ja"
+    progress : callable
+    """
+
+    slow: float = 1.0
+    lang: str = "en"
+    progress: Progress | None = None
+
+
+REAL_TIME = Filming()
+"""As fast as life, in English."""
 
 SUFFIXES = (".gif", ".mp4", ".html")
 
@@ -53,10 +78,10 @@ def stage(figure: Figure, moving: Sequence[Any], draw: Callable[[int], None], co
         yield Image.frombuffer("RGBA", canvas.get_width_height(), bytes(canvas.buffer_rgba())).convert("RGB")
 
 
-def frame_times(first: float, last: float, fps: int = FRAMES_PER_SECOND) -> tuple[list[float], float]:
-    """Return the times of the pictures of a stretch, s, and how many times faster than life it plays."""
-    count = max(round((last - first) * fps) + 1, 2)
-    speed = 1.0
+def frame_times(first: float, last: float, fps: int = FRAMES_PER_SECOND, *, slow: float = 1.0) -> tuple[list[float], float]:
+    """Return the times of the pictures of a stretch, s, and how many times faster than life it plays (0.25: four times slower)."""
+    speed = 1.0 / slow
+    count = max(round((last - first) * fps / speed) + 1, 2)
     while count > MOST_FRAMES:
         speed *= 2
         count = max(round((last - first) * fps / speed) + 1, 2)

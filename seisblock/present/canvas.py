@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -124,3 +124,9 @@ def save(figure: Figure, path: Path | str) -> None:
         raise OutputError(f"cannot draw {target}: the name must end in {', '.join(SUFFIXES)}")
     with replacing(target) as temporary:
         figure.savefig(temporary, format=target.suffix[1:].lower())
+
+
+def save_png(figure: Figure, stream: IO[bytes]) -> None:
+    """Write a figure as .png to an open stream."""
+    figure.savefig(stream, format="png")
+    stream.flush()

@@ -20,7 +20,15 @@ NOTHING = "-"
 
 def console(*, stderr: bool = False) -> Console:
     """Return a console on the present stdout or stderr; colours obey NO_COLOR and pipes."""
-    return Console(stderr=stderr, highlight=False, soft_wrap=False)
+    return _Screen(stderr=stderr, highlight=False, soft_wrap=False)
+
+
+class _Screen(Console):
+    """A console that lets the command line decide what to do when its reader has gone."""
+
+    def on_broken_pipe(self) -> None:
+        """Raise, instead of leaving the process."""
+        raise BrokenPipeError
 
 
 def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = "") -> Group:

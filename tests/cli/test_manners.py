@@ -1,0 +1,207 @@
+"""The command line is polite: quiet pipes, clean interruptions, no colour where none is wanted, a light start."""
+
+import json
+import os
+import pty
+import shlex
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import COMMANDS, main
+from seisblock.readers.samples import sample_path
+
+HEAVY = ("numba", "obspy", "scipy", "matplotlib", "PIL", "pandas")
+SEISBLOCK = f"{shlex.quote(sys.executable)} -m seisblock"
+
+
+def shell(line, cwd, **environment):
+    """Run a line in bash, with pipefail."""
+    return subprocess.run(
+        ["bash", "-o", "pipefail", "-c", line], cwd=cwd, env={**os.environ, **environment}, capture_output=True, text=True, check=False
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("words", [["--help"], ["--version"], *([name, "--help"] for name in COMMANDS)], ids=" ".join)
+def test_help_loads_nothing_heavy(words):
+    """Neither the list of commands nor the help of any command loads a large package; the list does not even load rich and numpy."""
+    script = (
+        "import sys\nfrom seisblock.cli import main\n"
+        f"try:\n    main({words!r})\nexcept SystemExit as end:\n    assert not end.code\n"
+        "print('\\n' + ' '.join(sys.modules), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    loaded = set(done.stderr.splitlines()[-1].split())
+    assert loaded.isdisjoint(HEAVY)
+    assert len(words) == 2 or loaded.isdisjoint({"rich", "numpy"})
+
+
+def test_start_costs_less_than_150_ms_of_cpu():
+    """`seisblock --help` in a fresh process, the best of three."""
+
+    def spent():
+        before = os.times()
+        subprocess.run([sys.executable, "-m", "seisblock", "--help"], capture_output=True, check=True)
+        after = os.times()
+        return after.children_user + after.children_system - before.children_user - before.children_system
+
+    assert min(spent() for _ in range(3)) < 0.15
+
+
+@pytest.mark.parametrize("line", ["jump --json", "validate", "measure --json", "samples", "cite --bibtex"])
+def test_a_reader_that_goes_away_is_no_event(line, tmp_path):
+    """`| head -1` leaves stderr without a word about pipes and a traceback least of all."""
+    done = shell(f"{SEISBLOCK} {line} --quiet | head -1" if "cite" not in line else f"{SEISBLOCK} {line} | head -1", tmp_path)
+    assert done.stderr == ""
+    assert len(done.stdout.splitlines()) == 1
+    assert done.returncode in (0, 141)
+
+
+def interrupted(words, cwd, wait):
+    """Start a command in its own group, send SIGINT once `wait` says so, return exit code and stderr."""
+    pipe = subprocess.PIPE
+    command = [sys.executable, "-m", "seisblock", *words]
+    with subprocess.Popen(command, cwd=cwd, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
+        wait(process)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=30)
+        return process.returncode, said
+
+
+def test_interruption_exits_with_130_and_leaves_no_half_file(tmp_path):
+    """Ctrl-C while pictures are drawn: the old file stands, nothing lies beside it, one line is said."""
+    film = tmp_path / "film.gif"
+    film.write_bytes(b"old")
+
+    def drawing(process):
+        until = time.monotonic() + 60
+        while not any(path.name.startswith(".film") for path in tmp_path.iterdir()):
+            assert process.poll() is None and time.monotonic() < until
+            time.sleep(0.02)
+        time.sleep(0.3)
+
+    code, said = interrupted(["jump", "--component", "EW", "--animate", film.name, "--slow", "40", "--quiet"], tmp_path, drawing)
+    assert code == 130
+    assert said.strip() == "seisblock: interrupted; no half-written file is left"
+    assert [path.name for path in tmp_path.iterdir()] == ["film.gif"] and film.read_bytes() == b"old"
+
+
+def on_a_terminal(words, cwd, **environment):
+    """Return everything a command writes to a terminal of 80 columns, escape sequences included."""
+    leader, follower = pty.openpty()
+    inherited = {name: value for name, value in os.environ.items() if name not in ("NO_COLOR", "FORCE_COLOR")}
+    environment = {**inherited, "TERM": "xterm-256color", "COLUMNS": "80", **environment}
+    with subprocess.Popen(
+        [sys.executable, "-m", "seisblock", *words], cwd=cwd, stdin=follower, stdout=follower, stderr=follower, env=environment
+    ) as process:  # fmt: skip
+        os.close(follower)
+        pieces = []
+        while True:
+            try:
+                piece = os.read(leader, 65536)
+            except OSError:  # the terminal is closed when the program ends
+                break
+            if not piece:
+                break
+            pieces.append(piece)
+        process.wait()
+    os.close(leader)
+    return b"".join(pieces).decode()
+
+
+def test_colours_are_for_terminals_and_obey_no_color(tmp_path):
+    """A terminal gets colours, a terminal with NO_COLOR and a pipe get none, in errors too."""
+    assert "\x1b[3" in on_a_terminal(["jump", "nowhere.csv"], tmp_path)
+    for words in (["jump", "nowhere.csv"], ["jump", "--component", "EW"]):
+        plain = on_a_terminal(words, tmp_path, NO_COLOR="1")
+        assert "\x1b[3" not in plain.replace("\x1b[3m", "") and "\x1b[9" not in plain
+    assert "\x1b" not in shell(f"{SEISBLOCK} jump 2>&1", tmp_path).stdout
+
+
+def test_a_bar_is_shown_on_a_terminal_only_and_only_for_long_work(tmp_path, monkeypatch):
+    """Work of more than a second shows how much is done; shorter work, --quiet and pipes show nothing."""
+    script = (
+        "import sys, time\nfrom seisblock.cli.progress import progress\n"
+        "with progress('drawing') as tell:\n"
+        "    for i in range(15):\n        time.sleep(float(sys.argv[1]))\n        tell(i + 1, 15)\n"
+    )
+
+    def shown(seconds):
+        leader, follower = pty.openpty()
+        with subprocess.Popen([sys.executable, "-c", script, seconds], stderr=follower, env={**os.environ, "TERM": "xterm"}) as process:
+            os.close(follower)
+            text = b""
+            while True:
+                try:
+                    piece = os.read(leader, 65536)
+                except OSError:
+                    break
+                if not piece:
+                    break
+                text += piece
+            process.wait()
+        os.close(leader)
+        return text.decode()
+
+    assert "drawing" in shown("0.1")
+    assert shown("0.001") == ""
+    assert subprocess.run([sys.executable, "-c", script, "0.1"], capture_output=True, text=True, check=True).stderr == ""
+
+
+@pytest.fixture
+def workshop(tmp_path, monkeypatch):
+    """A directory with the record that the examples name."""
+    (tmp_path / "record.csv").write_bytes(sample_path("synthetic_jma.csv").read_bytes())
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def examples(name):
+    """Return the lines at the end of a command's help."""
+    text = CliRunner().invoke(main, [name, "--help"] if name else ["--help"]).stdout
+    lines = [line.strip() for line in text.split("Examples:")[1].splitlines()]
+    return [line for line in lines if line]
+
+
+@pytest.mark.parametrize("name", ["", *COMMANDS])
+def test_help_ends_with_lines_that_run(name, workshop):
+    """At least two lines at the end of each help can be pasted as they stand, and run."""
+    lines = examples(name)
+    assert len(lines) >= 2
+    for line in lines:
+        assert "seisblock" in line
+        if any(sign in line for sign in "|>$"):
+            function = f"seisblock() {{ {SEISBLOCK} \"$@\"; }}\n"
+            done = shell(function + line, workshop)
+            assert done.returncode == 0, (line, done.stderr)
+        else:
+            done = CliRunner().invoke(main, shlex.split(line)[1:])
+            assert done.exit_code == 0, (line, done.output)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_options_are_grouped(name):
+    """No option but --help is left outside the groups record, body, solver and output."""
+    import click
+
+    command = main.get_command(click.Context(main), name)
+    groups = {getattr(parameter, "section", None) for parameter in command.params if isinstance(parameter, click.Option)}
+    assert groups <= {"Record", "Body", "Solver", "Output"}
+
+
+def test_plot_to_stdout_is_the_picture_and_nothing_else(tmp_path):
+    """`--plot -` writes a .png to stdout without a table around it."""
+    command = [sys.executable, "-m", "seisblock", "jump", "--component", "EW", "--plot", "-", "--quiet"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
+    assert done.stdout.startswith(b"\x89PNG") and done.stdout.endswith(b"IEND\xaeB`\x82") and done.stderr == b""
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_one_process_answers_many_times(tmp_path):
+    """Called again and again in one process, the answer is the same and nothing is left behind."""
+    first, second = (CliRunner().invoke(main, ["jump", "--json"]).stdout for _ in range(2))
+    assert first == second and json.loads(first)["schema"] == "seisblock/jump/1"

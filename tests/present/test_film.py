@@ -1,0 +1,157 @@
+"""A film shows what the solver found: where the feet are, how the ground moves, as pictures and as one page."""
+
+import json
+import re
+import shutil
+import subprocess
+import time
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.files import read_table
+from seisblock.bodies.two_layer import Contact, contact, two_layer_block
+from seisblock.measures import ground_history
+from seisblock.present.animation import Filming
+from seisblock.present.film import Body, Film, Piece, rectangle, turned
+from seisblock.present.film_frames import pace
+from seisblock.present.film_page import film_page
+from seisblock.present.jump_film import animate_jump, jump_film
+from seisblock.present.rock_animation import animate_rocking, rocking_film
+from seisblock.readers import read
+from seisblock.records import Motion, motion_of
+from seisblock.records.process import crop
+from seisblock.solvers.jump import solve_jump
+from seisblock.solvers.rock import solve_rock
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
+
+
+@pytest.fixture(scope="module")
+def jumped():
+    """The bundled record's jump off a floor 30 cm above the ground."""
+    body = read_table("chozusha")
+    motion = motion_of(crop(read("synthetic_jma.csv"), 26.1, 27.6), "EW")
+    return solve_jump(motion, two_layer_block(body, "short"), Contact(**contact(body)), drop=0.3)
+
+
+@pytest.fixture(scope="module")
+def film(jumped):
+    """Its film at 500 moments."""
+    return jump_film(jumped, np.linspace(jumped.time[0], jumped.time[-1], 500))
+
+
+def during(film, name):
+    """Return which pictures lie in a phase, its ends left out."""
+    inside = np.zeros(film.time.size, dtype=bool)
+    for phase in film.phases:
+        if phase.name == name:
+            inside |= (film.time > phase.start_s + 1e-3) & (film.time < phase.end_s - 1e-3)
+    return inside
+
+
+def test_a_turn_to_plus_x_moves_the_top_to_plus_x():
+    """Positive is clockwise, seen with x to the right and z up."""
+    np.testing.assert_allclose(turned(np.array([[0.0, 1.0]]), 0.1), [[np.sin(0.1), np.cos(0.1)]], atol=1e-15)
+
+
+def test_while_it_rocks_one_foot_stays_and_while_it_flies_none_touches(film):
+    """The pivot is where it was, the flight is free of the floor, and no foot is ever below the ground."""
+    left, right = film.trails
+    rocking, flying = during(film, "rocking"), during(film, "flight")
+    np.testing.assert_allclose(left.z[rocking], 0.0, atol=1e-4)
+    np.testing.assert_allclose(left.x[rocking], left.x[0], atol=1e-4)
+    assert np.minimum(left.z, right.z)[flying].max() > 0.01
+    assert min(left.z.min(), right.z.min()) > -0.3 - 1e-6
+
+
+def test_the_feet_end_where_the_answer_says(film, jumped):
+    """The path of each foot ends at the total displacement, 0.3 m further down."""
+    total = jumped.outcome.chains[0].total_displacement_m
+    for trail in film.trails:
+        assert trail.x[-1] - trail.x[0] == pytest.approx(total, abs=1e-6)
+        assert trail.z[-1] == pytest.approx(-0.3, abs=1e-6)
+
+
+def test_the_ground_moves_as_its_displacement(film, jumped):
+    """The shift is the record's displacement on the baseline of PGD."""
+    moved = ground_history(jumped.motion.horizontal, jumped.motion.dt).displacement
+    np.testing.assert_allclose(film.shift, np.interp(film.time, jumped.motion.time, moved), atol=1e-15)
+
+
+def test_everything_stays_in_the_picture(film):
+    """The box holds every corner of every picture, ground displacement included."""
+    left, right, bottom, top = film.extent
+    for index in range(0, film.time.size, 7):
+        for body in film.bodies:
+            for piece in body.pieces:
+                corners = body.placed(piece.corners, index) + np.array([film.shift[index], 0.0])
+                assert (corners >= [left, bottom]).all() and (corners <= [right, top]).all()
+
+
+def test_a_page_holds_the_film_and_fetches_nothing(film):
+    """Data, script and style stand in the page; what it holds is the film to 0.01 mm."""
+    page = film_page(film, Filming(slow=4.0))
+    data = json.loads(re.search(r'id="film">(.*?)</script>', page, re.DOTALL).group(1))
+    np.testing.assert_allclose(data["trails"][1]["x"], film.trails[1].x, atol=5.1e-6)
+    assert data["pace"] == 0.25 and '<option value="0.25" selected>' in page
+    assert not re.search(r"https?://|src=|@import|url\(", page)
+    assert len(page) < 150_000
+
+
+def test_titles_are_text_and_not_markup():
+    """A body named like a tag cannot break the page."""
+    body = Body((Piece(rectangle(0, 1, 0, 1)),), *np.zeros((3, 2)))
+    film = Film("</script><b>", np.array([0.0, 1.0]), np.zeros(2), (body,), (rectangle(-1, 1, -1, 0),))
+    page = film_page(film, Filming())
+    assert "<b>" not in page and page.count("</script>") == 2
+
+
+def test_slow_motion_has_as_many_more_pictures(jumped, tmp_path):
+    """--slow 4 takes four times the pictures, of which each stands as long."""
+    for slow in (1.0, 4.0):
+        animate_jump(jumped, tmp_path / f"{slow:g}.gif", Filming(slow=slow))
+    with Image.open(tmp_path / "1.gif") as fast, Image.open(tmp_path / "4.gif") as slow:
+        assert slow.n_frames == pytest.approx(4 * fast.n_frames, abs=4)
+        assert fast.info["duration"] == slow.info["duration"] == 50
+    assert [pace(1.0), pace(0.25), pace(2.0)] == ["real time", "4 x slower", "2 x real time"]
+
+
+def test_twenty_seconds_are_drawn_in_less_than_twenty(tmp_path):
+    """A 20 s response becomes a film faster than it plays, and tells how far it is."""
+    t = np.arange(2001) * 0.01
+    response = solve_rock(Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"), Block(0.3, 0.9))
+    told = []
+    start = time.process_time()
+    animate_rocking(response, tmp_path / "rock.gif", Filming(progress=lambda done, total: told.append((done, total))))
+    assert time.process_time() - start < 20
+    assert told[-1][0] == told[-1][1] > 380
+
+
+def test_the_rocking_block_stands_on_its_pivot():
+    """Leaning to +x the right foot is on the ground and the left one above it."""
+    t = np.arange(301) * 0.01
+    response = solve_rock(Motion.from_arrays(4.0 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"), Block(0.3, 0.9))
+    film = rocking_film(response, response.time)
+    corners = film.bodies[0].pieces[0].corners
+    feet = [film.bodies[0].path(corners[i])[1] for i in (0, 1)]
+    np.testing.assert_allclose(np.minimum(*feet), 0.0, atol=1e-12)
+    lean = response["rotation"]
+    assert (feet[0][lean > 1e-6] > 0).all() and (feet[1][lean < -1e-6] > 0).all()
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
+@pytest.mark.parametrize("width", [390, 1280])
+def test_a_browser_draws_the_page(film, tmp_path, width):
+    """The script runs: the clock shows the time, and the scene is not empty."""
+    path = tmp_path / "film.html"
+    path.write_text(film_page(film, Filming()) + "<script>document.title = String(byId('scene').width > 300)</script>")
+    done = subprocess.run(
+        [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu", f"--window-size={width},900", "--virtual-time-budget=500",
+         f"--user-data-dir={tmp_path}/profile", "--dump-dom", path.as_uri()],
+        capture_output=True, text=True, check=True, timeout=60,
+    )  # fmt: skip
+    assert re.search(r'id="clock">2[67]\.\d{3} s<', done.stdout)
+    assert "<title>true</title>" in done.stdout
