@@ -158,6 +158,17 @@ class Block:
         return gravity * min(self.arms) / self.centre
 
 
+Restitution = float | tuple[float, float] | None
+"""One ratio for both corners, one onto the right and one onto the left corner, or None for those of the angular momentum."""
+
+
+def restitutions(block: Block, given: Restitution) -> tuple[float, float]:
+    """Return the restitutions of impacts onto the right and onto the left corner."""
+    if given is None:
+        return block.restitutions
+    return given if isinstance(given, tuple) else (given, given)
+
+
 def from_slenderness(slenderness: float, frequency_parameter: float, gravity: float = STANDARD_GRAVITY) -> Block:
     """Return the homogeneous rectangular block of a given alpha, rad, and p = sqrt(3 g/(4 R)), rad/s ([Housner1963]_)."""
     for name, value in (("slenderness", slenderness), ("frequency parameter", frequency_parameter)):

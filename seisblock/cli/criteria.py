@@ -10,7 +10,7 @@ import click
 from seisblock.cli.body import block_options, rocking_options
 from seisblock.cli.command import Command
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
-from seisblock.cli.rock import along
+from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.talk import say
 
 if TYPE_CHECKING:
@@ -64,20 +64,18 @@ def criteria(source: Source, output: Output, gravity: float, restitution: float 
 
 def _card(record: Any, component: str, block: Any, options: dict[str, Any]) -> Card:
     """Return the criteria and the simulated outcome of one component."""
-    from dataclasses import replace
-
     from seisblock.criteria.card import overturning_card
     from seisblock.measures import Conventions, measure
     from seisblock.present.criteria import Card
     from seisblock.records import motion_of
     from seisblock.solvers.rock import solve_rock
-    from seisblock.studies.margin import flips_nearby
+    from seisblock.studies.margin import flagged
 
     rules = Conventions(gravity_m_s2=options["gravity"])
     measured = measure(record, (component,), conventions=rules).components[0]
     motion = motion_of(record, component)
-    response = solve_rock(motion, block, **options)
-    outcome = replace(response.outcome, verdict_flips_within_2_percent=flips_nearby(motion, block, **options))
+    need_vertical(motion, options["vertical"])
+    response = flagged(solve_rock(motion, block, **options))
     frequencies = asdict(measured.equivalent_frequency_hz)
     rows = overturning_card(block, measured.pga_m_s2, measured.pgv_m_s, frequencies, options["gravity"])
-    return Card(record, component, block, measured, rows, outcome, rules.velocity_highpass_hz, response.warnings)
+    return Card(record, component, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings)

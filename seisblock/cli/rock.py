@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -14,6 +14,10 @@ from seisblock.cli.emit import emit, response_answer
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
+from seisblock.errors import ComponentError
+
+if TYPE_CHECKING:
+    from seisblock.records import Motion
 
 
 @click.command(
@@ -43,9 +47,10 @@ def rock(source: Source, output: Output, gravity: float, restitution: float | No
     direction. After the record's end the fate is decided by energy.
     """
     from seisblock.bodies.library import choose_block
+    from seisblock.cli.progress import progress
     from seisblock.present import rock as shown
     from seisblock.solvers.rock import solve_rock
-    from seisblock.studies.margin import find_margin, flips_nearby
+    from seisblock.studies.margin import find_margin, flagged
     from seisblock.studies.perturb import Spread
     from seisblock.studies.perturb import perturb as perturbed
 
@@ -55,15 +60,16 @@ def rock(source: Source, output: Output, gravity: float, restitution: float | No
     source = along(source, azimuth)
     responses, extras = [], []
     for motion in (motion for record in load(source) for motion in motions(record, source)):
-        response = solve_rock(motion, chosen.block, **options)
-        flips = flips_nearby(motion, chosen.block, **options)
-        responses.append(replace(response, outcome=replace(response.outcome, verdict_flips_within_2_percent=flips)))
+        need_vertical(motion, vertical)
+        responses.append(flagged(solve_rock(motion, chosen.block, **options)))
         extra: dict[str, Any] = {}
         if margin:
-            extra["margin"] = find_margin(motion, chosen.block, limit=margin_limit, **options)
+            with progress(f"margin {motion.name}") as tell:
+                extra["margin"] = find_margin(motion, chosen.block, limit=margin_limit, progress=tell, **options)
         if perturb is not None:
             widths = Spread(spread, spread, spread, spread)
-            extra["perturbation"] = perturbed(motion, chosen.block, perturb, spread=widths, seed=seed, **options)
+            with progress(f"perturb {motion.name}") as tell:
+                extra["perturbation"] = perturbed(motion, chosen.block, perturb, spread=widths, seed=seed, progress=tell, **options)
         extras.append(extra)
     parameters = {**responses[0].options, "block": chosen.block, "margin_limit": margin_limit if margin else None}
     answer = response_answer("rock", responses, parameters)
@@ -79,6 +85,12 @@ def rock(source: Source, output: Output, gravity: float, restitution: float | No
         answer, output, responses=responses, tables=lambda: shown.tables(responses, extras, gal=output.gal),
         figure=lambda: shown.figure(responses, gal=output.gal), animation=animation,
     )  # fmt: skip
+
+
+def need_vertical(motion: Motion, vertical: bool) -> None:
+    """Refuse ``--vertical`` where the record has no vertical component."""
+    if vertical and motion.record is not None and motion.record.vertical is None:
+        raise ComponentError(f"{motion.record.source}: --vertical needs a vertical component; it has {', '.join(motion.record.codes)}")
 
 
 def along(source: Source, azimuth: tuple[str, ...]) -> Source:

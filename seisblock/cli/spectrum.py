@@ -9,7 +9,7 @@ import click
 from seisblock.cli.body import rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
-from seisblock.cli.rock import along
+from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.types import FLOATS, LENGTHS
 from seisblock.errors import ParameterError
 
@@ -71,6 +71,7 @@ def spectrum(source: Source, output: Output, gravity: float, kind: str, mu: tupl
     found = []
     for record in records:
         for motion in motions(record, source):
+            need_vertical(motion, vertical)
             with progress(f"spectrum {motion.name}") as tell:
                 found.append((motion, rocking_spectrum(motion, diagonals, alphas, gravity=gravity, progress=tell, **options)))
     results = [
@@ -103,6 +104,7 @@ def _sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ..
     frictions = mu or tuple(round(0.02 * i, 2) for i in range(1, 41))
     records, found = load(source), []
     for motion in (motion for record in records for motion in motions(record, source)):
+        need_vertical(motion, vertical)
         with progress(f"sliding {motion.name}") as tell:
             found.append((motion, slide_study(motion, frictions, vertical_scale=float(vertical), gravity=gravity, progress=tell)))
     index = {id(record): i for i, record in enumerate(records)}

@@ -147,7 +147,7 @@ def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> Non
     canvas.curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
     canvas.label(axis, y=f"a ({name})")
     canvas.legend(axis)
-    e = f"e {outcome.restitution:.3f}"
+    e = f"e {outcome.restitution:.3f}" + ("; a 2 % change flips the verdict" if outcome.verdict_flips_within_2_percent else "")
     axis.set_title(f"{response.motion.name}  {response.body.name}: α {outcome.slenderness_rad:.3f} rad, {e}", fontsize=9, loc="left")
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.bodies.block import Block
+from seisblock.bodies.block import Block, Restitution
 from seisblock.dynamics import Trajectory, follow
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
@@ -20,9 +20,10 @@ from seisblock.units import STANDARD_GRAVITY
 CITATIONS = ("Housner1963", "Zhang2001", "Ishiyama1982")
 
 
-def check_options(restitution: float | None, gravity: float) -> None:
+def check_options(restitution: Restitution, gravity: float) -> None:
     """Refuse a restitution outside (0, 1] and a gravity that is not positive."""
-    if restitution is not None and not 0.0 < restitution <= 1.0:
+    given = () if restitution is None else restitution if isinstance(restitution, tuple) else (restitution,)
+    if not all(0.0 < ratio <= 1.0 for ratio in given):
         raise ParameterError(
             f"the restitution, a ratio of angular velocities, must lie in (0, 1], found {restitution}; "
             "leave it out for 1 - 1.5 sin^2(alpha)"
@@ -35,7 +36,7 @@ def solve_rock(
     motion: Motion,
     block: Block,
     *,
-    restitution: float | None = None,
+    restitution: Restitution = None,
     linear: bool = False,
     vertical: bool = False,
     gravity: float = STANDARD_GRAVITY,
@@ -51,9 +52,9 @@ def solve_rock(
     motion : Motion
         Ground acceleration, m/s^2.
     block : Block
-    restitution : float
-        Ratio of angular velocities at an impact, in (0, 1]; by default from the angular momentum about the corner that is struck,
-        1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_).
+    restitution : float, or a pair
+        Ratio of angular velocities at an impact, in (0, 1], or that onto the right and that onto the left corner; by default from
+        the angular momentum about the corner that is struck, 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_).
     linear : bool
         Whether to use the linear equation of slender blocks ([Zhang2001]_ eqs. (4), (5)).
     vertical : bool
@@ -123,7 +124,7 @@ def start_mode(block: Block, initial: tuple[float, float]) -> int:
 
 
 def afterwards(
-    trajectory: Trajectory, block: Block, gravity: float, restitution: float | None, linear: bool, *, timed: bool = True
+    trajectory: Trajectory, block: Block, gravity: float, restitution: Restitution, linear: bool, *, timed: bool = True
 ) -> Fate | None:
     """Return what free rocking makes of the block after the record's end, None when it was at rest or overturned by then."""
     if trajectory.final_mode in (model.REST, model.OVERTURNED):
@@ -146,7 +147,7 @@ def rock_verdict(
     block: Block,
     *,
     scale: float = 1.0,
-    restitution: float | None = None,
+    restitution: Restitution = None,
     linear: bool = False,
     vertical: bool = False,
     gravity: float = STANDARD_GRAVITY,

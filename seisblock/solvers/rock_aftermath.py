@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from seisblock.bodies.block import LEFT, RIGHT, Block
+from seisblock.bodies.block import LEFT, RIGHT, Block, Restitution, restitutions
 from seisblock.errors import SolverError
 
 HALF_PI = math.pi / 2
@@ -68,9 +68,9 @@ class Side:
         return float(quad(slowness, 0.0, 1.0, epsabs=0.0, epsrel=1e-12, limit=400, points=breaks, full_output=1)[0])
 
 
-def sides(block: Block, gravity: float, restitution: float | None, linear: bool) -> tuple[Side, Side]:
+def sides(block: Block, gravity: float, restitution: Restitution, linear: bool) -> tuple[Side, Side]:
     """Return the right and the left corner of a block."""
-    onto = block.restitutions if restitution is None else (restitution, restitution)
+    onto = restitutions(block, restitution)
     right, left = (Side(block.slendernesses[k], gravity * block.lever_ratios[k], onto[k], linear) for k in (RIGHT, LEFT))
     return right, left
 

@@ -27,7 +27,7 @@ import math
 import numpy as np
 
 from seisblock._jit import kernel
-from seisblock.bodies.block import LEFT, RIGHT, Block
+from seisblock.bodies.block import LEFT, RIGHT, Block, Restitution, restitutions
 from seisblock.dynamics import Model
 from seisblock.dynamics.hybrid import CONSTANT, RESET, SERIES, SKIP
 from seisblock.typing import FloatArray
@@ -51,11 +51,11 @@ MODES = ("rest", "rocks to +x", "rocks to -x", "beyond +alpha", "beyond -alpha",
 HALF_PI = math.pi / 2
 
 
-def parameters(block: Block, dt: float, gravity: float, restitution: float | None, linear: bool) -> FloatArray:
+def parameters(block: Block, dt: float, gravity: float, restitution: Restitution, linear: bool) -> FloatArray:
     """Return the parameters of the model, in the order of the named integers above."""
     alpha = block.slendernesses
     hold = alpha if linear else (math.tan(alpha[RIGHT]), math.tan(alpha[LEFT]))
-    onto = block.restitutions if restitution is None else (restitution, restitution)
+    onto = restitutions(block, restitution)
     return np.array([gravity, dt, float(linear), *alpha, *hold, *block.lever_ratios, *onto])
 
 

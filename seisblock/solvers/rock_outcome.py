@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from seisblock.bodies.block import Block
+from seisblock.bodies.block import Block, Restitution, restitutions
 from seisblock.dynamics import Change, Trajectory
 from seisblock.records import Motion
 from seisblock.results import Phase
@@ -85,7 +85,7 @@ def lean_ratio(block: Block, largest: tuple[float, float]) -> float:
 
 def gather(
     block: Block, motion: Motion, trajectory: Trajectory, after: Fate | None, *, gains: FloatArray, gravity: float,
-    restitution: float | None, linear: bool,
+    restitution: Restitution, linear: bool,
 ) -> RockOutcome:  # fmt: skip
     """Gather the outcome from the trajectory and what follows it."""
     changes = trajectory.changes
@@ -131,7 +131,7 @@ def gather(
         decided_after_record=after is not None,
         slenderness_rad=block.slenderness,
         frequency_parameter_rad_s=block.frequency_parameter(gravity),
-        restitution=block.restitutions[1 - side] if restitution is None else restitution,
+        restitution=restitutions(block, restitution)[1 - side],
         threshold_m_s2=gravity * hold,
         max_friction_demand=need.friction if math.isfinite(need.friction) else None,
         max_friction_demand_s=at(need.friction_s),

@@ -6,7 +6,7 @@ range is scanned, and each change of verdict is bisected. A window narrower than
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -15,8 +15,11 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.solvers.rock import rock_verdict
+from seisblock.results import Response
+from seisblock.solvers.rock import check_options, rock_verdict
+from seisblock.solvers.rock_outcome import RockOutcome
 from seisblock.studies.ensemble import Progress, in_threads
+from seisblock.units import STANDARD_GRAVITY
 
 LIMIT = 3.0
 """Default largest factor of the scan."""
@@ -86,10 +89,11 @@ def find_margin(
     Raises
     ------
     ParameterError
-        If limit or step are not positive, or the step exceeds the limit.
+        If limit or step are not positive, the step exceeds the limit, or an option is out of range.
     """
     if not (0.0 < step <= limit < float("inf")):
         raise ParameterError(f"the scan needs 0 < step <= limit, found step {step} and limit {limit}")
+    check_options(options.get("restitution"), options.get("gravity", STANDARD_GRAVITY))
 
     def overturns(factor: float) -> bool:
         return rock_verdict(motion, block, scale=factor, **options).overturned
@@ -115,6 +119,16 @@ def _bisected(overturns: Any, low: float, high: float, above: bool) -> float:
         else:
             low = middle
     return 0.5 * (low + high)
+
+
+def flagged(response: Response[RockOutcome]) -> Response[RockOutcome]:
+    """Return a response that knows, and warns, whether a change of the record by less than 2 % changes its verdict."""
+    options = {key: response.options[key] for key in ("restitution", "linear", "vertical")}
+    flips = flips_nearby(response.motion, response.body, gravity=response.options["gravity_m_s2"], **options)
+    warnings = response.warnings
+    if flips:
+        warnings = (*warnings, f"{response.motion.name or 'x'}: a change of the record by less than 2 % changes the verdict")
+    return replace(response, outcome=replace(response.outcome, verdict_flips_within_2_percent=flips), warnings=warnings)
 
 
 def flips_nearby(motion: Motion, block: Block, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Any) -> bool:

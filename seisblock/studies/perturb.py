@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.bodies.block import Block, resized
+from seisblock.bodies.block import Block, Restitution, resized, restitutions
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.records.motion import ACROSS, ALONG
-from seisblock.solvers.rock import rock_verdict
+from seisblock.solvers.rock import check_options, rock_verdict
 from seisblock.studies.ensemble import Progress, in_threads
+from seisblock.units import STANDARD_GRAVITY
 
 CONFIDENCE = 0.95
 
@@ -74,7 +75,7 @@ def perturb(
     *,
     spread: Spread = Spread(),
     seed: int = 0,
-    restitution: float | None = None,
+    restitution: Restitution = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> Perturbation:
@@ -89,7 +90,7 @@ def perturb(
         Half widths of the changes, each uniform and independent of the others.
     seed : int
         The same seed gives the same runs.
-    restitution : float
+    restitution : float, or a pair
         Its middle value; that of each changed block's angular momentum when left out. Never above 1.
     progress : callable
         Told the number of runs done and the number in all.
@@ -99,20 +100,19 @@ def perturb(
     Raises
     ------
     ParameterError
-        If there are no runs.
+        If there are no runs, or an option is out of range.
     """
     if runs < 1:
         raise ParameterError(f"a perturbation needs at least 1 run, found {runs}")
+    check_options(restitution, options.get("gravity", STANDARD_GRAVITY))
     draws = np.random.default_rng(seed).uniform(-1.0, 1.0, (runs, 5))
 
     def once(draw: Any) -> bool:
         size, slenderness, bounce, amplitude, turn = (float(value) for value in draw)
         changed = resized(block, size=1.0 + spread.size * size, slenderness=1.0 + spread.slenderness * slenderness)
-        middle = max(changed.restitution, 1e-3) if restitution is None else restitution
-        return rock_verdict(
-            turned(motion, spread.azimuth_deg * turn), changed, scale=1.0 + spread.amplitude * amplitude,
-            restitution=min(middle * (1.0 + spread.restitution * bounce), 1.0), **options,
-        ).overturned  # fmt: skip
+        right, left = (min(middle * (1.0 + spread.restitution * bounce), 1.0) for middle in restitutions(changed, restitution))
+        towards, factor = turned(motion, spread.azimuth_deg * turn), 1.0 + spread.amplitude * amplitude
+        return rock_verdict(towards, changed, scale=factor, restitution=(right, left), **options).overturned
 
     count = sum(in_threads(once, list(draws), progress=progress))
     return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)

@@ -11,7 +11,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.solvers.rock import rock_verdict
+from seisblock.solvers.rock import check_options, rock_verdict
 from seisblock.studies.ensemble import Progress, in_threads
 from seisblock.typing import ArrayLike, BoolArray, FloatArray
 from seisblock.units import STANDARD_GRAVITY
@@ -68,8 +68,9 @@ def rocking_spectrum(
     Raises
     ------
     ParameterError
-        If a size or a slenderness is out of range, or there is none.
+        If a size, a slenderness or an option is out of range, or there is none.
     """
+    check_options(options.get("restitution"), gravity)
     diagonal = _grid(sizes, "size 2R", "m", math.inf)
     alpha = _grid(slendernesses, "slenderness", "rad", math.pi / 2)
 

@@ -155,3 +155,23 @@ def test_wider_than_tall_is_allowed_and_said(run, pulse):
     answer = run(pulse, "--width", 1.0, "--height", 0.5)
     assert answer.exit_code == 0
     assert "rocks only above 2.00 g" in answer.stderr
+
+
+def test_vertical_needs_a_vertical_component(run, tmp_path):
+    """--vertical on a record without one is refused in a sentence; without the option it is solved."""
+    rows = np.column_stack([np.arange(50) * 0.01, np.ones(50)])
+    np.savetxt(tmp_path / "ns.csv", rows, delimiter=",", header="time,NS (gal)", comments="")
+    answer = run("ns.csv", "--width", 0.2, "--height", 1, "--vertical")
+    assert answer.exit_code == 3
+    assert "needs a vertical component" in answer.stderr
+    assert run("ns.csv", "--width", 0.2, "--height", 1).exit_code == 0
+
+
+def test_fragile_verdict_is_said_everywhere(run):
+    """A verdict that a 2 % change of the record flips is flagged in table, document and on stderr."""
+    words = ("--width", "24cm", "--height", "72cm", "--scale", 0.5, "--component", "EW")
+    shown, found = run(*words), json.loads(run(*words, "--json").stdout)
+    assert found["results"][0]["verdict_flips_within_2_percent"] is True
+    assert any("2 %" in text for text in found["warnings"])
+    assert "2 % changes this" in " ".join(shown.stdout.split())
+    assert "2 %" in shown.stderr

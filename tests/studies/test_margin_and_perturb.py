@@ -1,0 +1,144 @@
+"""How close it was: factors at which the verdict changes, and how often it changes when everything does a little."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block, from_slenderness, resized
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.solvers.rock import rock_verdict, solve_rock
+from seisblock.studies.ensemble import CHUNK, in_threads
+from seisblock.studies.margin import find_margin, flagged, flips_nearby
+from seisblock.studies.perturb import Spread, perturb, turned, wilson_interval
+from seisblock.units import STANDARD_GRAVITY as G
+
+ALPHA, P = 0.25, 2.14
+BLOCK = from_slenderness(ALPHA, P)
+
+
+def one_sine(x, samples=400):
+    """Return a full sine of amplitude x alpha g and frequency 5 p."""
+    k = np.arange(2 * samples + 2)
+    shape = np.where(k < 2 * samples, np.sin(np.pi * k / samples), 0.0)
+    return Motion.from_arrays(x * G * ALPHA * shape, math.pi / (5 * P) / samples)
+
+
+def test_every_window_of_one_sine_is_found():
+    """[Zhang2001]_: safe to 3.019, unsafe to 6.318, safe to 7.168, unsafe above; scaled from X = 4."""
+    margin = find_margin(one_sine(4.0), BLOCK, restitution=0.9, linear=True)
+    assert [window.overturned for window in margin.windows] == [False, True, False, True]
+    np.testing.assert_allclose(np.array(margin.flips) * 4, [3.019, 6.318, 7.168], atol=1e-3)
+    assert margin.overturned is True
+    assert margin.nearest_flip == margin.flips[0]
+    assert margin.windows[0].first == 0
+    assert margin.windows[-1].last == margin.limit == 3.0
+    assert all(one.last == other.first for one, other in pairwise(margin.windows))
+
+
+def test_verdicts_on_both_sides_of_each_flip():
+    """Just below and just above each factor the verdicts differ."""
+    motion = one_sine(4.0)
+    for flip in find_margin(motion, BLOCK, restitution=0.9).flips:
+        below, above = (rock_verdict(motion, BLOCK, scale=flip * (1 + e), restitution=0.9).overturned for e in (-1e-5, 1e-5))
+        assert below != above
+
+
+def test_block_that_never_falls_has_one_window():
+    """No flip, no nearest flip."""
+    margin = find_margin(Motion.from_arrays(0.01 * np.ones(50), 0.01), BLOCK)
+    assert margin.flips == ()
+    assert margin.nearest_flip is None
+    assert len(margin.windows) == 1
+
+
+def test_fragile_verdicts_are_flagged():
+    """Within 2 % of a flip the response says so and warns; further away it says no; before it is looked for it says nothing."""
+    for x, fragile in ((3.019 * 1.015, True), (3.019 * 0.985, True), (3.019 * 1.05, False)):
+        motion = one_sine(x)
+        response = solve_rock(motion, BLOCK, restitution=0.9, linear=True)
+        assert response.outcome.verdict_flips_within_2_percent is None
+        told = flagged(response)
+        assert told.outcome.verdict_flips_within_2_percent is flips_nearby(motion, BLOCK, restitution=0.9, linear=True) is fragile
+        assert any("2 %" in text for text in told.warnings) is fragile
+
+
+@pytest.mark.parametrize(("limit", "step"), [(0.0, 0.1), (-1.0, 0.1), (1.0, 2.0), (math.inf, 0.1), (math.nan, 0.1)])
+def test_impossible_scans_are_refused(limit, step):
+    """The scan needs 0 < step <= limit."""
+    with pytest.raises(ParameterError, match="0 < step <= limit"):
+        find_margin(one_sine(1.0), BLOCK, limit=limit, step=step)
+
+
+def test_probability_far_from_any_flip_is_certain():
+    """All or none of the runs overturn, and the interval says what so few runs can tell."""
+    sure = perturb(one_sine(4.5), BLOCK, 60, restitution=0.9)
+    assert (sure.overturned, sure.probability, sure.probability_interval[1]) == (60, 1.0, 1.0)
+    assert 0.9 < sure.probability_interval[0] < 1.0
+    never = perturb(one_sine(1.5), BLOCK, 60, restitution=0.9)
+    assert (never.overturned, never.probability_interval[0]) == (0, 0.0)
+
+
+def test_probability_at_a_flip_is_a_half():
+    """With the amplitude alone changing, half of the runs lie on each side of a flip."""
+    flip = find_margin(one_sine(3.0), BLOCK, restitution=0.9).flips[0]
+    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0)
+    found = perturb(one_sine(3.0 * flip), BLOCK, 400, restitution=0.9, spread=only)
+    assert found.probability_interval[0] < 0.5 < found.probability_interval[1]
+
+
+def test_same_seed_same_runs():
+    """The seed decides."""
+    motion = one_sine(3.0)
+    assert perturb(motion, BLOCK, 50, seed=7) == perturb(motion, BLOCK, 50, seed=7)
+    assert perturb(motion, BLOCK, 50, seed=7).overturned != perturb(motion, BLOCK, 50, seed=8).overturned
+
+
+def test_turning_the_motion():
+    """Clockwise seen from above; a quarter turn from north is east, and a motion without a known second horizontal stays."""
+    rng = np.random.default_rng(0)
+    north, west = rng.normal(size=(2, 50))
+    motion = Motion(np.vstack([north, west, np.zeros(50)]), 0.01)
+    np.testing.assert_allclose(turned(motion, 90.0).horizontal, -west, atol=1e-15)
+    np.testing.assert_allclose(turned(turned(motion, 30.0), -30.0).acceleration, motion.acceleration, atol=1e-14)
+    alone = Motion.from_arrays(north, 0.01)
+    assert turned(alone, 30.0) is alone
+
+
+def test_resized_block_keeps_its_shape():
+    """Size multiplies all lengths, slenderness those along the motion: alpha and p follow."""
+    block = Block(0.4, 1.2, centroid_offset=0.03, centroid_height=0.5, centroid_inertia=40.0, mass=300.0)
+    double = resized(block, size=2.0)
+    assert double.slendernesses == pytest.approx(block.slendernesses)
+    assert double.frequency_parameter() == pytest.approx(block.frequency_parameter() / math.sqrt(2))
+    wider = resized(block, slenderness=1.1)
+    assert math.tan(wider.slenderness) == pytest.approx(1.1 * math.tan(block.slenderness))
+
+
+@pytest.mark.parametrize(("count", "runs", "low", "high"), [(0, 10, 0.0, 0.2775), (5, 10, 0.2366, 0.7634), (10, 10, 0.7225, 1.0)])
+def test_wilson_interval(count, runs, low, high):
+    """The printed values of Wilson's interval at 95 %."""
+    assert wilson_interval(count, runs) == pytest.approx((low, high), abs=5e-5)
+
+
+@pytest.mark.parametrize("spread", [{"size": 1.0}, {"amplitude": -0.1}, {"slenderness": math.nan}, {"azimuth_deg": 200.0}])
+def test_impossible_spreads_are_refused(spread):
+    """Shares lie in [0, 1), degrees in [0, 180]."""
+    with pytest.raises(ParameterError, match="spread"):
+        Spread(**spread)
+
+
+def test_no_runs_are_refused():
+    """At least one."""
+    with pytest.raises(ParameterError, match="at least 1"):
+        perturb(one_sine(1.0), BLOCK, 0)
+
+
+def test_threads_answer_in_order():
+    """Answers come in the order of the items, also beyond one chunk, and an error of one run reaches the caller."""
+    items = list(range(2 * CHUNK + 7))
+    assert list(in_threads(lambda i: i * i, items)) == [i * i for i in items]
+    with pytest.raises(ZeroDivisionError):
+        list(in_threads(lambda i: 1 // (i - 3), items))
