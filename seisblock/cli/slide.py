@@ -43,7 +43,8 @@ def _needed(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
 )
 @record_options
 @option("--mu", type=FLOATS, callback=_needed, metavar="MU", section="Body",
-        help="Static friction coefficient, 1; a list or a range first:last:step makes a study, as with the next four.  [required]")
+        help="Static friction coefficient, 1; a list or a range first:last:step makes a study, as with --mu-kinetic, --kappa, --slope "
+             "and --vertical-scale.  [required]")
 @option("--mu-kinetic", type=FLOATS, metavar="MU", section="Body", help="Kinetic friction coefficient, 1. [default: as --mu]")
 @option("--kappa", type=FLOATS, metavar="RATIO", section="Body", help="Kinetic over static friction, 1, instead of --mu-kinetic.")
 @option("--slope", type=FLOATS, default="0", metavar="DEG", section="Body",

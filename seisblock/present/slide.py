@@ -38,7 +38,8 @@ def tables(responses: Slides, sweep: Sequence[SlidePoint] = ()) -> Iterator[Any]
         mine = [response for response in responses if response.motion.record is record]
         yield table(
             f"Sliding, {setting(mine[0])}", COLUMNS, [_row(response) for response in mine],
-            caption="relative to the base, + in the component's positive direction" + (", downhill" if _slopes(mine[0]) else ""),
+            caption=f"relative to the base, + in the component's positive direction{', downhill' if _slopes(mine[0]) else ''}; "
+            "residual: at the record's last sample, final: once at rest on still ground",
         )  # fmt: skip
         for response in mine:
             yield Text(sentence(response))
@@ -76,8 +77,8 @@ def sentence(response: Response[SlideOutcome]) -> str:
 
 
 def _slopes(response: Response[SlideOutcome]) -> bool:
-    """Whether the base slopes."""
-    return bool(response.body.slope_deg)
+    """Whether the base slopes down towards the component's positive direction."""
+    return bool(response.body.slope_deg > 0.0)
 
 
 def _row(response: Response[SlideOutcome]) -> list[Any]:
