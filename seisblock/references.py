@@ -125,6 +125,14 @@ _ALL = (
         kind="book",
     ),
     Reference(
+        "Midorikawa1999",
+        "Midorikawa, S. and Fujimoto, K. and Muramatsu, I.",
+        1999,
+        "Correlation of new J.M.A. instrumental seismic intensity with former J.M.A. seismic intensity and ground motion parameters "
+        "(in Japanese)",
+        "Journal of Social Safety Science, 1, 51-56",
+    ),
+    Reference(
         "NigamJennings1969",
         "Nigam, N. C. and Jennings, P. C.",
         1969,

@@ -129,6 +129,10 @@ class Cemetery:
         """Return the share of stones whose H/B exceeds a value ([Furukawa2009]_ fig. 15)."""
         return float(np.count_nonzero(self.ratios > height_over_width)) / self.size
 
+    def rows(self) -> Cemetery:
+        """Return the cemetery with each row taken for one stone."""
+        return replace(self, stones=tuple(replace(stone, count=1) for stone in self.stones))
+
     def only(self, keep: Callable[[Stone], bool]) -> Cemetery:
         """Return the cemetery of those stones for which `keep` is true."""
         return replace(self, stones=tuple(stone for stone in self.stones if keep(stone)))

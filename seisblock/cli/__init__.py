@@ -31,6 +31,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic shaking."),
     "criteria": ("seisblock.cli.criteria:criteria", "Every closed-form criterion of overturning beside the simulated truth."),
     "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Share of the gravestones of a cemetery that fall."),
+    "infer": ("seisblock.cli.infer:infer", "Shaking read back from fallen gravestones or displaced objects."),
     "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning of blocks of all sizes and slendernesses."),
 }
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""

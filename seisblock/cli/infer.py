@@ -1,0 +1,190 @@
+"""``seisblock infer``: what fallen stones or a displaced object say of the shaking."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import click
+
+from seisblock.cli.command import Command, option
+from seisblock.cli.emit import emit
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.talk import say
+from seisblock.cli.types import FLOATS, LENGTH
+
+DEFAULT_BLOCK = "chozusha"
+FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
+
+
+@click.command(
+    cls=Command,
+    examples=(
+        "seisblock infer --rate 35/100 --cemetery aoyama.csv --plot shaking.png",
+        "seisblock infer --slid 5cm --mu 0.3 record.csv",
+    ),
+)
+@record_options
+@option("--cemetery", metavar="FILE|NAME", section="Body",
+        help="CSV of gravestones; a column fallen says which fell (1, yes, 転倒) and which stand (0, no, 残存).")
+@option("--rate", metavar="K/N", section="Body", help="K of N stones fell, in a place whose stones are proportioned as in --cemetery.")
+@option("--slid", type=LENGTH, metavar="M", section="Body", help="How far an object slid, m or with a unit; needs --mu.")
+@option("--jumped", type=LENGTH, metavar="M", section="Body", help="How far a two-layer block was displaced, m or with a unit.")
+@option("--block", metavar="NAME|FILE", section="Body", help=f"jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
+@option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body",
+        help="jumped: which side of the block in plan lies along the motion.")
+@option("--mu", type=float, section="Body", help="slid: static friction, 1. jumped: of the landed foot. [default: jumped: the body's own]")
+@option("--mu-kinetic", type=float, section="Body", help="Kinetic friction, 1. [default: slid: as --mu; jumped: the body's own]")
+@option("--restitution-x", type=float, section="Body", help="jumped: ratio of horizontal velocities at the impact. [default: the body's]")
+@option("--restitution-y", type=float, section="Body", help="jumped: ratio of vertical velocities at the impact. [default: the body's]")
+@option("--drop", type=LENGTH, default=0.0, section="Body",
+        help="jumped: height of the floor above the ground, m or with a unit. [default: 0]")
+@option("--frequency", type=FLOATS, metavar="HZ",
+        help="Stones: equivalent frequency, Hz, or a list or range. [default: averaged over 0.5-3 Hz, and at 0.5, 1 ... 3]")
+@option("--confidence", type=float, default=0.9, show_default=True, help="Stones: level of the intervals, 0 to 1.")
+@option("--common-error", type=float, default=0.3, show_default=True,
+        help="Stones: standard deviation of ln PGA that all stones share (criterion, ground, record).")
+@option("--stone-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln PGA of each stone by itself.")
+@option("--largest", is_flag=True, help="slid: the largest slip was observed, not the one left at the end.")
+@option("--vertical", is_flag=True, help="slid: let the vertical component act too.")
+@option("--flight-only", is_flag=True, help="jumped: the jump alone was observed, not the rocking-sliding after it.")
+@option("--repeat", is_flag=True, help="jumped: add up every chain of motion in the record. [default: the first]")
+@option("--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="jumped: spin after the impact.")
+@option("--limit", type=float, default=3.0, show_default=True, help="slid, jumped: largest factor on a record.")
+@option("--steps", type=click.IntRange(min=1), default=300, show_default=True, help="slid, jumped: steps of the scan up to it.")
+@gravity_option
+@output_options
+def infer(source: Source, output: Output, cemetery: str | None, rate: str | None, **asked: Any) -> None:
+    """Read shaking back from what it did.
+
+    From gravestones: PGA, PGV and JMA intensity with their intervals, for an equivalent frequency or over 0.5 to 3 Hz
+    (Furukawa et al. 2009 read backwards). From a displacement: every factor on each candidate RECORD that gives it.
+    """
+    forms = {"--cemetery": cemetery, "--slid": asked["slid"], "--jumped": asked["jumped"]}
+    asks = [name for name, value in forms.items() if value is not None]
+    if len(asks) != 1:
+        raise click.UsageError(f"give one of {FORMS}; found {' and '.join(asks) or 'none'}")
+    if cemetery is None:
+        if rate is not None:
+            raise click.UsageError("--rate needs --cemetery, the proportions of the stones: for example aoyama.csv")
+        return _displacement(source, output, asked)
+    if source.record:
+        raise click.UsageError(f"stones need no RECORD, found {source.record[0]}; give its equivalent frequency with --frequency")
+    return _stones(output, cemetery, rate, asked)
+
+
+def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, Any]) -> None:
+    """Answer from fallen stones."""
+    from seisblock.bodies.cemetery_csv import read_cemetery
+    from seisblock.present.document import Answer
+    from seisblock.studies.overturning_rate import FREQUENCIES
+    from seisblock.studies.shaking_estimate import Model, contour, estimate_shaking, groups_of, remarks_of
+    from seisblock.studies.survey import counted_survey, marked_survey, parse_rate
+
+    stones = read_cemetery(cemetery)
+    for note in stones.notes[:1]:
+        say(f"{cemetery}: {note}")
+    survey = marked_survey(stones) if rate is None else counted_survey(stones, *parse_rate(rate))
+    model = Model(asked["common_error"], asked["stone_error"], asked["confidence"])
+    frequencies = asked["frequency"] or (None, *FREQUENCIES)
+    estimates = [estimate_shaking(part, f, model, stones=name) for name, part in groups_of(survey) for f in frequencies]
+    line = contour(survey, model)
+    warnings = list(dict.fromkeys(text for each in estimates for text in remarks_of(each)))
+    parameters = {
+        "cemetery": cemetery, "stones": stones.size, "rate": rate, "unknown_stones": 0 if rate else stones.size - survey.judged,
+        "confidence": model.level, "common_error_ln_pga": model.common_error, "stone_error_ln_pga": model.stone_error,
+        "criterion": "furukawa", "prior": "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given",
+        "intensity": "2.68 + 1.72 log10 PGV (kine), standard deviation 0.21",
+    }  # fmt: skip
+    answer = Answer(
+        "infer", parameters, [asdict(each) for each in estimates], (), ("Furukawa2009", "Midorikawa1999"), warnings,
+        {"contour": [asdict(each) for each in line]},
+    )  # fmt: skip
+
+    def tables() -> Any:
+        from seisblock.present.infer import estimate_tables
+
+        return estimate_tables(stones.name, estimates, gal=output.gal, level=model.level)
+
+    def figure() -> Any:
+        from seisblock.present.infer import estimate_figure
+
+        return estimate_figure(stones.name, survey, model, estimates)
+
+    def csv(path: Path) -> None:
+        from seisblock.present.files import write_table
+        from seisblock.present.infer import estimate_columns
+
+        write_table(path, *estimate_columns(line))
+
+    emit(answer, output, tables=tables, figure=figure, csv=csv)
+
+
+def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None:
+    """Answer from a displacement: every factor on each record."""
+    from seisblock.cli.inputs import load, motions
+    from seisblock.cli.progress import progress
+    from seisblock.present.document import Answer
+    from seisblock.studies.scale_factors import scale_factors
+
+    if asked["slid"] is not None and asked["mu"] is None:
+        raise click.UsageError("--slid needs --mu, the static friction coefficient, for example --mu 0.3")
+    observed = asked["jumped"] if asked["slid"] is None else asked["slid"]
+    moves, parameters, citations = _moving_object(asked)
+    records, results, curves = load(source), [], []
+    for index, record in enumerate(records):
+        for motion in motions(record, source):
+            displacement = moves(motion)
+            with progress(f"{motion.name}: factors up to {asked['limit']:g}") as tell:
+                found = scale_factors(displacement, observed, motion, limit=asked["limit"], steps=asked["steps"], progress=tell)
+            results.append({**({"record_index": index} if len(records) > 1 else {}), **asdict(found)})
+            curves.append((record, found))
+    parameters = {"observed_m": observed, **parameters, "limit": asked["limit"], "steps": asked["steps"]}
+    answer = Answer("infer", parameters, results, records, citations)
+
+    def tables() -> Any:
+        from seisblock.present.infer import factor_tables
+
+        return factor_tables(curves, gal=output.gal)
+
+    def figure() -> Any:
+        from seisblock.present.infer import factor_figure
+
+        return factor_figure(curves)
+
+    def csv(path: Path) -> None:
+        from seisblock.present.files import write_table
+        from seisblock.present.infer import factor_columns
+
+        write_table(path, *factor_columns(curves))
+
+    emit(answer, output, tables=tables, figure=figure, csv=csv)
+
+
+def _moving_object(asked: dict[str, Any]) -> tuple[Any, dict[str, Any], tuple[str, ...]]:
+    """Return what gives the displacement under a motion, and what it rests on."""
+    from functools import partial
+
+    from seisblock.studies import scale_factors as study
+
+    if asked["slid"] is not None:
+        options = {"mu_kinetic": asked["mu_kinetic"], "vertical_scale": float(asked["vertical"]), "gravity": asked["gravity"]}
+        moves = partial(study.slid, mu=asked["mu"], largest=asked["largest"], **options)
+        told = {"mu": asked["mu"], "mu_kinetic": asked["mu_kinetic"], "vertical": asked["vertical"], "gravity_m_s2": asked["gravity"]}
+        return moves, {"object": "slid", "largest": asked["largest"], **told}, ("Fujino1978",)
+    from seisblock.bodies.choose import two_layer_choice
+
+    chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
+    say(f"body: {chosen.block.name}; {chosen.says}")
+    if not asked["repeat"]:
+        say("the first chain of motion in each record counts, as in seisblock jump; --repeat adds up all, --window cuts earlier ones off")
+    options = {"drop": asked["drop"], "spin": asked["spin"], "gravity": asked["gravity"]}
+    moves = partial(
+        study.jumped, block=chosen.block, contact=chosen.contact, flight_only=asked["flight_only"], repeat=asked["repeat"], **options
+    )
+    told = {
+        "block": chosen.block, "contact": chosen.contact, "flight_only": asked["flight_only"], "repeat": asked["repeat"],
+        "drop_m": asked["drop"], "spin": asked["spin"], "gravity_m_s2": asked["gravity"],
+    }  # fmt: skip
+    return moves, {"object": "jumped", **told}, ("Sugimoto2017",)

@@ -1,0 +1,43 @@
+"""JMA intensity from a peak velocity, for shaking of which nothing else is known."""
+
+from __future__ import annotations
+
+import math
+
+from seisblock.errors import ParameterError
+from seisblock.units import KINE
+
+SCATTER = 0.21
+"""Standard deviation of the intensity about the relation ([Midorikawa1999]_)."""
+
+FITTED_INTENSITY = (4.0, 7.0)
+"""Intensities behind the relation ([Midorikawa1999]_)."""
+
+
+def intensity_from_velocity(pgv: float) -> float:
+    """Return the instrumental JMA intensity that goes with a peak ground velocity, I = 2.68 + 1.72 log10 PGV ([Midorikawa1999]_).
+
+    PGV in kine, I from 4 to 7, standard deviation 0.21.
+
+    Parameters
+    ----------
+    pgv : float, m/s
+        Peak of the horizontal velocity, positive.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ParameterError
+        If the velocity is not positive.
+
+    Examples
+    --------
+    >>> round(intensity_from_velocity(0.5), 2)
+    5.6
+    """
+    if not (math.isfinite(pgv) and pgv > 0.0):
+        raise ParameterError(f"the peak velocity must be positive, found {pgv} m/s")
+    return 2.68 + 1.72 * math.log10(pgv / KINE)

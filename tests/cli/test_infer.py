@@ -1,0 +1,162 @@
+"""``seisblock infer`` reads shaking back from fallen stones and displaced objects."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.cli import main
+from seisblock.criteria.gravestones import overturning_level
+
+ESTIMATE = {
+    "stones", "fallen", "standing", "frequency_hz", "bound", "pga_m_s2", "pga_interval_m_s2", "pgv_m_s", "pgv_interval_m_s",
+    "threshold_ratio", "threshold_ratio_interval", "jma_intensity", "jma_intensity_interval", "jma_classes",
+}  # fmt: skip
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Return a function that runs the command in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    return lambda *words: CliRunner().invoke(main, ["infer", *map(str, words)])
+
+
+@pytest.fixture
+def document(run):
+    """Return a function that runs the command and returns its JSON document."""
+    return lambda *words: json.loads(run(*words, "--json").stdout)
+
+
+@pytest.fixture
+def survey(tmp_path):
+    """A survey in Shift-JIS: the stones of Aoyama above H/B 2.84 fell, every tenth is reinforced, one is of unknown fate."""
+    rows = ["高さ幅比,転倒,補強", "3.0,,0"]
+    for i, ratio in enumerate(read_cemetery("aoyama.csv").ratios):
+        rows.append(f"{ratio},{'転倒' if ratio > 2.84 else '残存'},{int(i % 10 == 0)}")
+    (tmp_path / "survey.csv").write_bytes("\r\n".join(rows).encode("cp932"))
+    return "survey.csv"
+
+
+def test_a_rate(document):
+    """35 of 100 stones like Aoyama's: PGA and PGV for a frequency, near Kofu's 725 gal, the contour beside it."""
+    found = document("--rate", "35/100", "--cemetery", "aoyama.csv", "--frequency", 2.75)
+    assert found["schema"] == "seisblock/infer/1"
+    (each,) = found["results"]
+    assert set(each) == ESTIMATE
+    low, high = each["pga_interval_m_s2"]
+    assert low < 7.25 < high
+    assert each["pga_m_s2"] == pytest.approx(7.25, rel=0.05)
+    assert each["pgv_m_s"] == pytest.approx(each["pga_m_s2"] / (2 * math.pi * 2.75))
+    assert (each["fallen"], each["standing"], each["stones"]) == (35, 65, "not reinforced")
+    assert [point["frequency_hz"] for point in found["contour"]][::25] == [0.5, 3.0]
+    assert found["parameters"]["common_error_ln_pga"] == 0.3
+    assert found["citations"] == ["Furukawa2009", "Midorikawa1999"]
+
+
+def test_without_a_frequency(document):
+    """The band is averaged first, then come the paper's six frequencies."""
+    found = document("--rate", "35/100", "--cemetery", "aoyama.csv")["results"]
+    assert [each["frequency_hz"] for each in found] == [None, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0]
+
+
+def test_a_survey_with_marks(run, document, survey):
+    """Marked stones are judged one by one, reinforced ones apart, unknown ones left out."""
+    found = document("--cemetery", survey, "--frequency", 2)
+    assert [each["stones"] for each in found["results"]] == ["not reinforced", "reinforced", "all"]
+    assert [each["fallen"] + each["standing"] for each in found["results"]] == [90, 10, 100]
+    assert found["parameters"]["unknown_stones"] == 1
+    plain = found["results"][0]
+    assert plain["pga_m_s2"] == pytest.approx(float(overturning_level(2.0)) / 2.84, rel=0.05)
+    shown = run("--cemetery", survey, "--frequency", 2).stdout
+    assert "survey, stones not reinforced: 32 of 90 fell" in shown
+    assert "JMA intensity" in shown
+
+
+def test_bounds(run, document):
+    """None fallen is an upper bound, all fallen a lower one; both are said."""
+    (none,) = document("--rate", "0/50", "--cemetery", "aoyama.csv", "--frequency", 1)["results"]
+    assert none["bound"] == "upper"
+    assert none["pga_m_s2"] is None
+    assert none["pga_interval_m_s2"][0] is None
+    assert none["jma_classes"][0] is None
+    found = run("--rate", "50/50", "--cemetery", "aoyama.csv", "--frequency", 1)
+    assert "all fell, so that there is a lower bound only" in found.stderr
+    assert "at least" in found.stdout
+
+
+def test_a_slid_object(run, document):
+    """Each component of each candidate record is answered with its factors; one that never moves so far says how far it does."""
+    found = document("--slid", "0.35m", "--mu", 0.3, "synthetic_jma.csv", "elcentro_1940_ns.csv", "--steps", 60)
+    assert [(each["record_index"], each["component"]) for each in found["results"]] == [(0, "NS"), (0, "EW"), (1, "NS")]
+    for each in found["results"][:2]:
+        assert each["observed_m"] == 0.35
+        assert each["scale_factors"]
+        for factor in each["scale_factors"]:
+            assert factor["displacement_m"] == pytest.approx(0.35, rel=1e-6)
+            assert factor["pga_m_s2"] == pytest.approx(factor["scale"] * each["pga_m_s2"])
+    assert found["results"][2]["scale_factors"] == []
+    assert found["citations"] == ["Fujino1978"]
+    told = run("--slid", "35cm", "--mu", 0.3, "elcentro_1940_ns.csv", "--steps", 60).stdout
+    assert "no factor up to 3 moves it so far" in " ".join(told.split())
+
+
+def test_a_jumped_block(document):
+    """The bundled Chozu-sha is taken by name, and what the record does by itself is told beside the factors."""
+    (found,) = document("--jumped", "0.04m", "--block", "chozusha", "--component", "EW", "--steps", 60, "--limit", 1.5)["results"]
+    assert found["displacement_at_1_m"] == pytest.approx(0.0461, abs=1e-3)
+    assert any(0.8 < factor["scale"] < 1.0 and not factor["leaps"] for factor in found["scale_factors"])
+
+
+def test_files(run, survey):
+    """--csv writes the contour, or the displacement against the factor; --plot the figure."""
+    assert run("--cemetery", survey, "--csv", "contour.csv", "--plot", "shaking.png").exit_code == 0
+    rows = list(csv.DictReader(Path("contour.csv").read_text(encoding="utf-8").splitlines()))
+    assert len(rows) == 26
+    assert float(rows[0]["pga_low_m_s2"]) < float(rows[0]["pga_m_s2"]) < float(rows[0]["pga_high_m_s2"])
+    words = ("--slid", "0.1", "--mu", 0.3, "--component", "NS", "--steps", 30)
+    assert run(*words, "--csv", "factors.csv", "--plot", "factors.png").exit_code == 0
+    rows = list(csv.DictReader(Path("factors.csv").read_text(encoding="utf-8").splitlines()))
+    assert len(rows) == 31
+    assert run("--rate", "0/9", "--cemetery", "aoyama.csv", "--plot", "bound.png").exit_code == 0
+    for name in ("shaking.png", "factors.png", "bound.png"):
+        assert Path(name).read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "message"),
+    [
+        ((), 2, "give one of --cemetery"),
+        (("--cemetery", "aoyama.csv", "--slid", 1), 2, "found --cemetery and --slid"),
+        (("--rate", "35/100"), 2, "give one of --cemetery"),
+        (("--rate", "35/100", "--slid", 1, "--mu", 0.3), 2, "--rate needs --cemetery"),
+        (("--cemetery", "aoyama.csv"), 3, "no stone is marked fallen or standing"),
+        (("--cemetery", "aoyama.csv", "--rate", "0.35"), 3, "write both numbers, for example 35/100"),
+        (("--cemetery", "aoyama.csv", "--rate", "5/4"), 3, "0 <= fallen <= stones"),
+        (("--cemetery", "aoyama.csv", "--rate", "5/9", "record.csv"), 2, "stones need no RECORD"),
+        (("--cemetery", "aoyama.csv", "--rate", "5/9", "--frequency", 0), 3, "frequency must be positive"),
+        (("--cemetery", "aoyama.csv", "--rate", "5/9", "--confidence", 90), 3, "between 0 and 1"),
+        (("--cemetery", "aoyama.csv", "--rate", "5/9", "--common-error", 0), 3, "common error"),
+        (("--cemetery", "odd.csv"), 3, "odd.csv, line 3: fallen must be 0, 1, yes, no, 転倒 or 残存, found '半壊'"),
+        (("--slid", 0.1), 2, "--slid needs --mu"),
+        (("--slid", -0.1, "--mu", 0.3), 3, "observed displacement must be positive"),
+        (("--slid", 0.1, "--mu", -0.3), 3, "mu"),
+        (("--slid", "0.1furlong", "--mu", 0.3), 2, "furlong"),
+        (("--jumped", 0.1, "--block", "nothing"), 3, "no body file nothing"),
+        (("--jumped", 0.1, "--limit", 0), 3, "largest factor must be positive"),
+    ],
+)
+def test_bad_input_is_one_sentence(run, tmp_path, words, code, message):
+    """What the user can mend is one sentence on stderr and an exit code, never a traceback."""
+    (tmp_path / "odd.csv").write_text("H/B,fallen\n2.5,1\n2.6,半壊\n", encoding="utf-8")
+    found = run(*words)
+    assert found.exit_code == code
+    assert message in " ".join(found.stderr.split())
+    assert "Traceback" not in found.stderr
+    assert found.stdout == ""

@@ -1,0 +1,87 @@
+"""Every factor on a record that gives an observed displacement is found, and a leap is told from a solution."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.choose import two_layer_choice
+from seisblock.errors import ComponentError, ParameterError
+from seisblock.readers import read
+from seisblock.records import Motion, Record, motion_of
+from seisblock.solvers.jump import solve_jump
+from seisblock.solvers.slide import solve_slide
+from seisblock.studies.scale_factors import jumped, scale_factors, scaled, slid
+
+MOTION = motion_of(read("synthetic_jma.csv"), "EW")
+PULSE = Motion.from_arrays(np.concatenate([np.full(101, 4.0), np.zeros(300)]), 0.01, name="pulse")
+
+
+def test_a_rectangular_pulse_has_its_closed_form():
+    """A pulse a for T moves an object by (a - mu g) a T^2 / (2 mu g): the factor is the root of a quadratic."""
+    mu, g, observed = 0.2, 9.80665, 1.0
+    # the last sample's fall from a to zero takes one interval more: its impulse is that of half an interval
+    a, T = 4.0, 1.0
+    found = scale_factors(slid(PULSE, mu), observed, PULSE, limit=2.0).scale_factors
+    root = (mu * g + np.sqrt((mu * g) ** 2 + 8.0 * mu * g * observed / T**2)) / (2.0 * a)
+    assert len(found) == 1
+    assert found[0].scale == pytest.approx(root, rel=0.01)
+    assert found[0].displacement_m == pytest.approx(observed, rel=1e-8)
+    assert found[0].pga_m_s2 == pytest.approx(4.0 * found[0].scale)
+
+
+@pytest.mark.parametrize("largest", [False, True])
+def test_the_slip_of_a_record_gives_its_factor_back(largest):
+    """What a scaled record does is found at that factor, for the residual and for the largest slip."""
+    outcome = solve_slide(scaled(MOTION, 0.8), 0.3).outcome
+    observed = outcome.max_slip_m if largest else abs(outcome.residual_slip_m)
+    found = scale_factors(slid(MOTION, 0.3, largest=largest), observed, MOTION, limit=2.0, steps=100)
+    assert any(f.scale == pytest.approx(0.8, abs=1e-6) for f in found.scale_factors)
+    for each in found.scale_factors:
+        again = solve_slide(scaled(MOTION, each.scale), 0.3).outcome
+        assert (again.max_slip_m if largest else abs(again.residual_slip_m)) == pytest.approx(observed, rel=1e-6)
+
+
+@pytest.mark.parametrize("repeat", [False, True])
+def test_the_jump_of_a_record_gives_its_factor_back(repeat):
+    """The displacement of the Chozu-sha under the record as it is has 1 among its factors."""
+    chosen = two_layer_choice({}, default="chozusha")
+    chains = solve_jump(MOTION, chosen.block, chosen.contact, repeat=repeat).outcome.chains
+    observed = abs(sum(chain.total_displacement_m or 0.0 for chain in chains))
+    found = scale_factors(jumped(MOTION, chosen.block, chosen.contact, repeat=repeat), observed, MOTION, limit=1.5, steps=60)
+    assert any(f.scale == pytest.approx(1.0, abs=1e-6) and not f.leaps for f in found.scale_factors)
+    assert found.displacement_at_1_m == pytest.approx(observed)
+
+
+def test_all_solutions_and_leaps_are_found():
+    """A displacement that rises, falls and leaps has three factors, one of them met by none."""
+
+    def displacement(s: float) -> float:
+        return s * (2.0 - s) if s < 2.0 else 1.0
+
+    found = scale_factors(displacement, 0.75, PULSE).scale_factors
+    assert [(round(f.scale, 8), f.leaps) for f in found] == [(0.5, False), (1.5, False), (2.0, True)]
+
+
+def test_an_object_that_never_moves_so_far_has_no_factor():
+    """The largest displacement of the scan is told instead."""
+    found = scale_factors(slid(PULSE, 0.2), 1e3, PULSE)
+    assert found.scale_factors == ()
+    assert found.largest_at_scale == 3.0
+    assert found.largest_displacement_m == pytest.approx(solve_slide(scaled(PULSE, 3.0), 0.2).outcome.residual_slip_m * -1.0)
+
+
+def test_impossible_questions_are_refused():
+    """A displacement, limit or number of steps that is not positive, friction that is none, a vertical that is not there."""
+    for words, message in (
+        ((0.0, 3.0, 10), "observed displacement must be positive"),
+        ((0.1, -1.0, 10), "largest factor must be positive"),
+        ((0.1, 3.0, 0), "at least one step"),
+    ):
+        with pytest.raises(ParameterError, match=message):
+            scale_factors(lambda s: s, words[0], PULSE, limit=words[1], steps=words[2])
+    with pytest.raises(ParameterError):
+        slid(PULSE, -0.1)
+    north = read("synthetic_jma.csv").component("NS")
+    with pytest.raises(ComponentError, match="no vertical component"):
+        slid(motion_of(Record((north,), 0.01), "NS"), 0.3, vertical_scale=1.0)

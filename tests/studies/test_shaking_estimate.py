@@ -1,0 +1,182 @@
+"""Shaking read back from fallen stones: what was put in is found, as often as is claimed ([Furukawa2009]_ eqs. (9), (10) backwards)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.cemetery import Cemetery, Stone
+from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.criteria.gravestones import overturning_level
+from seisblock.criteria.intensity import intensity_from_velocity
+from seisblock.errors import BodyError, ParameterError
+from seisblock.measures import jma_class
+from seisblock.studies.overturning_limits import fitted_limits
+from seisblock.studies.shaking_estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, Model, contour, estimate_shaking, groups_of
+from seisblock.studies.survey import COMMON_ERROR, STONE_ERROR, counted_survey, likelihood, log_likelihood, marked_survey, parse_rate
+
+AOYAMA = read_cemetery("aoyama.csv")
+SHARP = Model(stone_error=0.02)
+
+
+def marked(cemetery: Cemetery, falls) -> Cemetery:
+    """Return a cemetery whose stones are marked."""
+    return replace(cemetery, stones=tuple(replace(s, fallen=bool(f)) for s, f in zip(cemetery.stones, falls, strict=True)))
+
+
+def simulated(rng, cemetery: Cemetery, pga: float, frequency: float) -> np.ndarray:
+    """Return which stones fall when the errors of the model are drawn at random."""
+    common = rng.normal(0.0, COMMON_ERROR)
+    own = rng.normal(0.0, STONE_ERROR, cemetery.size)
+    return np.log(pga) + common + own > np.log(fitted_limits(cemetery, frequency))
+
+
+def holds(estimate, truth: float) -> bool:
+    """Return whether the interval, or the bound, holds the truth."""
+    low, high = estimate.pga_interval_m_s2
+    return (low is None or low <= truth) and (high is None or truth <= high)
+
+
+def held_of_200(form: str, seed: int) -> float:
+    """Return the share of 200 simulated surveys whose 90 % interval holds the PGA behind them, which overturns 5 to 90 % on average."""
+    rng, held = np.random.default_rng(seed), 0
+    for _ in range(200):
+        frequency = float(rng.uniform(0.5, 3.0))
+        truth = float(np.exp(rng.uniform(np.log(0.25), np.log(0.45))) * overturning_level(frequency))
+        if form == "counted":
+            place = Cemetery(tuple(AOYAMA.stones[i] for i in rng.integers(0, 100, 60)))
+            survey = counted_survey(AOYAMA, int(simulated(rng, place, truth, frequency).sum()), 60)
+        else:
+            survey = marked_survey(marked(AOYAMA, simulated(rng, AOYAMA, truth, frequency)))
+        held += holds(estimate_shaking(survey, frequency), truth)
+    return held / 200
+
+
+@pytest.mark.parametrize("form", ["stone by stone", "counted"])
+def test_the_interval_holds_the_truth_as_often_as_it_claims(form):
+    """Of 200 simulated surveys the 90 % interval holds the truth in 85 to 95 %; where none or all fell the bound counts."""
+    assert 0.85 <= held_of_200(form, 20001006) <= 0.95
+
+
+def test_an_exact_survey_gives_the_threshold_back():
+    """Stones that fall above one H/B and stand below give the PGA of that H/B, and its PGV, when stones have little error of their own."""
+    falls = AOYAMA.ratios > 2.84
+    found = estimate_shaking(marked_survey(marked(AOYAMA, falls)), 2.75, SHARP)
+    assert found.threshold_ratio == pytest.approx(2.84, rel=0.02)
+    assert found.pga_m_s2 == pytest.approx(float(overturning_level(2.75)) / 2.84, rel=0.02)
+    assert found.pgv_m_s == pytest.approx(found.pga_m_s2 / (2 * np.pi * 2.75))
+    assert (found.fallen, found.standing, found.bound) == (35, 65, None)
+
+
+def test_the_common_error_is_in_the_interval():
+    """However many stones are counted, the interval stays as wide as the error common to the cemetery: 1.645 times 0.3 in ln PGA."""
+    low, high = estimate_shaking(counted_survey(AOYAMA, 35_000, 100_000), 2.0).pga_interval_m_s2
+    assert np.log(high / low) == pytest.approx(2 * 1.6449 * COMMON_ERROR, rel=2e-3)
+    wider = estimate_shaking(counted_survey(AOYAMA, 7, 20), 2.0).pga_interval_m_s2
+    assert wider[1] / wider[0] > high / low
+
+
+def test_pga_and_frequency_trade_off_as_a_of_f():
+    """A survey pins PGA/a(f): along the contour PGA follows eq. (8), and the threshold H/B stays."""
+    found = contour(counted_survey(AOYAMA, 35, 100))
+    level = [e.pga_m_s2 / float(overturning_level(e.frequency_hz)) for e in found]
+    np.testing.assert_allclose(level, level[0], rtol=1e-6)
+    np.testing.assert_allclose([e.threshold_ratio for e in found], found[0].threshold_ratio, rtol=1e-6)
+
+
+def test_without_a_frequency_the_band_is_averaged():
+    """The interval over 0.5 to 3 Hz is wider than at any frequency in it, and reaches neither beyond its lowest nor its highest."""
+    survey = counted_survey(AOYAMA, 35, 100)
+    whole, ends = estimate_shaking(survey).pga_interval_m_s2, [e.pga_interval_m_s2 for e in contour(survey)]
+    assert whole[0] > min(low for low, _ in ends)
+    assert whole[1] < max(high for _, high in ends)
+    assert whole[1] / whole[0] > max(high / low for low, high in ends)
+    assert estimate_shaking(survey).threshold_ratio is None
+
+
+def test_none_and_all_give_bounds():
+    """When no stone fell there is an upper bound, at which that had the probability of one tail; when all did, a lower one."""
+    survey = marked_survey(marked(AOYAMA, np.zeros(100)))
+    none = estimate_shaking(survey, 2.0)
+    assert none.bound == "upper"
+    assert none.pga_m_s2 is None
+    assert none.pga_interval_m_s2[0] is None
+    rng, bound = np.random.default_rng(1), none.pga_interval_m_s2[1]
+    seen = np.mean([not simulated(rng, AOYAMA, bound, 2.0).any() for _ in range(4000)])
+    assert seen == pytest.approx(0.05, abs=0.015)
+    every = estimate_shaking(marked_survey(marked(AOYAMA, np.ones(100))), 2.0)
+    assert every.bound == "lower"
+    assert every.pga_interval_m_s2[1] is None
+    assert every.pga_interval_m_s2[0] > bound
+    assert every.jma_classes[1] is None
+
+
+def test_reinforced_stones_are_kept_apart():
+    """Stones of each kind are judged by their own criterion, apart and together."""
+    f, pga = 1.5, 4.5
+    mixed = Cemetery(tuple(replace(s, reinforced=i % 2 == 0) for i, s in enumerate(AOYAMA.stones)))
+    survey = marked_survey(marked(mixed, pga > fitted_limits(mixed, f)))
+    found = {name: estimate_shaking(part, f, SHARP, stones=name) for name, part in groups_of(survey)}
+    assert list(found) == [PLAIN_STONES, DOWELLED_STONES, ALL_STONES]
+    assert [found[name].fallen + found[name].standing for name in found] == [50, 50, 100]
+    for each in found.values():
+        assert each.pga_m_s2 == pytest.approx(pga, rel=0.05)
+    assert found[DOWELLED_STONES].threshold_ratio > 1.3 * found[PLAIN_STONES].threshold_ratio
+
+
+def test_stones_that_are_not_marked_are_left_out():
+    """A stone of unknown fate changes nothing; rows that stand for several count as often."""
+    known = Cemetery((Stone(3.0, fallen=True, count=3), Stone(2.0, fallen=False)))
+    spread = Cemetery((*([Stone(3.0, fallen=True)] * 3), Stone(2.0, fallen=False), Stone(5.0)))
+    one, other = estimate_shaking(marked_survey(known), 1.0), estimate_shaking(marked_survey(spread), 1.0)
+    assert one.pga_interval_m_s2 == pytest.approx(other.pga_interval_m_s2, rel=1e-9)
+    assert (other.fallen, other.standing) == (3, 1)
+
+
+def test_the_likelihood_is_the_integral_over_the_common_error():
+    """The convolution agrees with adaptive quadrature."""
+    from scipy.integrate import quad
+
+    survey = marked_survey(marked(AOYAMA, AOYAMA.ratios > 2.84))
+    found = likelihood(survey, 2.0)
+    probe = np.log([4.2, 4.8])
+
+    def integrand(error: float, at: float) -> float:
+        weight = np.exp(-0.5 * (error / COMMON_ERROR) ** 2) / (COMMON_ERROR * np.sqrt(2 * np.pi))
+        return float(weight * np.exp(log_likelihood(survey, np.array([at + error]), 2.0, STONE_ERROR)[0] + 10.0))
+
+    direct = [quad(integrand, -1.5, 1.5, args=(at,), points=[0.0], limit=400, epsabs=0.0, epsrel=1e-8)[0] for at in probe]
+    ratio = found.interpolated(probe)
+    assert ratio[1] / ratio[0] == pytest.approx(direct[1] / direct[0], rel=1e-4)
+
+
+def test_intensity_goes_with_pgv():
+    """The JMA intensity is that of the median PGV; its interval is wider than the PGV's alone, its classes are those of its ends."""
+    found = estimate_shaking(counted_survey(AOYAMA, 35, 100), 1.0)
+    low, high = found.jma_intensity_interval
+    assert found.jma_intensity == pytest.approx(intensity_from_velocity(found.pgv_m_s))
+    assert low < intensity_from_velocity(found.pgv_interval_m_s[0])
+    assert high > intensity_from_velocity(found.pgv_interval_m_s[1])
+    assert found.jma_classes == (jma_class(low), jma_class(high))
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "message"),
+    [
+        (lambda: marked_survey(AOYAMA), BodyError, "no stone is marked fallen or standing"),
+        (lambda: counted_survey(AOYAMA, 5, 4), ParameterError, "0 <= fallen <= stones"),
+        (lambda: counted_survey(AOYAMA, 0, 0), ParameterError, "at least one stone"),
+        (lambda: parse_rate("35%"), ParameterError, "write both numbers"),
+        (lambda: parse_rate("0.35"), ParameterError, "write both numbers"),
+        (lambda: estimate_shaking(counted_survey(AOYAMA, 3, 4), 0.0), ParameterError, "frequency must be positive"),
+        (lambda: estimate_shaking(counted_survey(AOYAMA, 3, 4), 1.0, Model(common_error=0.0)), ParameterError, "common error"),
+        (lambda: Model(level=90.0), ParameterError, "level of the intervals must lie between 0 and 1"),
+        (lambda: intensity_from_velocity(0.0), ParameterError, "peak velocity must be positive"),
+    ],
+)
+def test_impossible_questions_are_refused(call, error, message):
+    """Surveys that say nothing, counts that make no rate, numbers out of range: one sentence."""
+    with pytest.raises(error, match=message):
+        call()
