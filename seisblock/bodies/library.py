@@ -112,6 +112,23 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
     return BlockChoice(block, restitution, f"block {block.width:g} m wide, {block.height:g} m high")
 
 
+def described(block: Block) -> dict[str, Any]:
+    """Return what defines a block, SI with the unit in each key, for documents."""
+    right, left = block.slendernesses
+    return {
+        "name": block.name,
+        "width_m": block.width,
+        "height_m": block.height,
+        "depth_m": block.width if block.depth is None else block.depth,
+        "mass_kg": block.total_mass,
+        "centroid_height_m": block.centre,
+        "centroid_offset_m": block.centroid_offset,
+        "centroid_inertia_kg_m2": block.gyration_squared * block.total_mass,
+        "slenderness_right_rad": right,
+        "slenderness_left_rad": left,
+    }
+
+
 def _number(value: Any, what: str) -> float:
     """Return a number of a table."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):

@@ -33,7 +33,7 @@ def criteria(source: Source, output: Output, gravity: float, restitution: float 
     A block overturns, says a criterion, when the demand (the record's PGA or PGV) exceeds its threshold. Those that want a
     frequency are given the record's equivalent frequency in each of its three definitions.
     """
-    from seisblock.bodies.library import choose_block
+    from seisblock.bodies.library import choose_block, described
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import components, load
     from seisblock.present import criteria as shown
@@ -52,7 +52,8 @@ def criteria(source: Source, output: Output, gravity: float, restitution: float 
          "criteria": [asdict(row) for row in card.rows], "simulated": asdict(card.outcome)}
         for card in cards
     ]  # fmt: skip
-    parameters = {**options, "block": chosen.block, "velocity_highpass_hz": cards[0].velocity_highpass_hz}
+    given = {("gravity_m_s2" if key == "gravity" else key): value for key, value in options.items()}
+    parameters = {**given, "block": described(chosen.block), "velocity_highpass_hz": cards[0].velocity_highpass_hz}
     citations = ["Furukawa2009", "Housner1963", "Zhang2001", "Ishiyama1982", "Tsutsui"]
     warnings = list(dict.fromkeys(text for card in cards for text in card.warnings))
     emit(

@@ -46,7 +46,7 @@ def rock(source: Source, output: Output, gravity: float, restitution: float | No
     Each horizontal component is solved by itself. Rotation is positive when the block leans to the component's positive
     direction. After the record's end the fate is decided by energy.
     """
-    from seisblock.bodies.library import choose_block
+    from seisblock.bodies.library import choose_block, described
     from seisblock.cli.progress import progress
     from seisblock.present import rock as shown
     from seisblock.solvers.rock import solve_rock
@@ -71,7 +71,7 @@ def rock(source: Source, output: Output, gravity: float, restitution: float | No
             with progress(f"perturb {motion.name}") as tell:
                 extra["perturbation"] = perturbed(motion, chosen.block, perturb, spread=widths, seed=seed, progress=tell, **options)
         extras.append(extra)
-    parameters = {**responses[0].options, "block": chosen.block, "margin_limit": margin_limit if margin else None}
+    parameters = {**responses[0].options, "block": described(chosen.block), "margin_limit": margin_limit if margin else None}
     answer = response_answer("rock", responses, parameters)
     for result, extra in zip(answer.results, extras, strict=True):
         result.update({key: asdict(value) for key, value in extra.items()})  # type: ignore[attr-defined]

@@ -42,7 +42,7 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
     first, body = outcomes[0], responses[0].body
     threshold = f"{acceleration(first.threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}"
     title = (
-        f"{body.name}: alpha {first.slenderness_rad:.4f} rad, p {first.frequency_parameter_rad_s:.3f} rad/s, "
+        f"{body.name}: alpha {first.slenderness_rad:.4f} rad, p {first.frequency_parameter_rad_s:.3f} rad/s\n"
         f"restitution {first.restitution:.4f}, rocks above {threshold}"
     )
     rows: list[tuple[str, list[Any]]] = [
@@ -141,7 +141,8 @@ def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> Non
         for arm, alpha in zip(response.body.arms, response.body.slendernesses, strict=True)
     )
     g = options["gravity_m_s2"] / unit
-    axis.fill_between(response.time, -g * right * weight, g * left * weight, color="0.92", linewidth=0, label="rests within ± g tan α")
+    band = f"rests within ± {'(g + a_v)' if options['vertical'] else 'g'} tan α"
+    axis.fill_between(response.time, -g * right * weight, g * left * weight, color="0.92", linewidth=0, label=band)
     if not options["vertical"]:
         canvas.threshold(axis, [-g * right, g * left])
     canvas.curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)

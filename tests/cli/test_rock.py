@@ -61,7 +61,7 @@ def test_sizes_in_sun_and_bundled_body_agree(run, pulse):
     sizes = json.loads(run(pulse, "--width", "8sun", "--height", "20.8sun", "--json").stdout)
     named = json.loads(run(pulse, "--block", "gravestone", "--json").stdout)
     assert sizes["results"] == named["results"]
-    assert named["parameters"]["block"]["width"] == pytest.approx(0.2424)
+    assert named["parameters"]["block"]["width_m"] == pytest.approx(0.2424)
 
 
 def test_two_layer_body_rocks_as_one(run, pulse):
