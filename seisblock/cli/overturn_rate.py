@@ -10,6 +10,7 @@ import click
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, LENGTH
 
@@ -94,15 +95,20 @@ def overturn_rate(
     after = stones.dowelled(most_fragile) if both or most_fragile else None
     method = _method(asked)
     groups = _groups(source, asked)
-    judged = [(record, [study.judge_cemetery(stones, each, method, after=after) for each in shakings]) for record, shakings in groups]
+    with progress("rates against PGA") as tell:
+        judged = [
+            (record, [study.judge_cemetery(stones, each, method, after=after, progress=tell) for each in shakings])
+            for record, shakings in groups
+        ]
+        frequencies = asked["frequency"] or FREQUENCIES
+        simulated = [point for _, rates in judged for each in rates for point in each.curve] if method.criterion == "simulate" else []
+        curve = simulated or study.curve_of(stones, method, frequencies=frequencies, progress=tell)
     found = [(record, [*rates, study.larger_of(rates)] if record is not None and len(rates) > 1 else rates) for record, rates in judged]
-    frequencies = asked["frequency"] or FREQUENCIES
-    curve = study.curve_of(stones, method, frequencies=frequencies)
-    warnings = [text for _, shakings in groups for each in shakings for text in study.warnings_of(stones, each, method)]
+    warnings = study.warnings_of(stones, [each for _, shakings in groups for each in shakings], method, after=after)
     parameters = _parameters(stones, after, method, asked)
     answer = Answer(
         "overturn-rate", parameters, _results(found) or [{"curve": curve}], [r for r, _ in groups if r is not None], method.citations,
-        list(dict.fromkeys(warnings)), {"curve": curve},
+        warnings, {"curve": curve},
     )  # fmt: skip
 
     def tables() -> Any:

@@ -31,6 +31,11 @@ ON_THE_LINE = 0.1
 ROUND_OFF = 1e-9
 """Relative slack at the ends of these ranges: 2.6 - 2.5 is not 0.1 to the last bit."""
 
+DOWELLED_REMARK = (
+    "reinforced stones: (10) as printed, p = 1162.9 gal; two verdicts of the paper's table 5 need 1342 to 1409 gal, so that fewer may fall"
+)
+"""What to tell a user who relies on (10)."""
+
 Judgement = Literal["stands", "on the line", "overturns"]
 
 

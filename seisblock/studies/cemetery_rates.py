@@ -9,10 +9,11 @@ from typing import Literal
 import numpy as np
 
 from seisblock.bodies.cemetery import PAPER_WIDTH, Cemetery
-from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit
+from seisblock.criteria.gravestones import DOWELLED, DOWELLED_REMARK, PLAIN, GravestoneFit, outside_fit
 from seisblock.errors import ParameterError
 from seisblock.measures import Conventions, measure
 from seisblock.records import Motion, Record, motion_of
+from seisblock.studies.ensemble import Progress
 from seisblock.studies.overturning_limits import fitted_limits, rigid_limits
 from seisblock.studies.overturning_rate import (
     CONFIDENCE,
@@ -127,6 +128,8 @@ class CemeteryRate:
         The comparison with dowels, where it was asked for.
     curve : tuple of CurvePoint
         The rate against PGA, at this frequency and at the standard ones.
+    outside_fit : tuple of str
+        What lies outside the range of (9), (10), a sentence each; none where they are not used.
     of : str or None
         Which component ``larger`` is.
     """
@@ -144,6 +147,7 @@ class CemeteryRate:
     largest_standing_ratio: float | None
     reinforced: Reinforcement | None
     curve: tuple[CurvePoint, ...]
+    outside_fit: tuple[str, ...] = ()
     of: str | None = None
 
 
@@ -196,7 +200,12 @@ def overturned(cemetery: Cemetery, shaking: Shaking, method: Method) -> BoolArra
 
 
 def curve_of(
-    cemetery: Cemetery, method: Method, shaking: Shaking | None = None, frequencies: Sequence[float] = FREQUENCIES
+    cemetery: Cemetery,
+    method: Method,
+    shaking: Shaking | None = None,
+    frequencies: Sequence[float] = FREQUENCIES,
+    *,
+    progress: Progress | None = None,
 ) -> tuple[CurvePoint, ...]:
     """Return the rate against PGA, at a shaking's frequency first and at others ([Furukawa2009]_ figs. 16, 17).
 
@@ -206,13 +215,17 @@ def curve_of(
         own = [(shaking.motion, shaking.frequency)] if shaking is not None and shaking.motion is not None else []
         asked = [] if own else list(frequencies) if shaking is None else [shaking.frequency]
         motions = own or [(sine_motion(1.0, f), f) for f in asked]
-        return simulated_curve(cemetery, motions, SIMULATED_PGA, inset=method.inset, width=method.width, gravity=method.gravity)
+        return simulated_curve(
+            cemetery, motions, SIMULATED_PGA, inset=method.inset, width=method.width, gravity=method.gravity, progress=progress
+        )
     first = [] if shaking is None else [shaking.frequency]
     wanted = list(dict.fromkeys([*first, *frequencies]))
     return rate_curve(cemetery, CURVE_PGA, wanted, limits=method.limits)
 
 
-def judge_cemetery(cemetery: Cemetery, shaking: Shaking, method: Method, *, after: Cemetery | None = None) -> CemeteryRate:
+def judge_cemetery(
+    cemetery: Cemetery, shaking: Shaking, method: Method, *, after: Cemetery | None = None, progress: Progress | None = None
+) -> CemeteryRate:
     """Return what a shaking does to a cemetery, and to the same one with more dowels ([Furukawa2009]_ section 4).
 
     Parameters
@@ -222,6 +235,8 @@ def judge_cemetery(cemetery: Cemetery, shaking: Shaking, method: Method, *, afte
     method : Method
     after : Cemetery or None
         The cemetery reinforced, see :meth:`Cemetery.dowelled`; None for no comparison.
+    progress : callable
+        Told how many points of a simulated curve are done, and how many there are.
     """
     falls = overturned(cemetery, shaking, method)
     found, ratios = rate_of(falls, method.confidence), cemetery.ratios
@@ -230,7 +245,9 @@ def judge_cemetery(cemetery: Cemetery, shaking: Shaking, method: Method, *, afte
         _threshold(cemetery.dowelled(), shaking, method) if method.criterion == "furukawa" else None, found.rate, found.rate_interval,
         found.fallen, found.stones, float(ratios[falls].min()) if falls.any() else None,
         None if falls.all() else float(ratios[~falls].max()),
-        None if after is None else _reinforcement(after, shaking, method, found.fallen), curve_of(cemetery, method, shaking),
+        None if after is None else _reinforcement(after, shaking, method, found.fallen),
+        curve_of(cemetery, method, shaking, progress=progress),
+        outside_fit(shaking.pga, shaking.frequency, ratios) if method.criterion == "furukawa" else (),
     )  # fmt: skip
 
 
@@ -240,10 +257,17 @@ def larger_of(rates: Sequence[CemeteryRate]) -> CemeteryRate:
     return replace(chosen, component=LARGER, of=chosen.component)
 
 
-def warnings_of(cemetery: Cemetery, shaking: Shaking, method: Method) -> list[str]:
-    """Return what should be known before believing a rate, a sentence each, with the component they belong to."""
-    before = f"{shaking.component}: " if shaking.component else ""
-    return [before + text for text in remarks(cemetery, shaking.pga, shaking.frequency, fitted=method.criterion == "furukawa")]
+def warnings_of(cemetery: Cemetery, shakings: Sequence[Shaking], method: Method, *, after: Cemetery | None = None) -> list[str]:
+    """Return what should be known before believing rates, a sentence each, with the component they belong to ([Furukawa2009]_)."""
+    fitted = method.criterion == "furukawa"
+    found = [
+        (f"{shaking.component}: " if shaking.component else "") + text
+        for shaking in shakings
+        for text in remarks(cemetery, shaking.pga, shaking.frequency, fitted=fitted)
+    ]
+    if fitted and method.fits[1] == DOWELLED and (cemetery.reinforced.any() or after is not None):
+        found.append(DOWELLED_REMARK)
+    return list(dict.fromkeys(found))
 
 
 def _threshold(cemetery: Cemetery, shaking: Shaking, method: Method) -> float | None:

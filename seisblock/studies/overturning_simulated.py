@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from seisblock.bodies.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.rock import rock_verdict
+from seisblock.studies.ensemble import Progress, in_threads
 from seisblock.studies.overturning_limits import require_loose
 from seisblock.studies.overturning_rate import CurvePoint
 from seisblock.typing import BoolArray
@@ -109,8 +109,7 @@ def simulated_overturns(
     require_loose(cemetery)
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
     blocks = [sao(float(ratio), float(b), inset=inset) for ratio, b in sizes]
-    with ThreadPoolExecutor() as pool:  # the engine holds no GIL
-        falls = list(pool.map(lambda block: rock_verdict(motion, block, scale=scale, gravity=gravity).overturned, blocks))
+    falls = list(in_threads(lambda block: rock_verdict(motion, block, scale=scale, gravity=gravity).overturned, blocks))
     return np.array(falls, dtype=np.bool_)[index.ravel()]
 
 
@@ -122,6 +121,7 @@ def simulated_curve(
     inset: float = 1.0,
     width: float = PAPER_WIDTH,
     gravity: float = STANDARD_GRAVITY,
+    progress: Progress | None = None,
 ) -> tuple[CurvePoint, ...]:
     """Return the simulated rate against PGA under scaled motions ([Furukawa2009]_ sections 3(3)a, 3(5)).
 
@@ -134,11 +134,15 @@ def simulated_curve(
         To which each motion is scaled.
     inset, width, gravity
         As for :func:`simulated_overturns`.
+    progress : callable
+        Told the number of points done and the number in all.
     """
-    points = []
+    points: list[CurvePoint] = []
     for motion, frequency in motions:
         peak = float(np.abs(motion.horizontal).max())
         for level in pga:
             falls = simulated_overturns(cemetery, motion, scale=level / peak, inset=inset, width=width, gravity=gravity)
             points.append(CurvePoint(float(level), frequency, float(falls.mean())))
+            if progress is not None:
+                progress(len(points), len(motions) * len(pga))
     return tuple(points)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from seisblock.bodies.cemetery import Cemetery
+from seisblock.criteria.gravestones import DOWELLED_REMARK, outside_fit
 from seisblock.criteria.intensity import FITTED_INTENSITY, SCATTER, intensity_from_velocity
 from seisblock.errors import ParameterError
 from seisblock.measures import jma_class
@@ -223,9 +224,11 @@ def _kind(cemetery: Cemetery) -> str:
 
 
 def remarks_of(estimate: ShakingEstimate) -> list[str]:
-    """Return what should be known before believing an estimate, a sentence each ([Midorikawa1999]_)."""
+    """Return what should be known before believing an estimate, a sentence each ([Furukawa2009]_, [Midorikawa1999]_)."""
     low, high = FITTED_INTENSITY
-    found = []
+    found = [DOWELLED_REMARK] if estimate.stones != PLAIN_STONES else []
+    if estimate.frequency_hz is not None and estimate.pga_m_s2 is not None:
+        found += outside_fit(estimate.pga_m_s2, estimate.frequency_hz)
     if estimate.bound == "upper":
         found.append(f"{estimate.stones} stones: none fell, so that there is an upper bound only")
     if estimate.bound == "lower":

@@ -117,7 +117,10 @@ def test_reinforcing(run, document):
     assert both["reinforced"]["stones_saved"] == 27
     (few,) = document(*words, "--most-fragile", 12)["results"]
     assert few["reinforced"]["stones_saved"] == 4
-    assert "27 fewer" in run(*words, "--both").stdout
+    shown = run(*words, "--both")
+    assert "27 fewer" in shown.stdout
+    assert "need 1342 to 1409 gal" in shown.stderr
+    assert "1342" not in run(*words, "--both", "--fit-reinforced", "1362.9,1.84,4.5").stderr
     assert run(*words, "--both", "--reinforced").exit_code == 2
 
 
@@ -175,7 +178,9 @@ def test_warnings(run, words, message):
     """An implausible PGA and numbers outside the fit are said on stderr, and in the document."""
     found = run("--cemetery", "aoyama.csv", *words, "--json")
     assert message in found.stderr
-    assert any(message in text for text in json.loads(found.stdout)["warnings"])
+    document = json.loads(found.stdout)
+    assert any(message in text for text in document["warnings"])
+    assert document["results"][0]["outside_fit"]
 
 
 @pytest.mark.parametrize(
