@@ -108,7 +108,7 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
         return estimate_tables(stones.name, estimates, gal=output.gal, level=model.level)
 
     def figure() -> Any:
-        from seisblock.present.infer import estimate_figure
+        from seisblock.present.infer_figure import estimate_figure
 
         return estimate_figure(stones.name, survey, model, estimates)
 
@@ -149,7 +149,7 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
         return factor_tables(curves, gal=output.gal)
 
     def figure() -> Any:
-        from seisblock.present.infer import factor_figure
+        from seisblock.present.infer_figure import factor_figure
 
         return factor_figure(curves)
 

@@ -25,7 +25,6 @@ from seisblock.studies.overturning_rate import (
     remarks,
     threshold_ratio,
 )
-from seisblock.studies.overturning_simulated import SIMULATED_PGA, simulated_curve, simulated_overturns, sine_motion
 from seisblock.typing import BoolArray, FloatArray
 from seisblock.units import STANDARD_GRAVITY
 
@@ -191,6 +190,8 @@ def shakings_of(
 def overturned(cemetery: Cemetery, shaking: Shaking, method: Method) -> BoolArray:
     """Return which stones fall, (size,), by the criterion asked for ([Furukawa2009]_, [Housner1963]_)."""
     if method.criterion == "simulate":
+        from seisblock.studies.overturning_simulated import simulated_overturns, sine_motion  # loads the engine
+
         motion = shaking.motion or sine_motion(shaking.pga, shaking.frequency)
         return simulated_overturns(cemetery, motion, inset=method.inset, width=method.width, gravity=method.gravity)
     if not shaking.pga > 0.0:
@@ -212,6 +213,8 @@ def curve_of(
     Simulated curves scale the shaking's own motion, or sines of 20 s where there is none, to 100, 200, ... 1300 gal.
     """
     if method.criterion == "simulate":
+        from seisblock.studies.overturning_simulated import SIMULATED_PGA, simulated_curve, sine_motion
+
         own = [(shaking.motion, shaking.frequency)] if shaking is not None and shaking.motion is not None else []
         asked = [] if own else list(frequencies) if shaking is None else [shaking.frequency]
         motions = own or [(sine_motion(1.0, f), f) for f in asked]

@@ -23,6 +23,9 @@ FREQUENCIES = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
 CURVE_PGA = tuple(round(0.5 * i, 1) for i in range(1, 37))
 """Accelerations of the curves, m/s^2: 50 to 1800 gal as in [Furukawa2009]_ figs. 16, 17."""
 
+MOST_STEPS = 200
+"""Steps to a threshold H/B; a rigid block under a fast pulse needs some fifty."""
+
 IMPLAUSIBLE_PGA = 20.0 * GAL
 """A PGA below this, m/s^2, was probably given in another unit than gal: not even H/B = 40 would fall."""
 
@@ -120,13 +123,13 @@ def threshold_ratio(
     limits : callable
         The criterion.
     """
-    from scipy.optimize import brentq
-
-    def excess(log_ratio: float) -> float:
-        stone = Cemetery((Stone(float(np.exp(log_ratio)), reinforced=reinforced),))
-        return float(np.log(limits(stone, frequency)[0] / pga))
-
-    return float(np.exp(brentq(excess, np.log(1e-6), np.log(1e6), xtol=1e-14, rtol=1e-14)))
+    ratio = 1.0
+    for _ in range(MOST_STEPS):  # limits fall with H/B, by (7) exactly as 1/(H/B): the first step is the last one
+        before = ratio
+        ratio *= float(limits(Cemetery((Stone(ratio, reinforced=reinforced),)), frequency)[0]) / pga
+        if abs(ratio - before) <= 1e-14 * ratio:
+            break
+    return ratio
 
 
 def rate_of(falls: BoolArray, confidence: float = CONFIDENCE) -> Rate:
