@@ -58,7 +58,6 @@ def rates(axis: Axes, curve: Iterable[CurvePoint], *, frequencies: Sequence[floa
         colour, dashes = LINES[index % len(LINES)]
         axis.plot(pga, rate, label=f"{frequency:.3g} Hz", linewidth=1.1, color=colour, linestyle=dashes)
     axis.set_ylim(-0.02, 1.02)
-    axis.set_xlim(0.0, None)
     label(axis, x="PGA (gal)", y="overturning rate")
 
 
@@ -122,6 +121,7 @@ def _panel(
             markersize=5, markerfacecolor=ACCENT, capsize=2.5, linewidth=0.9, zorder=4,
             label=f"{name}{each.equivalent_frequency_hz:.3g} Hz",
         )  # fmt: skip
+    axis.set_xlim(left=0.0)  # last, for it ends the scaling to what is drawn
 
 
 def figure_14(cemetery: Cemetery) -> Figure:
@@ -148,6 +148,7 @@ def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence
     for index, survey in enumerate(surveys):
         where: dict[str, Any] = {"marker": MARKERS[index % len(MARKERS)], "color": ACCENT, "s": 26, "zorder": 4}
         axis.scatter([survey.pga / GAL], [survey.rate], label=f"{survey.name}, {survey.frequency:.2f} Hz", **where)
+    axis.set_xlim(left=0.0)
     _key(axis)
     return figure
 

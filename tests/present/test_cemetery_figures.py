@@ -55,3 +55,13 @@ def test_the_figure_of_a_shaking(compared, panels):
     assert len(figure.axes) == panels
     legend = [text.get_text() for text in figure.axes[-1].get_legend().get_texts()]
     assert legend[-1] == "2.75 Hz"
+
+
+@pytest.mark.parametrize("criterion", ["furukawa", "simulate"])
+def test_the_point_of_a_shaking_is_in_view(criterion):
+    """However strong the shaking and whatever is drawn beside it, its point lies within the panel."""
+    method, shaking = Method(criterion), Shaking(30.0, 2.0)
+    found = judge_cemetery(AOYAMA, shaking, method)
+    low, high = overturn_rate_figure(AOYAMA, [(None, [found])], ()).axes[1].get_xlim()
+    assert low == 0.0
+    assert high > 3000.0
