@@ -30,6 +30,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
     "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic shaking."),
     "criteria": ("seisblock.cli.criteria:criteria", "Every closed-form criterion of overturning beside the simulated truth."),
+    "stack": ("seisblock.cli.stack:stack", "A pile of stones in three dimensions: gravestones, lanterns, columns."),
     "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Share of the gravestones of a cemetery that fall."),
     "infer": ("seisblock.cli.infer:infer", "Shaking read back from fallen gravestones or displaced objects."),
     "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning of blocks of all sizes and slendernesses."),

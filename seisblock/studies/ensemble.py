@@ -46,13 +46,9 @@ def in_threads(
     """
     remaining = iter(items)
     finished = 0
-    pool = ThreadPoolExecutor(workers or cores())
-    try:
+    with ThreadPoolExecutor(workers or cores()) as pool:
         while chunk := list(itertools.islice(remaining, CHUNK)):
             yield from pool.map(work, chunk)
             finished += len(chunk)
             if progress is not None:
                 progress(finished, len(items))
-    finally:
-        # an interruption waits for the runs under way, not for those that have not begun
-        pool.shutdown(cancel_futures=True)

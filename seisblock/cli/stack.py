@@ -1,0 +1,136 @@
+"""``seisblock stack``: how a pile of stones stands, slides and falls."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from seisblock.cli.command import Command, option
+from seisblock.cli.emit import emit, response_answer
+from seisblock.cli.inputs import load, motions
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.talk import say
+
+if TYPE_CHECKING:
+    from seisblock.bodies.gravestone import Gravestone
+
+DEFAULT_PILE = "wagata"
+
+
+@click.command(
+    cls=Command,
+    examples=(
+        "seisblock stack --stones wagata.toml --reinforced",
+        "seisblock stack record.csv --stones lantern.toml --scale 1.5 --plot stack.png --animate stack.gif",
+        "seisblock stack --criterion --grid 4 --resume study.jsonl --plot criterion.png",
+    ),
+)
+@record_options
+@option("--stones", metavar="NAME|FILE", default=DEFAULT_PILE, show_default=True, section="Body",
+        help="TOML file of the pile, or a bundled one: wagata, lantern.")
+@option("--reinforced", is_flag=True, section="Body", help="Put in the dowels that the file names.")
+@option("--without", multiple=True, metavar="STONE", section="Body", help="Leave a stone out; may be repeated.")
+@option("--fix", multiple=True, metavar="STONE", section="Body", help="Let a stone move with the ground; may be repeated.")
+@option("--mu", type=float, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
+@option("--points", type=click.IntRange(2, 25), default=5, show_default=True,
+        help="Contact points along each side of a joint: 2 stand at its corners, 3 and more at segment centres.")
+@option("--young", type=float, metavar="PA", help="Young's modulus of the stones, Pa. [default: contact of Furukawa2009 table 2]")
+@option("--joint-stiffness", type=float, metavar="N/M3", help="Stiffness of a joint per area, N/m^3. [default: as --young]")
+@option("--damping", type=float, default=1.0, show_default=True,
+        help="Damping ratio of a stone on its joint, with --young or --joint-stiffness.")
+@option("--vertical/--no-vertical", default=True, show_default=True, help="Whether the record's vertical component acts.")
+@option("--across/--no-across", default=True, show_default=True, help="Whether the other horizontal component acts.")
+@option("--step", type=float, metavar="S", help="Time step, s. [default: 0.7 of what the stiffest contact admits]")
+@option("--criterion", is_flag=True, help="No RECORD: the criterion study of Furukawa2009 section 3(3), over sines; long work.")
+@option("--grid", type=click.IntRange(min=1), default=1, show_default=True, help="--criterion: take every so many-th amplitude and height.")
+@option("--resume", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE",
+        help="--criterion: keep finished sines in this file, and go on from it.")
+@gravity_option
+@output_options
+def stack(source: Source, output: Output, stones: str, reinforced: bool, without: tuple[str, ...], fix: tuple[str, ...],
+          mu: float | None, criterion: bool, grid: int, resume: Path | None, **asked: Any) -> None:
+    """Follow a pile of stones through an earthquake, in three dimensions (Furukawa et al. 2009).
+
+    Both horizontal components and the vertical one act together; +x of the pile is the component's positive direction. Without
+    --component that is the record's first. Slips are relative to the stone below, in m.
+    """
+    from seisblock.bodies.pile import PileContact
+    from seisblock.errors import ParameterError
+
+    if asked["young"] is not None and asked["joint_stiffness"] is not None:
+        raise ParameterError("give --young or --joint-stiffness, not both")
+    contact = PileContact(young=asked.pop("young"), stiffness=asked.pop("joint_stiffness"), damping_ratio=asked.pop("damping"))
+    body = _pile(stones, reinforced, mu, without, fix)
+    say(f"pile: {body.name}, {len(body.stones)} stones, mu {body.mu:g}{', dowels in' if body.dowels else ''}")
+    if criterion:
+        _study(source, output, body, contact, grid, resume, points=asked["points"], gravity=asked["gravity"], reinforced=reinforced)
+        return
+    if grid != 1 or resume is not None:
+        raise ParameterError("--grid and --resume go with --criterion")
+    _record(source, output, body, contact, asked)
+
+
+def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, ...], fix: tuple[str, ...]) -> Gravestone:
+    """Return the pile that the options of the body describe."""
+    from dataclasses import replace
+
+    from seisblock.bodies.pile import read_pile
+    from seisblock.errors import BodyError
+
+    body = read_pile(stones, reinforced=reinforced, mu=mu)
+    for name in without:
+        if name not in body.names:
+            raise BodyError(f"--without names {name!r}, but the pile {body.name} has {', '.join(body.names)}")
+    body = body.without(*without) if without else body
+    return replace(body, fixed=(*body.fixed, *fix)) if fix else body
+
+
+def _record(source: Source, output: Output, body: Gravestone, contact: Any, asked: dict[str, Any]) -> None:
+    """Follow the pile through the records."""
+    from seisblock.present import stack as shown
+    from seisblock.solvers.stack import solve_stack
+
+    responses = []
+    for record in load(source):
+        turned = list(motions(record, source))
+        # all components act in every run: without --component one run tells all
+        responses += [solve_stack(body, motion, contact=contact, **asked) for motion in (turned if source.component else turned[:1])]
+
+    def animation(path: Path, filming: Any) -> None:
+        from seisblock.present.stack_animation import animate_stack
+
+        animate_stack(responses[0], path, filming)
+
+    emit(
+        response_answer("stack", responses, {**responses[0].options, "pile": body}), output, responses=responses,
+        tables=lambda: shown.tables(responses), figure=lambda: shown.figure(responses), animation=animation,
+    )  # fmt: skip
+
+
+def _study(source: Source, output: Output, body: Gravestone, contact: Any, grid: int, resume: Path | None, *, points: int, gravity: float,
+           reinforced: bool) -> None:  # fmt: skip
+    """Run the criterion study."""
+    from seisblock.cli.progress import progress
+    from seisblock.errors import ParameterError
+    from seisblock.present import stack_criterion as shown
+    from seisblock.present.document import Answer
+    from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, rigid_levels
+
+    if source.record:
+        raise ParameterError("--criterion shakes with sines and takes no RECORD")
+    with progress("sines") as tell:
+        study = criterion_study(
+            body, pgas=PGAS[::-1][::grid][::-1], ratios=RATIOS[::grid], points=points, contact=contact, gravity=gravity, resume=resume,
+            progress=tell,
+        )  # fmt: skip
+    rigid = rigid_levels(study, width=body.stones[-1].width, points=points, gravity=gravity)
+    answer = Answer(
+        "stack", {"pile": body, "points": points, "contact": contact, "gravity_m_s2": gravity, "criterion": True, "grid": grid},
+        [shown.summary(study, rigid, reinforced=reinforced)], citations=("Furukawa2009",),
+    )  # fmt: skip
+    emit(
+        answer, output, tables=lambda: shown.tables(study, rigid, reinforced=reinforced), csv=lambda path: shown.write(study, path),
+        figure=lambda: shown.figure(study, rigid, reinforced=reinforced),
+    )  # fmt: skip

@@ -1,0 +1,218 @@
+"""The criterion study of gravestones: which is the most squat upper stone that a sine overturns, and what fits through the answers.
+
+[Furukawa2009]_ section 3(3): sine bases of 100 to 1300 gal, 0.5 to 3 Hz and 20 s, 29 heights of the upper stone. Runs are independent,
+use all cores, and can be taken up again where they were left.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from seisblock.bodies.gravestone import Gravestone
+from seisblock.bodies.pile import PileContact
+from seisblock.criteria.gravestones import GravestoneFit
+from seisblock.errors import ParameterError, RecordFormatError
+from seisblock.records.motion import Motion
+from seisblock.solvers.stack import solve_stack
+from seisblock.studies.ensemble import Progress, in_threads
+from seisblock.typing import FloatArray
+from seisblock.units import GAL, STANDARD_GRAVITY
+
+FREQUENCIES_HZ = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
+PGAS = tuple(100.0 * GAL * i for i in range(1, 14))
+RATIOS = tuple(1.25 + 0.1875 * i for i in range(29))
+"""Height over width of the 29 upper stones, 10 to 52 sun in steps of 1.5 ([Furukawa2009]_ table 1)."""
+
+DURATION_S = 20.0
+SAMPLING_S = 0.005
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """The most squat upper stone that falls under one sine.
+
+    Parameters
+    ----------
+    frequency_hz, pga_m_s2 : float
+    ratio : float or None
+        Its height over width; None when every stone stays.
+    fallen : tuple of str
+        Which stones fell with it.
+    """
+
+    frequency_hz: float
+    pga_m_s2: float
+    ratio: float | None
+    fallen: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class CriterionStudy:
+    """Thresholds, the level a(f) of eq. (7) at each frequency, and the fit (8) through them.
+
+    Parameters
+    ----------
+    thresholds : tuple of Threshold
+    levels : dict of float to float, Hz to m/s^2
+        Least squares of H/B = a(f)/PGA ([Furukawa2009]_ eq. (7)); frequencies at which nothing fell are missing.
+    fit : GravestoneFit or None
+        Least squares of eq. (8) through the levels; None with fewer than three.
+    """
+
+    thresholds: tuple[Threshold, ...]
+    levels: dict[float, float]
+    fit: GravestoneFit | None
+
+
+def with_top(body: Gravestone, ratio: float) -> Gravestone:
+    """Return the pile with its last stone as high as `ratio` times its width ([Furukawa2009]_ table 1)."""
+    top = body.stones[-1]
+    return replace(body, stones=(*body.stones[:-1], replace(top, height=ratio * top.width)))
+
+
+def sine_base(frequency: float, pga: float, duration: float = DURATION_S) -> Motion:
+    """Return a sine of ground acceleration along +x, Hz and m/s^2 ([Furukawa2009]_ section 3(3)a)."""
+    time = SAMPLING_S * np.arange(round(duration / SAMPLING_S) + 1)
+    return Motion.from_arrays(pga * np.sin(2.0 * math.pi * frequency * time), SAMPLING_S, name=f"sine {frequency:g} Hz")
+
+
+def criterion_study(
+    body: Gravestone,
+    *,
+    frequencies: Sequence[float] = FREQUENCIES_HZ,
+    pgas: Sequence[float] = PGAS,
+    ratios: Sequence[float] = RATIOS,
+    points: int = 5,
+    contact: PileContact | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    duration: float = DURATION_S,
+    resume: Path | None = None,
+    progress: Progress | None = None,
+    workers: int | None = None,
+) -> CriterionStudy:
+    """Find the threshold of every sine and fit it ([Furukawa2009]_ section 3(3)).
+
+    Heights are tried from the most squat upwards until one falls, which is the paper's definition of the threshold and leaves the slender
+    ones unrun.
+
+    Parameters
+    ----------
+    body : Gravestone
+        Its last stone is the one whose height changes.
+    frequencies, pgas, ratios : sequences of float, Hz, m/s^2, 1
+    points, contact, gravity
+        As for :func:`~seisblock.solvers.stack.solve_stack`.
+    duration : float, s
+    resume : path
+        File with one line per finished sine; read if it is there, and added to.
+    progress : callable
+        Told the number of sines done and the number in all.
+    workers : int
+        Threads.
+
+    Raises
+    ------
+    ParameterError
+        If a list is empty, or `resume` belongs to another study.
+    RecordFormatError
+        If `resume` cannot be read.
+    """
+    if not (frequencies and pgas and ratios):
+        raise ParameterError("the criterion study needs at least one frequency, one amplitude and one height")
+    contact = PileContact() if contact is None else contact
+    cells = [(float(f), float(a)) for f in frequencies for a in pgas]
+    ladder = sorted(float(ratio) for ratio in ratios)
+    settings = [asdict(body), ladder, points, asdict(contact), gravity, duration]
+    mark = hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()[:16]
+    known = _resumed(resume, mark)
+    missing = [cell for cell in cells if cell not in known]
+
+    def work(cell: tuple[float, float]) -> Threshold:
+        motion = sine_base(*cell, duration)
+        for ratio in ladder:
+            outcome = solve_stack(with_top(body, ratio), motion, points=points, contact=contact, gravity=gravity, stop_at_fall=True).outcome
+            if outcome.overturned_any:
+                return Threshold(*cell, ratio, outcome.overturned)
+        return Threshold(*cell, None)
+
+    for done, threshold in enumerate(in_threads(work, missing, workers=workers), start=1):
+        known[threshold.frequency_hz, threshold.pga_m_s2] = threshold
+        if resume is not None:
+            with resume.open("a", encoding="utf-8") as file:
+                file.write(json.dumps({"study": mark, **asdict(threshold)}) + "\n")
+        if progress is not None:
+            progress(len(cells) - len(missing) + done, len(cells))
+    thresholds = tuple(known[cell] for cell in cells)
+    levels = fitted_levels(thresholds)
+    return CriterionStudy(thresholds, levels, fitted_criterion(levels))
+
+
+def fitted_levels(thresholds: Sequence[Threshold]) -> dict[float, float]:
+    """Return a(f), m/s^2, of H/B = a(f)/PGA by least squares at each frequency ([Furukawa2009]_ eq. (7))."""
+    levels = {}
+    for frequency in dict.fromkeys(t.frequency_hz for t in thresholds):
+        found = [(1.0 / t.pga_m_s2, t.ratio) for t in thresholds if t.frequency_hz == frequency and t.ratio is not None]
+        if found:
+            inverse, ratio = np.array(found).T
+            levels[frequency] = float(inverse @ ratio / (inverse @ inverse))
+    return levels
+
+
+def fitted_criterion(levels: dict[float, float]) -> GravestoneFit | None:
+    """Return p, q, r of a(f) = p sqrt(1 + (f/q)^r) by least squares, or None with fewer than three levels ([Furukawa2009]_ eq. (8))."""
+    from scipy.optimize import least_squares
+
+    if len(levels) < 3:
+        return None
+    f, a = np.array(sorted(levels.items())).T
+
+    def misfit(x: FloatArray) -> FloatArray:
+        p, q, r = np.exp(x)
+        return p * np.sqrt(1.0 + (f / q) ** r) - a
+
+    best = least_squares(misfit, np.log([a.min(), 2.0, 4.0]))
+    p, q, r = (float(value) for value in np.exp(best.x))
+    return GravestoneFit(p, q, r, "least squares")
+
+
+def _resumed(path: Path | None, mark: str) -> dict[tuple[float, float], Threshold]:
+    """Return the sines that an earlier run has finished; a last line that was cut short is left out."""
+    known: dict[tuple[float, float], Threshold] = {}
+    if path is None or not path.exists():
+        return known
+    lines = path.read_text(encoding="utf-8").splitlines()
+    for number, line in enumerate(lines, start=1):
+        try:
+            entry = json.loads(line)
+            study, cell = entry.pop("study"), (float(entry["frequency_hz"]), float(entry["pga_m_s2"]))
+            threshold = Threshold(*cell, entry["ratio"], tuple(entry["fallen"]))
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            if number == len(lines):
+                break
+            raise RecordFormatError(f"{path}, line {number}: not a line of a criterion study; give another file") from error
+        if study != mark:
+            raise ParameterError(f"{path} belongs to a study of another pile or other settings: give another file")
+        known[cell] = threshold
+    return known
+
+
+def rigid_levels(study: CriterionStudy, *, width: float, points: int, gravity: float = STANDARD_GRAVITY) -> dict[float, float]:
+    """Return a(f) of the top stone as one rigid block on the outermost contact points, over the study's sines ([Furukawa2009]_ eq. (7))."""
+    from seisblock.solvers.rock import rock_verdict
+    from seisblock.studies.overturning_simulated import sao
+
+    inset = 1.0 if points == 2 else 1.0 - 1.0 / points
+    blocks = [(ratio, sao(ratio, width, inset=inset)) for ratio in RATIOS]
+    found = []
+    for threshold in study.thresholds:
+        motion = sine_base(threshold.frequency_hz, threshold.pga_m_s2)
+        falls = (ratio for ratio, block in blocks if rock_verdict(motion, block, gravity=gravity).overturned)
+        found.append(Threshold(threshold.frequency_hz, threshold.pga_m_s2, next(falls, None)))
+    return fitted_levels(found)

@@ -1,0 +1,124 @@
+"""A pile is what its file says, and a pile that cannot stand is refused in one sentence."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from seisblock.bodies.gravestone import Gravestone, PileStone
+from seisblock.bodies.pile import PileContact, read_pile
+from seisblock.errors import BodyError, ParameterError
+from seisblock.units import SUN
+
+FOOT = PileStone("foot", 0.6, 0.6, 0.2)
+HEAD = PileStone("head", 0.3, 0.3, 0.5, on="foot")
+
+
+def pile(*stones, **more):
+    return Gravestone("pile", stones, **more)
+
+
+def test_wagata_is_the_papers():
+    """The bundled gravestone has the sizes of table 1, H/B 2.6, and chudai 6 sun behind gedai's front edge."""
+    wagata = read_pile("wagata")
+    sizes = {stone.name: tuple(round(side / SUN, 9) for side in stone.size) for stone in wagata.stones}
+    assert sizes == {"gedai": (28, 28, 5), "mizubachi": (16, 5, 9), "chudai": (20, 20, 10), "jodai": (14, 14, 9), "sao": (8, 8, 20.8)}
+    place = dict(zip(wagata.names, wagata.centres(), strict=True))
+    front_of_gedai, front_of_chudai = -14 * SUN, place["chudai"][1] - 10 * SUN
+    assert front_of_chudai - front_of_gedai == pytest.approx(6 * SUN)
+    assert place["sao"][2] == pytest.approx((5 + 10 + 9 + 10.4) * SUN)
+    assert wagata.mu == 0.438
+
+
+def test_dowels_make_one_body_of_two_stones():
+    """Reinforced, jodai and sao move as one; plain, every stone moves by itself."""
+    assert list(read_pile("wagata").bodies()) == [(0,), (1,), (2,), (3,), (4,)]
+    assert list(read_pile("wagata", reinforced=True).bodies()) == [(0,), (1,), (2,), (3, 4)]
+
+
+def test_a_stone_may_be_left_out_or_fixed():
+    """Without the mizubachi four stones are left; fixed, it is no body of its own."""
+    assert read_pile("wagata").without("mizubachi").names == ("gedai", "chudai", "jodai", "sao")
+    fixed = replace(read_pile("wagata"), fixed=("gedai", "mizubachi"))
+    assert list(fixed.bodies()) == [(2,), (3,), (4,)]
+
+
+def test_the_lantern_stands():
+    """The bundled lantern is a pile that can stand, 2 m high."""
+    lantern = read_pile("lantern.toml")
+    assert lantern.centres()[-1][2] + 0.5 * lantern.stones[-1].height == pytest.approx(2.01)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: pile(FOOT, HEAD, PileStone("side", 0.3, 0.3, 0.5, on="foot", offset=(0.2, 0.0))), "head and side overlap by 0.1 m"),
+        (lambda: pile(FOOT, replace(HEAD, bottom=0.15)), "foot and head overlap by 0.05 m"),
+        (lambda: pile(replace(FOOT, bottom=-0.1)), "foot reaches 0.1 m into the ground"),
+        (lambda: pile(FOOT, replace(HEAD, bottom=0.25)), "the stone head floats"),
+        (lambda: pile(FOOT, replace(HEAD, offset=(0.5, 0.0))), "the stone head floats"),
+        (lambda: pile(FOOT, replace(HEAD, offset=(0.31, 0.0))), "unstable at rest: the stone head"),
+        (lambda: pile(PileStone("post", 0.2, 0.2, 0.5), PileStone("slab", 0.5, 0.5, 0.1, on="post"),
+                      PileStone("load", 0.2, 0.2, 0.9, on="slab", offset=(0.2, 0.0))), "unstable at rest: the stone slab"),
+        (lambda: pile(FOOT, replace(HEAD, density=0.0)), "density of the stone head must be positive"),
+        (lambda: pile(FOOT, replace(HEAD, height=-1.0)), "height of the stone head must be positive"),
+        (lambda: pile(FOOT, replace(HEAD, mu=-0.1)), "friction under the stone head must be zero or more"),
+        (lambda: pile(FOOT, HEAD, PileStone("top", 0.2, 0.2, 0.2, on="head"), dowels=(("foot", "top"),)), "these stones do not touch"),
+        (lambda: pile(FOOT, HEAD, dowels=(("foot", "nose"),)), "the dowel names 'nose'"),
+        (lambda: pile(FOOT, HEAD, dowels=(("foot",),)), "at least two stones"),
+        (lambda: pile(FOOT, HEAD, fixed=("foot", "head")), "leave at least one free"),
+        (lambda: pile(FOOT, replace(HEAD, name="foot")), "two stones of the pile pile are called foot"),
+        (lambda: pile(FOOT, replace(HEAD, on="nose")), "stands on 'nose'"),
+        (lambda: pile(), "has no stones"),
+    ],
+)  # fmt: skip
+def test_impossible_piles_are_refused(make, message):
+    """Overlapping, floating, unstable, weightless, wrongly dowelled: one sentence that names the stone."""
+    with pytest.raises(BodyError, match=message) as caught:
+        make()
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("kind = 'pile'", "at least one"),
+        ("kind = 'block'", "expected kind"),
+        ("kind = 'pile'\ncolour = 1\n[[stone]]\nname = 'a'", "unknown key 'colour'"),
+        ("kind = 'pile'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1", "height is missing"),
+        ("kind = 'pile'\n[[stone]]\nwidth = 1\ndepth = 1\nheight = 1", "name is missing"),
+        ("kind = 'pile'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1\nheight = 1\noffset = 3", "offset must be a list of two"),
+        ("kind = 'pile'\nmu = 'much'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1\nheight = 1", "mu must be a number"),
+        ("not toml", "is not a TOML description"),
+    ],
+)
+def test_unreadable_files_are_refused(text, message, tmp_path):
+    """A file that describes no pile is one sentence."""
+    path = tmp_path / "stones.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(BodyError, match=message):
+        read_pile(path)
+
+
+def test_dowels_that_are_not_there_are_refused(tmp_path):
+    """Asking for dowels that a file does not name is an error, not a plain pile."""
+    path = tmp_path / "stones.toml"
+    path.write_text("kind = 'pile'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1\nheight = 1", encoding="utf-8")
+    with pytest.raises(BodyError, match="has no dowels"):
+        read_pile(path, reinforced=True)
+
+
+def test_contact_is_per_mass_or_physical():
+    """Table 2 is 10 Hz and critical damping per point; a joint of known stiffness shares it among its points."""
+    normal, dashpot, shear, _ = PileContact().of_joint(100.0, 0.04, 0.3, 25)
+    assert math.sqrt(normal / 100.0) / (2.0 * math.pi) == pytest.approx(10.0, rel=1e-4)
+    assert dashpot / (2.0 * math.sqrt(normal * 100.0)) == pytest.approx(1.0, rel=1e-4)
+    assert shear / normal == pytest.approx(0.4, rel=1e-4)
+    normal, dashpot, _, _ = PileContact(stiffness=1e9, damping_ratio=0.5).of_joint(100.0, 0.04, 0.3, 4)
+    assert normal == pytest.approx(1e7)
+    assert 4 * dashpot == pytest.approx(2 * 0.5 * math.sqrt(4e7 * 100.0))
+    assert PileContact(young=3e9).of_joint(100.0, 0.04, 0.3, 1)[0] == pytest.approx(3e9 * 0.04 / 0.3)
+    with pytest.raises(ParameterError, match="not both"):
+        PileContact(young=1e9, stiffness=1e9)
+    with pytest.raises(ParameterError, match="must be positive"):
+        PileContact(stiffness=0.0)

@@ -1,0 +1,150 @@
+"""``seisblock stack`` answers on every kind of input, and refuses bad input in one sentence."""
+
+from __future__ import annotations
+
+import csv
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from PIL import Image
+
+from seisblock.cli import main
+
+KEYS = {"component", "overturned", "overturned_any", "time_s", "max_tilt_rad", "residual_slip_m", "stones"}
+
+
+def run(*arguments):
+    return CliRunner().invoke(main, ["stack", *map(str, arguments)])
+
+
+def answer(*arguments):
+    result = run(*arguments, "--json")
+    assert result.exit_code == 0, result.stderr
+    return json.loads(result.stdout)
+
+
+@pytest.fixture
+def pulse(tmp_path):
+    """A file with 3 s of a 1 Hz sine of 500 gal along NS, at 100 Hz."""
+    time = np.arange(0.0, 3.0, 0.01)
+    path = tmp_path / "pulse.csv"
+    rows = "\n".join(f"{t:.2f},{500 * np.sin(2 * np.pi * t):.6f}" for t in time)
+    path.write_text(f"time,NS (gal)\n{rows}\n", encoding="utf-8")
+    return path
+
+
+def test_no_record_means_the_bundled_one():
+    """Without RECORD the sample answers, and stderr says so; one run tells of all components."""
+    result = run("--window", "24:30")
+    assert result.exit_code == 0
+    assert "synthetic_jma.csv" in result.stderr
+    assert "sao fell to" in " ".join(result.stdout.split())
+    assert "gedai" in result.stdout
+
+
+def test_the_document_keeps_the_contract(pulse):
+    """The JSON names what fell and when, and tells tilt and slip of every stone."""
+    document = answer(pulse, "--stones", "wagata.toml")
+    assert document["schema"] == "seisblock/stack/1"
+    assert document["citations"] == ["Furukawa2009"]
+    (found,) = document["results"]
+    assert set(found) >= KEYS
+    assert found["overturned"] == ["sao"]
+    assert found["overturned_any"] is True
+    assert 0.3 < found["time_s"] < 2.0
+    assert set(found["max_tilt_rad"]) == set(found["residual_slip_m"]) == {"gedai", "mizubachi", "chudai", "jodai", "sao"}
+    assert found["max_tilt_rad"]["sao"] > 1.0
+    assert document["parameters"]["mu"] == 0.438
+    assert document["parameters"]["points"] == 5
+
+
+def test_the_dowel_holds_the_sao(pulse):
+    """What topples the plain gravestone leaves the reinforced one standing."""
+    (found,) = answer(pulse, "--reinforced")["results"]
+    assert found["overturned"] == []
+    assert found["time_s"] is None
+
+
+def test_each_component_asked_for_is_a_run():
+    """--component gives one entry for each, in the order asked."""
+    found = answer("--window", "25:26", "--component", "EW,NS")["results"]
+    assert [entry["component"] for entry in found] == ["EW", "NS"]
+
+
+def test_stones_can_be_left_out_and_fixed(pulse):
+    """--without and --fix change the pile."""
+    (found,) = answer(pulse, "--without", "mizubachi", "--fix", "gedai", "--points", "2", "--mu", "0.6")["results"]
+    assert "mizubachi" not in found["max_tilt_rad"]
+    assert found["max_tilt_rad"]["gedai"] == 0.0
+
+
+def test_files_are_written(pulse, tmp_path):
+    """--csv, --plot and --animate write what they say."""
+    table, picture, film = (tmp_path / name for name in ("stack.csv", "stack.png", "stack.gif"))
+    result = run(pulse, "--window", "0:1.2", "--csv", table, "--plot", picture, "--animate", film)
+    assert result.exit_code == 0, result.stderr
+    with table.open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert {"time_s", "sao_tilt_rad", "sao_slip_m", "gedai_x_m", "sao_qw"} <= set(rows[0])
+    assert max(float(row["sao_tilt_rad"]) for row in rows) > 1.0
+    with Image.open(picture) as image:
+        assert min(image.size) > 300
+    with Image.open(film) as image:
+        assert image.n_frames > 10
+
+
+def test_own_stones(pulse, tmp_path):
+    """A pile of the user's own, in the user's own file."""
+    stones = tmp_path / "crates.toml"
+    stones.write_text(
+        'kind = "pile"\nmu = 0.5\n[[stone]]\nname = "lower"\nwidth = "60cm"\ndepth = "40cm"\nheight = "30cm"\ndensity = 300\n'
+        '[[stone]]\nname = "upper"\nwidth = "60cm"\ndepth = "40cm"\nheight = "30cm"\n',
+        encoding="utf-8",
+    )
+    (found,) = answer(pulse, "--stones", stones, "--joint-stiffness", "1e8")["results"]
+    assert found["overturned"] == []
+    assert set(found["max_tilt_rad"]) == {"lower", "upper"}
+
+
+def test_thinned_criterion_study(tmp_path):
+    """The study prints thresholds beside (9), redraws its figures, and takes up what was finished."""
+    held, picture, table = tmp_path / "study.jsonl", tmp_path / "study.png", tmp_path / "study.csv"
+    arguments = ("--criterion", "--grid", "13", "--points", "3", "--resume", held, "--without", "mizubachi")
+    document = answer(*arguments, "--csv", table, "--plot", picture)
+    (found,) = document["results"]
+    lines = held.read_text(encoding="utf-8").splitlines()
+    assert len(lines) == len(found["thresholds"]) == 6
+    assert found["published"]["equation"] == "(9)"
+    assert len(table.read_text(encoding="utf-8").splitlines()) == 7
+    assert picture.stat().st_size > 10_000
+    again = run(*arguments)
+    assert again.exit_code == 0
+    assert "a(f) = PGA H/B" in again.stdout
+    assert held.read_text(encoding="utf-8").splitlines() == lines
+
+
+BAD = {
+    "no such file": (("--stones", "nothing.toml"), "bundled are"),
+    "negative friction": (("--mu", "-0.1"), "friction"),
+    "no such stone": (("--without", "nose"), "--without names 'nose'"),
+    "a stone stands on it": (("--without", "jodai"), "stands on 'jodai'"),
+    "fixed unknown": (("--fix", "nose"), "'nose'"),
+    "too coarse": (("--step", "0.01"), "too coarse"),
+    "two stiffnesses": (("--young", "1e9", "--joint-stiffness", "1e9"), "not both"),
+    "negative stiffness": (("--young", "-1"), "must be positive"),
+    "record and study": (("synthetic_jma.csv", "--criterion"), "takes no RECORD"),
+    "grid without study": (("--grid", "2"), "go with --criterion"),
+    "vertical as direction": (("--component", "UD"), "vertical"),
+}
+
+
+@pytest.mark.parametrize("arguments, message", BAD.values(), ids=BAD)
+def test_bad_input_is_one_sentence(arguments, message):
+    """Nothing a user can cause is a traceback."""
+    result = run(*arguments, "--quiet")
+    assert result.exit_code == 3, result.output
+    assert message in " ".join(result.stderr.split())
+    assert "Traceback" not in result.stderr
+    assert result.stdout == ""

@@ -1,0 +1,207 @@
+"""A pile of stones obeys the mechanics that are known without it."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.gravestone import Gravestone, PileStone
+from seisblock.bodies.pile import PileContact, read_pile
+from seisblock.errors import ParameterError, SolverError
+from seisblock.records import Motion
+from seisblock.solvers.stack import solve_stack
+from seisblock.solvers.stack_outcome import CREATED_AT_MOST
+from seisblock.units import STANDARD_GRAVITY as G
+
+WIDTH = 0.24
+STIFF = PileContact(stiffness=1e9)
+
+
+def block(ratio=3.0, **more):
+    return Gravestone("block", (PileStone("block", WIDTH, WIDTH, ratio * WIDTH),), **more)
+
+
+def slope(angle, dt=0.01):
+    """Return the level motion under which a body feels the weight it has on a slope of these angles (rad) against time."""
+    return Motion.from_arrays(G * np.sin(angle), dt, vertical=G * (np.cos(angle) - 1.0))
+
+
+def sine(pga, hertz, seconds, dt=0.01):
+    return Motion.from_arrays(pga * np.sin(2.0 * math.pi * hertz * np.arange(0.0, seconds, dt)), dt)
+
+
+@pytest.mark.kernel
+def test_a_block_at_rest_stays():
+    """Nothing moves under a ground that does not move, whatever the number of points."""
+    for points in (2, 3):
+        response = solve_stack(block(), Motion.from_arrays(np.zeros(3), 0.01), points=points)
+        assert np.ptp(response["block_x"]) == 0.0
+        assert np.ptp(response["block_z"]) < 1e-9
+
+
+def test_a_plumb_pile_at_rest_stays_for_100_s():
+    """The five-stone pile drifts by less than 0.1 mm in 100 s."""
+    response = solve_stack(read_pile("wagata"), Motion.from_arrays(np.zeros(10_001), 0.01))
+    drift = max(float(np.ptp(response[f"{name}_{axis}"])) for name in response.body.names for axis in "xyz")
+    assert drift < 1e-5
+    assert all(stone.state == "standing" for stone in response.outcome.stones)
+
+
+def test_a_block_on_a_slope_slides_at_tan_equal_mu():
+    """Just below the angle of friction a block stays; above it slides with g (sin - mu cos)."""
+    mu, seconds = 0.4, 4.0
+    flat = block(0.5, mu=mu)
+    ramp = np.minimum(np.arange(0.0, seconds, 0.01), 1.0)
+    below = solve_stack(flat, slope(ramp * math.atan(0.998 * mu)))
+    assert below.outcome.stones[0].residual_slip_m < 1e-3
+    angle = math.atan(1.2 * mu)
+    above = solve_stack(flat, slope(ramp * angle))
+    time, x = above.time, above["block_x"]
+    inside = (time > 1.2) & (time < seconds - 0.1)
+    acceleration = 2.0 * np.polynomial.Polynomial.fit(time[inside], x[inside], 2).convert().coef[2]
+    assert acceleration == pytest.approx(-G * (math.sin(angle) - mu * math.cos(angle)), rel=1e-4)
+    just = math.atan(1.002 * mu)
+    assert solve_stack(flat, slope(ramp * just)).outcome.stones[0].residual_slip_m > 0.02
+
+
+def test_slow_tilt_overturns_at_the_exact_angle():
+    """A ground tilted ever so slowly lets the block go at tan = B/H, to 0.1 %, towards the lower side."""
+    ratio = 3.0
+    critical = math.atan(1.0 / ratio)
+    time = np.arange(0.0, 20.0, 0.01)
+    response = solve_stack(block(ratio, mu=2.0), slope(critical * (0.97 + 0.06 * time / 20.0)), points=2, contact=STIFF)
+    tilt = response["block_tilt"]
+    leaves = response.time[np.argmax(tilt > 2e-3)]
+    assert response.outcome.overturned == ("block",)
+    assert 0.97 + 0.06 * leaves / 20.0 == pytest.approx(1.0, abs=3e-3)
+    assert abs(response.outcome.stones[0].fell_towards_deg) == pytest.approx(180.0, abs=1.0)
+
+
+@pytest.mark.parametrize("hertz", [1.0, 2.5])
+def test_mirrored_shaking_gives_the_mirror_image(hertz):
+    """Shaking to the other side moves every stone to the other side, to the last bit while they stand."""
+    motion = sine(6.0, hertz, 3.0)
+    there = solve_stack(read_pile("wagata"), motion, stop_at_fall=True)
+    back = solve_stack(read_pile("wagata"), Motion(-motion.acceleration, motion.dt), stop_at_fall=True)
+    assert there.outcome.overturned == back.outcome.overturned
+    for name in there.body.names:
+        np.testing.assert_array_equal(there[f"{name}_x"], -back[f"{name}_x"])
+        np.testing.assert_array_equal(there[f"{name}_z"], back[f"{name}_z"])
+        np.testing.assert_array_equal(there[f"{name}_tilt"], back[f"{name}_tilt"])
+
+
+def test_turning_pile_and_shaking_by_a_right_angle_changes_nothing():
+    """A square pile shaken along y does what it does along x."""
+    stones = (PileStone("foot", 0.5, 0.5, 0.2), PileStone("head", WIDTH, WIDTH, 0.7, on="foot"))
+    along = sine(5.0, 1.5, 3.0)
+    across = Motion(along.acceleration[[1, 0, 2]], along.dt)
+    one, other = (solve_stack(Gravestone("two", stones), motion, stop_at_fall=True) for motion in (along, across))
+    assert one.outcome.overturned == other.outcome.overturned == ("head",)
+    np.testing.assert_allclose(one["head_x"], other["head_y"], atol=1e-9)
+
+
+@pytest.mark.parametrize("reinforced", [False, True])
+def test_energy_never_grows_and_momentum_is_kept(reinforced):
+    """What friction and dashpots have taken never falls, through rocking, falling and coming to rest; momentum is the impulse."""
+    rng = np.random.default_rng(3)
+    shaking = rng.normal(size=(3, 800)) * np.array([[6.0], [6.0], [3.0]]) * np.hanning(800)
+    response = solve_stack(read_pile("wagata", reinforced=reinforced), Motion(np.cumsum(shaking, axis=1) * 0.2, 0.01))
+    outcome = response.outcome
+    assert outcome.created_j < 1e-6 * outcome.lost_j
+    assert outcome.momentum_error < 1e-12
+    assert outcome.overturned_any
+
+
+def test_a_toppled_block_comes_to_lie_on_its_side():
+    """A block pushed over ends on the ground, flat on its side, sunk by its weight on the springs and no more."""
+    response = solve_stack(block(3.0), Motion.from_arrays(np.zeros(3), 0.01), tilts={"block": 0.4})
+    fate = response.outcome.stones[0]
+    assert (fate.state, fate.fell_onto) == ("fallen", "ground")
+    assert fate.residual_tilt_rad == pytest.approx(math.pi / 2, abs=2e-3)
+    assert response["block_z"][-1] == pytest.approx(WIDTH / 2, abs=1e-3)
+    assert fate.fell_towards_deg == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_free_body_keeps_its_energy():
+    """A block that turns about all its axes in the air keeps its energy until it lands."""
+    from seisblock.solvers.stack_arrays import pile_arrays
+    from seisblock.solvers.stack_frames import L, X, orient, spin
+    from seisblock.solvers.stack_step import drift, energy_of, kick
+
+    pile = pile_arrays(block(2.0), PileContact(), 2)
+    bodies = pile.bodies.copy()
+    bodies[0, X + 2] = 100.0
+    bodies[0, L : L + 3] = pile.inert[0, 1] * np.array([3.0, 1.0, -2.0])
+    orient(bodies[0])
+    spin(bodies[0], pile.inert[0])
+    before = energy_of(1, bodies, pile.inert, 0.0)
+    for _ in range(2000):
+        kick(1, bodies, pile.inert, 0.0, 0.0, 0.0, 1e-3)
+        drift(1, bodies, pile.inert, 1e-3)
+    assert energy_of(1, bodies, pile.inert, 0.0) == pytest.approx(before, rel=1e-6)
+
+
+@pytest.mark.parametrize(("shift", "falls"), [(0.85, False), (1.15, True)])
+def test_a_stone_pushed_over_the_edge_falls_when_its_centre_passes_it(shift, falls):
+    """A slab slid over the border of a post tips over it once its centre of gravity is beyond, and not before."""
+    post, slab = PileStone("post", 0.3, 0.3, 0.3), PileStone("slab", 0.3, 0.3, 0.06, on="post", mu=0.001)
+    # a base that jumps to the side by the distance wanted: the slab, almost without friction, stays behind
+    distance, seconds, dt = shift * 0.15, 0.25, 0.002
+    pulse = sine(1.0, 1.0 / seconds, seconds, dt).acceleration[0]
+    pulse = np.append(pulse, np.zeros(round(1.0 / dt)))
+    moved = np.cumsum(np.cumsum(pulse)) * dt * dt
+    body = replace(Gravestone("ledge", (post, slab)), fixed=("post",))
+    response = solve_stack(body, Motion.from_arrays(-pulse * distance / moved[-1], dt), contact=PileContact(stiffness=3e8))
+    assert response.outcome.overturned == (("slab",) if falls else ())
+    if falls:
+        assert response.outcome.stones[1].fell_onto == "ground"
+    assert response.outcome.created_j < 1e-3
+
+
+def test_vertical_and_transverse_motion_can_be_left_out():
+    """Without them a run is that of the first row alone."""
+    rng = np.random.default_rng(5)
+    full = Motion(rng.normal(size=(3, 200)), 0.01)
+    alone = Motion.from_arrays(full.horizontal, 0.01)
+    left_out = solve_stack(block(), full, vertical=False, across=False)
+    np.testing.assert_array_equal(left_out["block_x"], solve_stack(block(), alone)["block_x"])
+    assert not np.array_equal(solve_stack(block(), full)["block_x"], left_out["block_x"])
+
+
+def test_halving_the_step_changes_little():
+    """The default step has converged: half of it gives the same rocking to 1 %."""
+    motion = sine(4.0, 2.0, 2.0)
+    body = read_pile("wagata")
+    coarse = solve_stack(body, motion)
+    fine = solve_stack(body, motion, step=0.5 * coarse.outcome.step_s)
+    assert fine.outcome.max_tilt_rad["sao"] == pytest.approx(coarse.outcome.max_tilt_rad["sao"], rel=0.01)
+
+
+def test_a_step_too_coarse_is_refused():
+    """A step beyond the stability of the stiffest contact is an error that says what would do."""
+    with pytest.raises(ParameterError, match="too coarse for the stiffest contact"):
+        solve_stack(block(), sine(1.0, 1.0, 0.1), step=0.01)
+    with pytest.raises(ParameterError, match="too coarse"):
+        solve_stack(block(), sine(1.0, 1.0, 0.1), step=-1.0)
+
+
+def test_created_energy_is_an_error(monkeypatch):
+    """A run that creates energy is refused, whatever it answers."""
+    from seisblock.solvers import stack_outcome
+
+    monkeypatch.setattr(stack_outcome, "CREATED_AT_MOST", -1.0)
+    with pytest.raises(SolverError, match="give a smaller --step"):
+        solve_stack(block(), sine(1.0, 1.0, 0.1))
+    assert CREATED_AT_MOST == 1e-3
+
+
+def test_options_out_of_range_are_refused():
+    """Gravity, points and stones that are not there are one sentence each."""
+    motion = sine(1.0, 1.0, 0.1)
+    with pytest.raises(ParameterError, match="gravity must be positive"):
+        solve_stack(block(), motion, gravity=0.0)
+    with pytest.raises(ParameterError, match="at least 2 points"):
+        solve_stack(block(), motion, points=1)
+    with pytest.raises(ParameterError, match="no free stone is called 'nose'"):
+        solve_stack(block(), motion, tilts={"nose": 0.1})

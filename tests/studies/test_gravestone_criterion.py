@@ -1,0 +1,82 @@
+"""The criterion study of gravestones: its fits, its grid, and taking it up again."""
+
+import json
+
+import pytest
+
+from seisblock.bodies.gravestone import Gravestone, PileStone
+from seisblock.criteria.gravestones import PLAIN, overturning_level
+from seisblock.errors import ParameterError, RecordFormatError
+from seisblock.studies.gravestone_criterion import (
+    FREQUENCIES_HZ,
+    PGAS,
+    RATIOS,
+    Threshold,
+    criterion_study,
+    fitted_criterion,
+    fitted_levels,
+    rigid_levels,
+    sine_base,
+    with_top,
+)
+from seisblock.units import SUN
+
+SAO = Gravestone("sao", (PileStone("sao", 8 * SUN, 8 * SUN, 20 * SUN),), mu=2.0)
+SMALL = {"frequencies": (1.0,), "pgas": (2.0, 4.0), "ratios": (2.0, 3.0, 4.0), "points": 2, "duration": 3.0}
+
+
+def test_the_grid_is_the_papers():
+    """13 amplitudes of 100 to 1300 gal, 6 frequencies, 29 stones of H/B 1.25 to 6.5 (section 3, table 1)."""
+    assert (len(PGAS), PGAS[0], PGAS[-1]) == (13, pytest.approx(1.0), pytest.approx(13.0))
+    assert (FREQUENCIES_HZ[0], FREQUENCIES_HZ[-1], len(FREQUENCIES_HZ)) == (0.5, 3.0, 6)
+    assert (len(RATIOS), RATIOS[0], RATIOS[-1]) == (29, 1.25, 6.5)
+    assert with_top(SAO, 6.5).stones[-1].height == pytest.approx(52 * SUN)
+    assert sine_base(1.0, 3.0).time[-1] == pytest.approx(20.0)
+
+
+def test_exact_thresholds_give_their_level_back():
+    """Thresholds on a hyperbola of level a(f) fit a(f), and levels of eq. (9) fit its p, q, r."""
+    levels = {f: float(overturning_level(f, PLAIN)) for f in FREQUENCIES_HZ}
+    thresholds = [Threshold(f, a, levels[f] / a) for f in FREQUENCIES_HZ for a in PGAS]
+    assert fitted_levels(thresholds) == pytest.approx(levels)
+    fit = fitted_criterion(levels)
+    assert (fit.p_m_s2, fit.q_hz, fit.r) == pytest.approx((PLAIN.p_m_s2, PLAIN.q_hz, PLAIN.r), rel=1e-4)
+    assert fitted_criterion({1.0: 8.0, 2.0: 12.0}) is None
+
+
+def test_a_study_can_be_taken_up_again(tmp_path):
+    """Finished sines are not run again, a half-written last line is, and the answer is the same."""
+    held = tmp_path / "study.jsonl"
+    whole = criterion_study(SAO, **SMALL, resume=held)
+    assert [t.ratio for t in whole.thresholds] == [None, 3.0]
+    lines = held.read_text(encoding="utf-8").splitlines()
+    marked = json.loads(lines[0])
+    marked["ratio"] = 9.0
+    held.write_text(json.dumps(marked) + "\n" + lines[1][:20], encoding="utf-8")
+    told = []
+    again = criterion_study(SAO, **SMALL, resume=held, progress=lambda done, total: told.append((done, total)))
+    assert [t.ratio for t in again.thresholds] == [9.0, 3.0]
+    assert told == [(2, 2)]
+    assert criterion_study(SAO, **SMALL, resume=held).thresholds == again.thresholds
+
+
+def test_files_of_another_study_are_refused(tmp_path):
+    """What belongs to another pile, or is no study, is one sentence, and stays as it is."""
+    held = tmp_path / "study.jsonl"
+    criterion_study(SAO, **SMALL, resume=held)
+    before = held.read_text(encoding="utf-8")
+    with pytest.raises(ParameterError, match="belongs to a study of another pile"):
+        criterion_study(Gravestone("another", SAO.stones), **SMALL, resume=held)
+    assert held.read_text(encoding="utf-8") == before
+    held.write_text("nothing\n" + before, encoding="utf-8")
+    with pytest.raises(RecordFormatError, match="line 1"):
+        criterion_study(SAO, **SMALL, resume=held)
+    with pytest.raises(ParameterError, match="at least one"):
+        criterion_study(SAO, pgas=())
+
+
+def test_one_stone_falls_where_the_rigid_block_does():
+    """At 1 Hz the level of one stone on 5 x 5 points is near that of a rigid block with pivots at 0.8."""
+    study = criterion_study(SAO, frequencies=(1.0,), pgas=(3.0, 5.0), ratios=RATIOS, duration=6.0)
+    rigid = rigid_levels(study, width=8 * SUN, points=5)
+    assert study.levels[1.0] == pytest.approx(rigid[1.0], rel=0.06)
