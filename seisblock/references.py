@@ -177,8 +177,8 @@ CITED: dict[str, tuple[str, ...]] = {
     "uplift": ("Okumura1987",),
     "criteria": ("Housner1963", "Ishiyama1982", "Tsutsui", "Furukawa2009", "Fujino1978"),
     "spectrum": ("Housner1963", "Zhang2001"),
-    "overturn-rate": ("Furukawa2009",),
-    "infer": ("Furukawa2009",),
+    "overturn-rate": ("Furukawa2009", "Housner1963"),
+    "infer": ("Furukawa2009", "Midorikawa1999", "Fujino1978", "Sugimoto2017"),
     "stack": ("Furukawa2009",),
 }
 """What each command's answers may rely on; one answer's own list stands in its document."""
