@@ -104,7 +104,15 @@ def _one(
     emit(
         response_answer("slide", responses, dict(responses[0].options), extra=extra), output, responses=responses,
         tables=lambda: shown.tables(responses, sweep), figure=lambda: shown.figure(responses),
+        animation=lambda path, filming: _film(responses[0], path, filming),
     )  # fmt: skip
+
+
+def _film(response: Any, path: Any, filming: Any) -> None:
+    """Write the animation of the first direction."""
+    from seisblock.present.slide_film import animate_slide
+
+    animate_slide(response, path, filming)
 
 
 def _study(

@@ -13,6 +13,7 @@ from seisblock.bodies.block import Block
 from seisblock.criteria.card import ACCELERATION, Row
 from seisblock.measures import ComponentMeasures
 from seisblock.present.files import write_table
+from seisblock.present.rock import way_to_alpha
 from seisblock.present.tables import acceleration_unit, number, record_line, table
 from seisblock.records import Record
 from seisblock.solvers.rock_outcome import RockOutcome
@@ -59,7 +60,7 @@ def simulated(card: Card) -> str:
     if outcome.overturned:
         said = f"overturns to {outcome.overturned_towards}"
     elif outcome.rocks:
-        said = f"rocks and stands, {outcome.max_rotation_ratio:.0%} of the way to alpha"
+        said = f"rocks and stands: {way_to_alpha(outcome.max_rotation_ratio)}"
     else:
         said = "stands still"
     flag = "; a change of the record by less than 2 % changes this" if outcome.verdict_flips_within_2_percent else ""

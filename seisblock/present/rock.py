@@ -68,7 +68,7 @@ def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iter
     if not outcome.rocks:
         verdict = "stands still"
     elif not outcome.overturned:
-        verdict = f"rocks and stands: {outcome.max_rotation_ratio:.0%} of the way to alpha"
+        verdict = f"rocks and stands: {way_to_alpha(outcome.max_rotation_ratio)}"
     else:
         late = ", after the record's end" if outcome.decided_after_record else ""
         verdict = f"overturns to {outcome.overturned_towards}{late}"
@@ -80,6 +80,11 @@ def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iter
         found = extra["perturbation"]
         low, high = found.probability_interval
         yield f"  overturns in {found.overturned} of {found.runs} perturbed runs: {found.probability:.3f} (95 %: {low:.3f} to {high:.3f})."
+
+
+def way_to_alpha(ratio: float) -> str:
+    """Return how far a block leaned, in words."""
+    return f"{ratio:.0%} of the way to alpha" if ratio >= 0.01 else "it hardly moves, less than 1% of the way to alpha"
 
 
 def _margin_lines(margin: Any) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from seisblock.present.animation import REAL_TIME, Filming
 from seisblock.present.film import Body, Film, Piece, Strip, animate_film, at, ground_shift, rectangle, turned
 from seisblock.present.rock import COLOURS, stretch
 from seisblock.results import Response
+from seisblock.solvers.rock import solve_rock
 from seisblock.solvers.rock_outcome import RockOutcome
 from seisblock.typing import FloatArray
 
@@ -54,6 +56,19 @@ def rocking_film(response: Response[RockOutcome], times: FloatArray) -> Film:
         phases=response.phases,
         colours=COLOURS,
     )
+
+
+def to_the_end(response: Response[RockOutcome]) -> Response[RockOutcome]:
+    """Return the response with the fall that follows the record, when the block overturns only then."""
+    outcome, motion, options = response.outcome, response.motion, response.options
+    if not (outcome.decided_after_record and outcome.overturning_time_s is not None):
+        return response
+    still = math.ceil((outcome.overturning_time_s - response.time[-1]) / motion.dt) + 2
+    longer = replace(motion, acceleration=np.pad(motion.acceleration, ((0, 0), (0, still))))
+    return solve_rock(
+        longer, response.body, restitution=options["restitution"], linear=options["linear"], vertical=options["vertical"],
+        gravity=options["gravity_m_s2"], initial=(float(response["rotation"][0]), float(response["angular_velocity"][0])),
+    )  # fmt: skip
 
 
 def corners(block: Block, theta: float) -> FloatArray:

@@ -60,6 +60,8 @@ PHRASES = {
     "impact": "衝突",
     "slides to +x": "+x へ滑動",
     "slides to -x": "-x へ滑動",
+    "slip forward": "+x へ滑動",
+    "slip backward": "-x へ滑動",
     "sliding": "滑動",
     "stick": "固着",
     "overturns": "転倒",

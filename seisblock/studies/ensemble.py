@@ -46,9 +46,13 @@ def in_threads(
     """
     remaining = iter(items)
     finished = 0
-    with ThreadPoolExecutor(workers or cores()) as pool:
+    pool = ThreadPoolExecutor(workers or cores())
+    try:
         while chunk := list(itertools.islice(remaining, CHUNK)):
             yield from pool.map(work, chunk)
             finished += len(chunk)
             if progress is not None:
                 progress(finished, len(items))
+    finally:
+        # an interruption waits for the runs under way, not for those that have not begun
+        pool.shutdown(cancel_futures=True)

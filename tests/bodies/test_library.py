@@ -1,0 +1,86 @@
+"""Blocks come from sizes, TOML files and bundled bodies; what is wrong in them is said in one sentence."""
+
+import math
+
+import pytest
+
+from seisblock.bodies.block import Block, resized
+from seisblock.bodies.library import block_of, choose_block, described, load_block
+from seisblock.errors import BodyError, InputError, ParameterError
+
+
+def test_bundled_gravestone():
+    """8 sun wide, H/B 2.6, as on the shaking table of [Furukawa2009]_."""
+    block = load_block("gravestone")
+    assert block.width == pytest.approx(0.2424)
+    assert block.height / block.width == pytest.approx(2.6)
+    assert block.total_mass == pytest.approx(2650 * 0.2424**2 * 0.2424 * 2.6)
+
+
+@pytest.mark.parametrize("side", ["short", "long"])
+def test_two_layer_body_keeps_mass_centre_and_inertia(side):
+    """I_O of the Chozu-sha as printed in [Sugimoto2017]_: 9736.24 and 10674.76 kg m^2."""
+    block = load_block("chozusha", side=side)
+    assert block.total_mass == pytest.approx(1463.7)
+    assert block.corner_inertias[0] == pytest.approx({"short": 9736.24, "long": 10674.76}[side], abs=5e-3)
+
+
+def test_units_and_everything_a_block_takes(tmp_path):
+    """Sizes with units, mass, centre, offset, inertia and a name."""
+    path = tmp_path / "statue.toml"
+    path.write_text(
+        'kind = "block"\nname = "statue"\nwidth = "40cm"\nheight = 1.6\ndepth = "1shaku"\nmass = "0.3t"\n'
+        'centroid_height = "700mm"\ncentroid_offset = "-2cm"\ncentroid_inertia = 60\n'
+    )
+    block = load_block(path)
+    assert block == Block(0.4, 1.6, 0.303, 300.0, centroid_height=0.7, centroid_offset=-0.02, centroid_inertia=60.0, name="statue")
+    told = described(block)
+    assert told["mass_kg"] == 300.0
+    assert told["slenderness_right_rad"] == pytest.approx(math.atan(0.22 / 0.7))
+
+
+@pytest.mark.parametrize(
+    ("table", "says"),
+    [
+        ({}, "expected kind"),
+        ({"kind": "vase", "width": 1, "height": 1}, "expected kind"),
+        ({"kind": "block", "height": 1}, "width is missing"),
+        ({"kind": "block", "width": "wide", "height": 1}, "width"),
+        ({"kind": "block", "width": 1, "height": -1}, "height must be positive"),
+        ({"kind": "block", "width": 1, "height": 1, "colour": "grey"}, "unknown entries colour"),
+        ({"kind": "block", "width": 1, "height": 1, "density": "heavy"}, "density must be a number"),
+        ({"kind": "block", "width": 1, "height": 1, "centroid_inertia": True}, "centroid_inertia must be a number"),
+    ],
+)
+def test_wrong_tables_are_refused(table, says):
+    """One sentence each."""
+    with pytest.raises(InputError, match=says):
+        block_of(table)
+
+
+def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
+    """A file may bring its restitution; the option overrides it; nonsense is refused."""
+    path = tmp_path / "b.toml"
+    path.write_text('kind = "block"\nwidth = 0.2\nheight = 1.0\nrestitution = 0.8\n')
+    assert choose_block({"block": str(path)}).restitution == 0.8
+    assert choose_block({"block": str(path), "restitution": 0.6}).restitution == 0.6
+    path.write_text('kind = "block"\nwidth = 0.2\nheight = 1.0\nrestitution = "most"\n')
+    with pytest.raises(ParameterError, match="restitution must be a number"):
+        choose_block({"block": str(path)})
+
+
+@pytest.mark.parametrize(
+    ("asked", "says"),
+    [({}, "--width and --height missing"), ({"width": 0.2}, "--height missing"), ({"block": "gravestone", "mass": 3.0}, "not both"),
+     ({"block": "obelisk"}, "no body file obelisk")],
+)  # fmt: skip
+def test_incomplete_choices_are_refused(asked, says):
+    """The message says what is missing."""
+    with pytest.raises(BodyError, match=says):
+        choose_block(asked)
+
+
+def test_resizing_a_given_mass_keeps_what_was_given():
+    """A mass that was given stays; its inertia scales with the square of the size."""
+    block = resized(Block(0.4, 1.0, mass=100.0, centroid_inertia=9.0), size=2.0)
+    assert (block.total_mass, block.centroid_inertia) == (100.0, 36.0)
