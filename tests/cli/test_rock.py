@@ -175,3 +175,14 @@ def test_fragile_verdict_is_said_everywhere(run):
     assert any("2 %" in text for text in found["warnings"])
     assert "2 % changes this" in " ".join(shown.stdout.split())
     assert "2 %" in shown.stderr
+
+
+def test_animation_of_the_first_component(run, pulse, tmp_path):
+    """--animate writes a film; a suffix that is none is refused, and nothing is left behind."""
+    words = (pulse, "--width", 0.24, "--height", 0.8, "--component", "NS", "--animate")
+    assert run(*words, "rock.html").exit_code == 0
+    assert (tmp_path / "rock.html").read_text().startswith("<!doctype html>")
+    refused = run(*words, "rock.avi")
+    assert refused.exit_code == 3
+    assert ".gif, .mp4, .html" in refused.stderr
+    assert not list(tmp_path.glob("*.avi"))

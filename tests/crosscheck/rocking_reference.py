@@ -49,7 +49,7 @@ def events(a, av, dt, arms, h, gyration_squared, restitution, until=math.pi / 2,
             start = None
             for corner in (1, -1):
                 slack = [ground(time)[1] * arm[corner] / h + corner * ground(time)[0] for time in (t, end)]
-                if slack[1] < 0:
+                if min(slack) < 0:
                     share = slack[0] / (slack[0] - slack[1]) if slack[0] > 0 else 0.0
                     moment = t + share * (end - t)
                     if start is None or moment < start[0]:

@@ -40,3 +40,20 @@ def test_event_times_up_to_overturning(name):
     assert (theirs[-1][1] == "overturns") is overturns
     assert len(theirs) > 3
     np.testing.assert_allclose([when for when, _ in mine], [when for when, _ in theirs], rtol=0, atol=1e-8)
+
+
+@pytest.mark.parametrize("dt", [0.25, 0.1, 0.02, 0.002])
+def test_any_sampling_interval(dt):
+    """Random shaking, from a quarter of a second between samples to two milliseconds, with vertical motion: the same events."""
+    rng = np.random.default_rng(round(1000 * dt))
+    n = max(round(6 / dt), 30)
+    knots = np.arange(0.0, n * dt + 0.3, 0.3)
+    a = 2.2 * np.interp(np.arange(n) * dt, knots, rng.normal(size=knots.size))
+    vertical = rng.normal(size=n)
+    block = Block(0.6, 2.0)
+    ours = solve_rock(Motion.from_arrays(a, dt, vertical=vertical), block, vertical=True, gravity=GRAVITY)
+    theirs = events(a, vertical, dt, block.arms, block.centre, block.gyration_squared, block.restitutions)
+    mine = [(event.time_s, event.name) for event in ours.events if "alpha" not in event.name]
+    assert [what for _, what in mine] == [what for _, what in theirs]
+    assert len(theirs) > 2
+    np.testing.assert_allclose([when for when, _ in mine], [when for when, _ in theirs], rtol=0, atol=1e-8)
