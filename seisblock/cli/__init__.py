@@ -24,6 +24,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "slide": ("seisblock.cli.slide:slide", "Sliding on a level or sloping base, with Coulomb friction."),
     "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
     "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with its margins."),
+    "report": ("seisblock.cli.report:report", "One page about a record and what it does to some bodies."),
     "samples": ("seisblock.cli.samples:samples", "The bundled records and bodies: list them, copy them."),
     "cite": ("seisblock.cli.cite:cite", "The papers an answer relies on, as text or BibTeX."),
     "completion": ("seisblock.cli.completion:completion", "Completion of commands and options for bash, zsh and fish."),

@@ -1,0 +1,105 @@
+"""What a report is about: one body as every model that can follow it sees it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.files import read_table
+from seisblock.bodies.library import choose_block
+from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
+from seisblock.bodies.spring_choice import PAPER_BETA, PAPER_DAMPING
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact, two_layer_block
+from seisblock.errors import BodyError
+from seisblock.units import parse_length
+
+_SIZES = re.compile(r"^\s*([\d.]+\s*[^\W\d]*?)\s*[x×X]\s*([\d.]+\s*[^\W\d]*)\s*$")
+
+
+@dataclass(frozen=True)
+class Subject:
+    """One body.
+
+    Parameters
+    ----------
+    name : str
+    block : Block
+        As one rigid block, for rocking.
+    restitution : float or None
+        Its own; None for that of its angular momentum.
+    layers, contact : TwoLayerBlock, Contact, or None
+        As a two-layer block, for the jump.
+    springs : SpringBlock or None
+        On corner springs, for uplift.
+    mu, mu_kinetic : float or None
+        Friction under it, for sliding; None when nothing is known of it.
+    """
+
+    name: str
+    block: Block
+    restitution: float | None = None
+    layers: TwoLayerBlock | None = None
+    contact: Contact | None = None
+    springs: SpringBlock | None = None
+    mu: float | None = None
+    mu_kinetic: float | None = None
+
+
+def subject(
+    text: str, *, side: str = "short", mu: float | None = None, mu_kinetic: float | None = None, frequency_vertical: float | None = None
+) -> Subject:
+    """Return the body a text names.
+
+    Parameters
+    ----------
+    text : str
+        A bundled body, a TOML file, or a width and a height such as ``24cmx72cm``.
+    side : "short" or "long"
+        Side of a two-layer body along the motion.
+    mu, mu_kinetic : float
+        Friction under the body; a body's own where left out.
+    frequency_vertical : float, Hz
+        Vertical frequency on corner springs, for uplift, with the horizontal stiffness and damping of [Okumura1987]_'s figures.
+
+    Raises
+    ------
+    BodyError
+        If there is no such body, or its sizes are not possible.
+
+    Examples
+    --------
+    >>> subject("24cm x 72cm").block.height
+    0.72
+    """
+    sizes = _SIZES.match(text)
+    layers = own = None
+    if sizes:
+        width, height = (parse_length(part, what=f"body {text}") for part in sizes.groups())
+        chosen = choose_block({"width": width, "height": height})
+        name = f"block {width:g} x {height:g} m"
+    else:
+        table = read_table(text)
+        if table.get("kind") not in ("block", "two-layer"):
+            raise BodyError(f"{text} is no body of one piece: expected kind block or two-layer, found {table.get('kind')!r}")
+        chosen = choose_block({"block": text, "side": side})
+        name = chosen.block.name
+        if table["kind"] == "two-layer":
+            layers, found = two_layer_block(table, side), contact(table)
+            own = Contact(**found) if len(found) == 4 else None
+    static = mu if mu is not None else (own.mu if own else None)
+    kinetic = mu_kinetic if mu_kinetic is not None else (own.mu_kinetic if own and mu is None else static)
+    return Subject(
+        name, chosen.block, chosen.restitution, layers if own else None, own, _on_springs(chosen.block, frequency_vertical), static, kinetic
+    )
+
+
+def _on_springs(block: Block, frequency: float | None) -> SpringBlock | None:
+    """Return the block on corner springs of a vertical frequency, Hz."""
+    if frequency is None:
+        return None
+    depth = block.width if block.depth is None else block.depth
+    mass = block.mass or REFERENCE_MASS
+    return SpringBlock.from_frequency(
+        block.width, depth, block.height, frequency_vertical=frequency, beta=PAPER_BETA, mass=mass, damping=PAPER_DAMPING
+    )  # fmt: skip

@@ -1,0 +1,100 @@
+"""``seisblock report``: one page with everything about a record and some bodies, in two languages, that fetches nothing."""
+
+import re
+import string
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.bodies.library import load_block
+from seisblock.bodies.subjects import subject
+from seisblock.cli import main
+from seisblock.present.report import report
+from seisblock.present.report_words import told
+from seisblock.present.words import SENTENCES
+from seisblock.readers import read, sample_path
+from seisblock.records import motion_of
+from seisblock.records.process import crop
+from seisblock.solvers.rock import solve_rock
+from seisblock.studies.assessment import assess
+
+
+@pytest.fixture(scope="module")
+def pages():
+    """The page of a window of the bundled record, in both languages, with all four kinds of motion."""
+    bodies = [subject("gravestone"), subject("chozusha", frequency_vertical=5.0)]
+    found = assess(crop(read("synthetic_jma.csv"), 22, 29), bodies, components=["EW"])
+    return {lang: report(found, lang=lang, command="seisblock report") for lang in ("en", "ja")}
+
+
+def test_the_page_opens_without_network(pages):
+    """Every picture is data, and no style or script comes from elsewhere."""
+    for page in pages.values():
+        sources = re.findall(r'src="([^"]{0,30})', page)
+        assert len(sources) >= 8 and all(source.startswith("data:image/") for source in sources)
+        assert not re.search(r"<link|<script|@import|url\(", page)
+        assert len(page) < 4_000_000
+
+
+def test_it_is_readable_on_a_phone_and_on_paper(pages):
+    """It tells the width of the device, and has a style of its own for print."""
+    assert 'name="viewport"' in pages["en"] and "@media print" in pages["en"]
+    assert '<html lang="en">' in pages["en"] and '<html lang="ja">' in pages["ja"]
+
+
+def test_it_holds_every_section(pages):
+    """Record, measures, rocking, criteria, sliding, jump, uplift, provenance."""
+    for heading in (
+        "The record", "gravestone", "Chozu-sha, short side", "Rocking and overturning", "Criteria beside the simulation", "Sliding",
+        "Jump of the two-layer block", "Uplift from corner springs", "Where this comes from",
+    ):  # fmt: skip
+        assert re.search(rf"<h[23]>{re.escape(heading)}</h[23]>", pages["en"]), heading
+        assert re.search(rf"<h[23]>{re.escape(heading)}</h[23]>", pages["ja"]) is None
+
+
+def test_it_tells_where_it_comes_from(pages):
+    """Digest, format, processing, citations."""
+    record = read(sample_path("synthetic_jma.csv"))
+    assert record.sha256 in pages["en"] and "JMA-CSV" in pages["en"]
+    for key in ("Sugimoto, K.", "Fujino, Y.", "Okumura, T.", "Housner, G. W.", "Furukawa, A."):
+        assert key in pages["en"]
+
+
+def test_its_verdict_is_the_solver_s(pages):
+    """The gravestone overturns, as solve_rock says, and the margin stands beside it."""
+    outcome = solve_rock(motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW"), load_block("gravestone")).outcome
+    assert outcome.overturned
+    assert f"overturns towards {outcome.overturned_towards[0]}EW" in pages["en"]
+    assert f"lies down at {outcome.overturning_time_s:.2f} s" in pages["en"]
+    assert re.search(r"The verdict changes next at \d\.\d{3} times this record", pages["en"])
+    assert "倍より小さければ常に転倒しない" in pages["ja"]
+
+
+def test_what_the_user_must_mend_is_one_sentence(tmp_path):
+    """Bodies that are none, several records, a missing directory."""
+    page = str(tmp_path / "report.html")
+    for words in (["--body", "nosuch"], ["--body", "0cmx10cm"], ["synthetic_jma.csv", "elcentro_1940_ns.csv"], ["--body", "aoyama.csv"]):
+        answer = CliRunner().invoke(main, ["report", *words, "-o", page])
+        assert answer.exit_code == 3 and answer.stderr.splitlines()[-1].startswith("seisblock: ")
+    assert CliRunner().invoke(main, ["report", "--body", "1x2", "-o", str(tmp_path / "no" / "r.html"), "--quiet"]).exit_code == 3
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_record_of_one_component_is_enough(tmp_path):
+    """No vertical, no intensity: the page says what there is."""
+    page = tmp_path / "report.html"
+    answer = CliRunner().invoke(main, ["report", "elcentro_1940_ns.csv", "--body", "0.3x1.2", "--mu", "0.2", "-o", str(page), "--quiet"])
+    assert answer.exit_code == 0 and answer.stderr == ""
+    assert "JMA intensity" not in page.read_text(encoding="utf-8").split("<footer>")[0].split("data:image")[0]
+
+
+def test_translations_have_the_fields_of_their_sentences():
+    """A sentence and its translation are filled with the same values in the same form."""
+
+    def fields(text):
+        return {(name, form) for _, name, form, _ in string.Formatter().parse(text) if name is not None}
+
+    for english, japanese in SENTENCES.items():
+        assert fields(japanese) <= fields(english), english
+        assert not japanese.isascii()
+    assert told("no such sentence", "ja") == "no such sentence"
