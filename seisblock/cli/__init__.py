@@ -22,19 +22,19 @@ from seisblock.errors import SeisblockError
 COMMANDS: dict[str, tuple[str, str]] = {
     "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
     "slide": ("seisblock.cli.slide:slide", "Sliding on a level or sloping base, with Coulomb friction."),
-    "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
     "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with its margins."),
-    "report": ("seisblock.cli.report:report", "One page about a record and what it does to some bodies."),
-    "samples": ("seisblock.cli.samples:samples", "The bundled records and bodies: list them, copy them."),
-    "cite": ("seisblock.cli.cite:cite", "The papers an answer relies on, as text or BibTeX."),
-    "completion": ("seisblock.cli.completion:completion", "Completion of commands and options for bash, zsh and fish."),
-    "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
+    "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),
     "uplift": ("seisblock.cli.uplift:uplift", "Uplift of a block on corner springs: records and harmonic shaking."),
-    "criteria": ("seisblock.cli.criteria:criteria", "Every closed-form criterion of overturning beside the simulated truth."),
     "stack": ("seisblock.cli.stack:stack", "A pile of stones in three dimensions: gravestones, lanterns, columns."),
+    "criteria": ("seisblock.cli.criteria:criteria", "Every closed-form criterion of overturning beside the simulated truth."),
+    "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning of blocks of all sizes and slendernesses."),
     "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Share of the gravestones of a cemetery that fall."),
     "infer": ("seisblock.cli.infer:infer", "Shaking read back from fallen gravestones or displaced objects."),
-    "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning of blocks of all sizes and slendernesses."),
+    "report": ("seisblock.cli.report:report", "One page about a record and what it does to some bodies."),
+    "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
+    "cite": ("seisblock.cli.cite:cite", "The papers an answer relies on, as text or BibTeX."),
+    "samples": ("seisblock.cli.samples:samples", "The bundled records and bodies: list them, copy them."),
+    "completion": ("seisblock.cli.completion:completion", "Completion of commands and options for bash, zsh and fish."),
 }
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
 

@@ -11,24 +11,21 @@ import numpy as np
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics import hybrid
-from seisblock.dynamics.hybrid import MATRIX, RESET, SERIES, SKIP, integrate
+from seisblock.dynamics.arrays import BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX
+from seisblock.dynamics.hybrid import RESET, SERIES, SKIP, integrate
 from seisblock.dynamics.model import FAILURES, Model
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records.motion import Motion
 from seisblock.typing import ArrayLike, FloatArray, IntArray
 
 _t = types()
-_READ_ONLY = _t.Array(_t.float64, 2, "C", readonly=True)
-_BLOCK = _t.Array(_t.float64, 3, "C")
-_INTEGERS = _t.Array(_t.int64, 1, "C")
-_TABLE = _t.Array(_t.int64, 2, "C")
 _COUNTS = _t.Array(_t.int64, 3, "C")
 
 
 @kernel(
     _t.void(
-        _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP), _READ_ONLY, MATRIX, _t.float64, _t.int64, MATRIX, MATRIX,
-        _INTEGERS, _BLOCK, _COUNTS, _TABLE, MATRIX, _INTEGERS,
+        _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP), READ_ONLY_MATRIX, MATRIX, _t.float64,
+        _t.int64, MATRIX, MATRIX, INTEGERS, BLOCK, _COUNTS, INTEGER_TABLE, MATRIX, INTEGERS,
     ),
     allocates=True,
 )  # fmt: skip

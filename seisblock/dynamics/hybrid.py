@@ -23,15 +23,11 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock._jit import kernel, types
+from seisblock.dynamics.arrays import BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX, VECTOR
+from seisblock.dynamics.extrema import HIGHEST, HIGHEST_TIME, LOWEST, LOWEST_TIME, keep, keep_turning_points, may_turn
 from seisblock.dynamics.polynomial import NEVER, evaluate_row, first_crossing, lower_bound_of_row
 
 _t = types()
-VECTOR = _t.Array(_t.float64, 1, "C")
-MATRIX = _t.Array(_t.float64, 2, "C")
-_READ_ONLY = _t.Array(_t.float64, 2, "C", readonly=True)
-_BLOCK = _t.Array(_t.float64, 3, "C")
-_INTEGERS = _t.Array(_t.int64, 1, "C")
-_TABLE = _t.Array(_t.int64, 2, "C")
 
 SERIES = _t.int64(_t.int64, VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
 """series(mode, y, f, p, order, c, g) -> degree.
@@ -46,7 +42,7 @@ RESET = _t.int64(_t.int64, _t.int64, VECTOR, MATRIX, VECTOR)
 CONSTANT = 0
 """Degree of a state that does not move."""
 
-SKIP = _t.int64(_t.int64, _READ_ONLY, VECTOR, _t.int64, VECTOR)
+SKIP = _t.int64(_t.int64, READ_ONLY_MATRIX, VECTOR, _t.int64, VECTOR)
 """skip(mode, acceleration, gains, sample, p) -> a later sample, up to which the state stays as it is and no guard fires."""
 
 
@@ -68,7 +64,6 @@ RECORD_ENDED, STOPPED, TOO_MANY_EVENTS, CHATTERING, NOT_FINITE, STEP_TOO_SMALL =
 EVENT_SAMPLE, EVENT_GUARD, EVENT_FROM, EVENT_TO = range(4)
 INFO_EVENTS, INFO_SAMPLE, INFO_MODE = range(3)
 LAST_TAU, FIRST_EVENT = range(2)
-HIGHEST, HIGHEST_TIME, LOWEST, LOWEST_TIME = range(4)
 
 NO_TALLY = np.empty((0, 0), dtype=np.int64)
 """Asks for no tally."""
@@ -101,46 +96,10 @@ def _step_length(c, n_states, order, h, p, floors):
     return h
 
 
-@kernel(_t.void(MATRIX, _t.int64, _t.float64, _t.float64), inline=True)
-def _keep(extrema, i, value, time):
-    """Widen the extrema of state `i` to hold a value."""
-    if value > extrema[i, HIGHEST]:
-        extrema[i, HIGHEST] = value
-        extrema[i, HIGHEST_TIME] = time
-    if value < extrema[i, LOWEST]:
-        extrema[i, LOWEST] = value
-        extrema[i, LOWEST_TIME] = time
-
-
-@kernel(_t.boolean(MATRIX, _t.int64, _t.int64, _t.float64, MATRIX), inline=True)
-def _may_turn(c, i, degree, h, extrema):
-    """Whether state `i` may reach a new extremum inside a step; False is certain."""
-    bend = 0.0
-    power = 1.0
-    for k in range(2, degree + 1):
-        power *= h
-        bend += k * abs(c[i, k]) * power
-    if bend < abs(c[i, 1]):
-        return False
-    reach = (abs(c[i, 1]) + bend) * h
-    return c[i, 0] + reach > extrema[i, HIGHEST] or c[i, 0] - reach < extrema[i, LOWEST]
-
-
-@kernel(_t.void(MATRIX, _t.int64, _t.int64, _t.float64, _t.float64, MATRIX, VECTOR, VECTOR, VECTOR))
-def _keep_turning_points(c, i, degree, h, now, extrema, rate, q, d):
-    """Widen the extrema of state `i` by its first maximum and first minimum inside a step."""
-    for sign in (1.0, -1.0):
-        for k in range(degree):
-            rate[k] = sign * (k + 1) * c[i, k + 1]
-        at = first_crossing(rate, degree - 1, h, q, d)
-        if at > 0.0:
-            _keep(extrema, i, evaluate_row(c, i, degree, at), now + at)
-
-
 @kernel(
     _t.int64(
-        _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP), _READ_ONLY, VECTOR, _t.float64, _t.int64, _t.float64,
-        _t.int64, VECTOR, VECTOR, _INTEGERS, MATRIX, _INTEGERS, _TABLE, VECTOR, _BLOCK, MATRIX, _TABLE, _INTEGERS, VECTOR,
+        _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP), READ_ONLY_MATRIX, VECTOR, _t.float64, _t.int64, _t.float64,
+        _t.int64, VECTOR, VECTOR, INTEGERS, MATRIX, INTEGERS, INTEGER_TABLE, VECTOR, BLOCK, MATRIX, INTEGER_TABLE, INTEGERS, VECTOR,
     ),
     allocates=True,
 )  # fmt: skip
@@ -249,14 +208,14 @@ def integrate(
             if h > 0.0:
                 if degree > CONSTANT:
                     for i in range(n_tracked):
-                        if _may_turn(c, i, degree, h, extrema):
-                            _keep_turning_points(c, i, degree, h, sample * dt + tau, extrema, rate, q, d)
+                        if may_turn(c, i, degree, h, extrema):
+                            keep_turning_points(c, i, degree, h, sample * dt + tau, extrema, rate, q, d)
                     for i in range(n_states):
                         y[i] = evaluate_row(c, i, degree, h)
                         if not abs(y[i]) < OFF:
                             status = NOT_FINITE
                     for i in range(n_tracked):
-                        _keep(extrema, i, y[i], sample * dt + tau + h)
+                        keep(extrema, i, y[i], sample * dt + tau + h)
                 if tau + h > tau:
                     repeated = 0
             if status != RECORD_ENDED:
@@ -282,7 +241,7 @@ def integrate(
                     status = TOO_MANY_EVENTS
                     break
                 for i in range(n_tracked):
-                    _keep(extrema, i, y[i], sample * dt + tau)
+                    keep(extrema, i, y[i], sample * dt + tau)
                 if found == 0:
                     end[FIRST_EVENT] = sample * dt + tau
                 if tally.shape[0] > 0:

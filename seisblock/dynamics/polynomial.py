@@ -10,10 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock._jit import kernel, types
+from seisblock.dynamics.arrays import MATRIX, VECTOR
 
 _t = types()
-_VECTOR = _t.Array(_t.float64, 1, "C")
-_MATRIX = _t.Array(_t.float64, 2, "C")
 
 ROUND_OFF = 1e-14
 """A polynomial is taken as zero where it is below this share of the sum of its terms."""
@@ -22,7 +21,7 @@ NEVER = -1.0
 """Answer of :func:`first_crossing` when there is none."""
 
 
-@kernel(_t.float64(_VECTOR, _t.int64, _t.float64), inline=True)
+@kernel(_t.float64(VECTOR, _t.int64, _t.float64), inline=True)
 def evaluate(c, degree, t):
     """Return the value of a polynomial at `t` (Horner)."""
     value = c[degree]
@@ -31,7 +30,7 @@ def evaluate(c, degree, t):
     return value
 
 
-@kernel(_t.void(_VECTOR, _t.int64, _t.float64), inline=True)
+@kernel(_t.void(VECTOR, _t.int64, _t.float64), inline=True)
 def shift(c, degree, t):
     """Move the origin of a polynomial to `t`, in place (Taylor shift by synthetic division)."""
     for first in range(degree):
@@ -39,7 +38,7 @@ def shift(c, degree, t):
             c[k] += t * c[k + 1]
 
 
-@kernel(_t.float64(_VECTOR, _t.int64, _t.float64), inline=True)
+@kernel(_t.float64(VECTOR, _t.int64, _t.float64), inline=True)
 def lower_bound(c, degree, h):
     """Return a lower bound of a polynomial on [0, h]: its chord's lower end less all higher terms."""
     if degree == 0:
@@ -52,7 +51,7 @@ def lower_bound(c, degree, h):
     return bound
 
 
-@kernel(_t.float64(_MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
+@kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
 def evaluate_row(c, i, degree, t):
     """Return the value at `t` of the polynomial in row `i`; a slice ``c[i]`` would cost reference counting."""
     value = c[i, degree]
@@ -61,7 +60,7 @@ def evaluate_row(c, i, degree, t):
     return value
 
 
-@kernel(_t.float64(_MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
+@kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
 def lower_bound_of_row(c, i, degree, h):
     """Return :func:`lower_bound` of the polynomial in row `i`."""
     if degree == 0:
@@ -74,7 +73,7 @@ def lower_bound_of_row(c, i, degree, h):
     return bound
 
 
-@kernel(_t.float64(_VECTOR, _t.int64, _t.float64))
+@kernel(_t.float64(VECTOR, _t.int64, _t.float64))
 def _root_between(c, degree, high):
     """Return the root in [0, high] of a polynomial that falls from positive to negative there (Newton inside a bracket)."""
     if c[0] <= 0.0:
@@ -102,7 +101,7 @@ def _root_between(c, degree, high):
     return t
 
 
-@kernel(_t.float64(_VECTOR, _t.int64, _t.float64, _VECTOR, _VECTOR))
+@kernel(_t.float64(VECTOR, _t.int64, _t.float64, VECTOR, VECTOR))
 def first_crossing(g, degree, h, q, d):
     """Return the first time in [0, h] from which a polynomial is negative, or NEVER.
 

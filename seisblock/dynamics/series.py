@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
+from seisblock.dynamics.arrays import VECTOR
 
 _t = types()
-_VECTOR = _t.Array(_t.float64, 1, "C")
 
 
-@kernel(_t.float64(_VECTOR, _VECTOR, _t.int64), inline=True)
+@kernel(_t.float64(VECTOR, VECTOR, _t.int64), inline=True)
 def product(u, v, k):
     """Return coefficient `k` of the product of two series (Cauchy product)."""
     value = u[0] * v[k]
@@ -17,7 +17,7 @@ def product(u, v, k):
     return value
 
 
-@kernel(_t.void(_VECTOR, _VECTOR, _VECTOR, _t.int64), inline=True)
+@kernel(_t.void(VECTOR, VECTOR, VECTOR, _t.int64), inline=True)
 def sine_cosine(f, s, c, k):
     """Write coefficient `k` >= 1 of s = sin f and c = cos f, from s' = c f' and c' = -s f'."""
     sine = 0.0
@@ -30,7 +30,7 @@ def sine_cosine(f, s, c, k):
     c[k] = cosine / k
 
 
-@kernel(_t.float64(_VECTOR, _VECTOR, _VECTOR, _t.int64), inline=True)
+@kernel(_t.float64(VECTOR, VECTOR, VECTOR, _t.int64), inline=True)
 def quotient(u, v, w, k):
     """Return coefficient `k` of w = u / v, when those of w below `k` are known."""
     value = u[k]

@@ -26,7 +26,8 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.bodies.sliding_base import SlidingBase
-from seisblock.dynamics.hybrid import CONSTANT, MATRIX, OFF, RESET, SERIES, SKIP, VECTOR
+from seisblock.dynamics.arrays import MATRIX, VECTOR
+from seisblock.dynamics.hybrid import CONSTANT, OFF, RESET, SERIES, SKIP
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.polynomial import ROUND_OFF
 
