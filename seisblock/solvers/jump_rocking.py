@@ -66,10 +66,10 @@ def rocking_skip(mode, acceleration, gains, sample, p):
     """Pass over the samples at which a resting block feels less than its threshold."""
     if mode != REST:
         return sample
-    last = acceleration.shape[1] - 1
-    while sample < last and -p[THRESHOLD_BACKWARD] < gains[0] * acceleration[0, sample + 1] < p[THRESHOLD_FORWARD]:
-        sample += 1
-    return sample
+    reached = sample
+    while reached < acceleration.shape[1] and -p[THRESHOLD_BACKWARD] < gains[0] * acceleration[0, reached] < p[THRESHOLD_FORWARD]:
+        reached += 1
+    return max(reached - 1, sample)
 
 
 @kernel(RESET)

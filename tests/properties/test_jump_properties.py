@@ -100,6 +100,12 @@ def test_below_the_threshold_nothing_moves():
     assert rocked.outcome != DID_NOT_ROCK
 
 
+def test_a_record_that_begins_above_the_threshold_rocks_at_once():
+    """The first sample counts, although the next one is below the threshold."""
+    a = np.concatenate([[9.0, 1.0], np.zeros(60)])
+    assert solve_jump(Motion.from_arrays(a, 0.01), SHORT, CONTACT).outcome.chains[0].rocking_start_s == 0.0
+
+
 def test_no_jump_when_spin_outweighs_the_rebound():
     """A spin ratio above e_y presses a corner into the floor: the chain ends at the impact."""
     motion = half_sine(6.5, 0.6, 3.0)
