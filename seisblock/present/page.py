@@ -52,7 +52,8 @@ footer { margin-top: 3rem; border-top: 1px solid var(--line); padding-top: .6rem
   @page { size: A4; margin: 16mm 15mm; }
   body { padding: 0; max-width: none; font-size: 10pt; } a { color: inherit; text-decoration: none; }
   h2 { break-after: avoid; } h3 { break-after: avoid; } figure, tr, .note, .verdicts > div { break-inside: avoid; }
-  .wide { overflow: visible; } figure img, figure svg { max-width: 15cm; } .screen { display: none; }
+  .wide { overflow: visible; }
+  figure img, figure svg { max-width: min(15cm, 100%); max-height: 16cm; width: auto; } .screen { display: none; }
 }
 """
 """Everything a page looks like; a command adds what only it needs."""

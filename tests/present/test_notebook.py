@@ -1,0 +1,63 @@
+"""A response shows itself in a notebook: a table, a figure, a data frame."""
+
+import re
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import seisblock
+from seisblock.bodies.files import read_table
+from seisblock.bodies.two_layer import Contact, contact, two_layer_block
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.results import Response
+
+
+def responses():
+    """Yield one short response of each planar model and of uplift."""
+    t = np.arange(401) * 0.01
+    motion = Motion.from_arrays(5.5 * np.sin(2 * np.pi * 1.2 * t), 0.01, name="EW")
+    chozusha = read_table("chozusha")
+    yield seisblock.solve_rock(motion, seisblock.Block(0.3, 0.9))
+    yield seisblock.solve_slide(motion, 0.2)
+    yield seisblock.solve_jump(motion, two_layer_block(chozusha, "short"), Contact(**contact(chozusha)))
+    yield seisblock.solve_uplift(seisblock.SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7), motion)
+
+
+@pytest.fixture(params=list(responses()), ids=lambda response: response.model)
+def response(request):
+    """One of them."""
+    return request.param
+
+
+def test_it_shows_its_outcome_and_its_figure(response):
+    """The table holds every number with its unit in words, and the figure is data."""
+    text = response._repr_html_()
+    assert "data:image/" in text and "<script" not in text
+    rows = re.findall(r"<tr><td[^>]*>([^<]*)</td>", text)
+    plain = [key for key, value in vars(response.outcome).items() if isinstance(value, (int, float, str, type(None)))]
+    assert len(rows) >= len(plain)
+    assert not any(row.endswith(("_m", "_s")) for row in rows)
+
+
+def test_plot_is_a_figure_that_a_notebook_can_draw(response):
+    """A Figure, not pyplot's, that gives its own .png."""
+    figure = response.plot()
+    assert isinstance(figure, Figure)
+    assert figure._repr_png_().startswith(b"\x89PNG")
+
+
+def test_a_data_frame_has_a_column_per_channel(response):
+    """Time first, then channels with their unit, as many rows as times."""
+    pytest.importorskip("pandas")
+    frame = response.to_dataframe()
+    assert frame.columns[0] == "time_s" and len(frame) == response.time.size
+    assert len(frame.columns) == 1 + len(response.channels)
+
+
+def test_a_model_without_a_figure_says_so():
+    """The message lists those that have one."""
+    unknown = Response("knit", None, Motion.from_arrays(np.zeros(3), 0.01), None, np.zeros(3))
+    with pytest.raises(ParameterError, match="rock, slide, jump, uplift, stack"):
+        unknown.plot()
