@@ -53,7 +53,8 @@ def _share(ctx: click.Context, param: click.Parameter, value: float) -> float:
         "Bundled: aoyama.csv.")
 @option("--reinforced", is_flag=True, section="Body", help="Judge as if every stone were reinforced.")
 @option("--both", is_flag=True, section="Body", help="Compare with every stone reinforced, and say how many that saves.")
-@option("--most-fragile", type=click.IntRange(min=1), metavar="K", section="Body", help="Compare with the K most slender reinforced.")
+@option("--most-fragile", type=click.IntRange(min=1), metavar="K", section="Body",
+        help="Compare with the K most slender stones reinforced. [default: none]")
 @option("--stone-width", type=LENGTH, section="Body",
         help="Width of stones whose width is not in the file, m or with a unit. [default: 8sun]")
 @option("--pga", type=FLOATS, metavar="GAL",

@@ -40,19 +40,19 @@ _t = types()
 
 @kernel(_t.int64(_t.int64, _t.int64), inline=True)
 def landed(corner, kind):
-    """Return the mode of a kind of motion about a corner."""
+    """Return the mode of a kind of motion about a corner ([Sugimoto2017]_)."""
     return 1 + 2 * kind + corner
 
 
 @kernel(_t.int64(_t.int64), inline=True)
 def corner_of(mode):
-    """Return the corner that touches."""
+    """Return the corner that touches ([Sugimoto2017]_)."""
     return (mode - 1) % 2
 
 
 @kernel(_t.int64(_t.int64), inline=True)
 def kind_of(mode):
-    """Return the kind of motion about the corner."""
+    """Return the kind of motion about the corner ([Sugimoto2017]_)."""
     return (mode - 1) // 2
 
 
@@ -90,7 +90,7 @@ def _flight_series(y, f, p, order, c, g):
 
 @kernel(SERIES)
 def flight_series(mode, y, f, p, order, c, g):
-    """Write the series of the flight, or of the motion about the corner that touches."""
+    """Write the series of the flight, or of the motion about the corner that touches ([Sugimoto2017]_)."""
     if mode == FLIGHT:
         return _flight_series(y, f, p, order, c, g)
     side = 2 * corner_of(mode) - 1
@@ -206,7 +206,7 @@ def _held_or_slipping(corner, y, f, p, mu, held):
 
 @kernel(RESET)
 def flight_reset(mode, guard, y, f, p):
-    """Land, stop slipping, slip again, lift off again, or end."""
+    """Land, stop slipping, slip again, lift off again, or end ([Sugimoto2017]_)."""
     if mode == FLIGHT:
         _touch_down(guard, y, p)
         return _held_or_slipping(guard, y, f, p, p[MU], STICK)
@@ -239,7 +239,7 @@ FLYING = Model(
 
 
 def flight_parameters(block: TwoLayerBlock, gravity: float, mu: float, mu_kinetic: float, drop: float, dt: float) -> FloatArray:
-    """Return the parameters of the model; `dt` is the sampling interval, the longest step."""
+    """Return the parameters of the model ([Sugimoto2017]_); `dt` is the sampling interval, the longest step."""
     return np.array(
         [
             block.slenderness, block.radius, block.width / 2, block.centroid_height, block.mass, block.centroid_inertia,
@@ -249,7 +249,7 @@ def flight_parameters(block: TwoLayerBlock, gravity: float, mu: float, mu_kineti
 
 
 def centroid(block: TwoLayerBlock, drop: float, modes: IntArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return displacement x and rise y of the centroid, (n,), m, from states of this model.
+    """Return displacement x and rise y of the centroid, (n,), m, from states of this model ([Sugimoto2017]_).
 
     After landing the state holds the foot's slip; the centroid follows from the tilt about the corner that touches.
     """

@@ -69,7 +69,7 @@ class Side:
 
 
 def sides(block: Block, gravity: float, restitution: Restitution, linear: bool) -> tuple[Side, Side]:
-    """Return the right and the left corner of a block."""
+    """Return the right and the left corner of a block ([Housner1963]_)."""
     onto = restitutions(block, restitution)
     right, left = (Side(block.slendernesses[k], gravity * block.lever_ratios[k], onto[k], linear) for k in (RIGHT, LEFT))
     return right, left
@@ -98,7 +98,7 @@ class Fate:
 
 
 def fate(pair: tuple[Side, Side], theta: float, omega: float, *, timed: bool = True) -> Fate:
-    """Return the fate of a block that rocks freely from a lean and an angular velocity.
+    """Return the fate of a block that rocks freely from a lean and an angular velocity ([Housner1963]_).
 
     Parameters
     ----------

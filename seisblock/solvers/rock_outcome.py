@@ -79,7 +79,7 @@ class RockOutcome:
 
 
 def lean_ratio(block: Block, largest: tuple[float, float]) -> float:
-    """Return the larger lean over alpha of its corner, from the largest leans to +x and to -x."""
+    """Return the larger lean over alpha of its corner, from the largest leans to +x and to -x ([Housner1963]_)."""
     return max(lean / alpha for lean, alpha in zip(largest, block.slendernesses, strict=True))
 
 
@@ -87,7 +87,7 @@ def gather(
     block: Block, motion: Motion, trajectory: Trajectory, after: Fate | None, *, gains: FloatArray, gravity: float,
     restitution: Restitution, linear: bool,
 ) -> RockOutcome:  # fmt: skip
-    """Gather the outcome from the trajectory and what follows it."""
+    """Gather the outcome from the trajectory and what follows it ([Housner1963]_)."""
     changes = trajectory.changes
     starts = [c.time for c in changes if c.source == model.REST]
     impacts = sum(c.source in (model.TO_RIGHT, model.TO_LEFT) and c.guard == model.DOWN for c in changes)
@@ -141,7 +141,7 @@ def gather(
 
 
 def event_name(change: Change) -> str:
-    """Return what happened."""
+    """Return what happened ([Housner1963]_)."""
     if change.source == model.REST:
         return "rocking starts"
     if change.target == model.OVERTURNED:
@@ -154,7 +154,7 @@ def event_name(change: Change) -> str:
 
 
 def phases(trajectory: Trajectory, start_s: float) -> tuple[Phase, ...]:
-    """Return the stretches of one mode each."""
+    """Return the stretches of one mode each ([Housner1963]_)."""
     changes = trajectory.changes
     if not changes:
         return (Phase(model.MODES[trajectory.final_mode], start_s, start_s + trajectory.end_time),)
@@ -168,7 +168,7 @@ def phases(trajectory: Trajectory, start_s: float) -> tuple[Phase, ...]:
 
 
 def warnings(block: Block, outcome: RockOutcome, gravity: float) -> tuple[str, ...]:
-    """Return what the user should know before believing the numbers."""
+    """Return what the user should know before believing the numbers ([Housner1963]_)."""
     found = []
     if outcome.threshold_m_s2 > gravity:
         found.append(f"{block.name}: wider than tall; it rocks only above {outcome.threshold_m_s2 / gravity:.2f} g and will rather slide")

@@ -164,7 +164,7 @@ def solve_slide(
 
 
 def check(motion: Motion, vertical_scale: float, gravity: float) -> tuple[float, float, float]:
-    """Return the factors on the motion's three rows, or refuse what cannot act."""
+    """Return the factors on the motion's three rows, or refuse what cannot act ([Fujino1978]_)."""
     if not (math.isfinite(gravity) and gravity > 0.0):
         raise ParameterError(f"gravity must be positive, found {gravity:g} m/s^2")
     if not math.isfinite(vertical_scale):

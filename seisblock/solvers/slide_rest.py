@@ -24,7 +24,7 @@ NEVER = math.inf
 
 
 def slip_at_rest(state: Sequence[float], mode: int, p: Sequence[float]) -> float:
-    """Return the slip, m, at which a body comes to rest when the ground acceleration is zero from now on.
+    """Return the slip, m, at which a body comes to rest when the ground acceleration is zero from now on ([Fujino1978]_).
 
     Parameters
     ----------

@@ -38,7 +38,7 @@ SLOT = 6
 
 @kernel(_t.int64(_t.int64, VECTOR, BLOCK, _t.float64, VECTOR, _t.float64, VECTOR, _t.float64, _t.float64, BLOCK, MATRIX, VECTOR))
 def press_joint(n_orbits, rel, points, sigma, half, level, k, load, dt, stretch, four, total):
-    """Sum the forces at the points of a joint.
+    """Sum the forces at the points of a joint ([Furukawa2009]_).
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def press_joint(n_orbits, rel, points, sigma, half, level, k, load, dt, stretch,
 
 @kernel(_t.float64(VECTOR, VECTOR, _t.float64, VECTOR, VECTOR, _t.float64, VECTOR, VECTOR))
 def touch(rel, y, depth, normal, k, dt, slot, total):
-    """Add the force at one wandering contact point; return the normal force.
+    """Add the force at one wandering contact point ([Furukawa2009]_); return the normal force.
 
     The point is at `y` in the partner's axes, `depth` inside along `normal`, which points out of the partner.
     """

@@ -102,7 +102,7 @@ class Track:
 
 
 def stone_track(pile: Pile, rows: FloatArray) -> Track:
-    """Return the way of each stone from the rows that were kept; stones of one body move together, fixed ones stay."""
+    """Return the way of each stone from the rows that were kept (for [Furukawa2009]_); stones of a body move together, fixed ones stay."""
     stones = len(pile.body.stones)
     centres = np.empty((len(rows), stones, 3))
     quaternions = np.zeros((len(rows), stones, 4))
@@ -119,7 +119,7 @@ def stone_track(pile: Pile, rows: FloatArray) -> Track:
 
 
 def rotated(q: FloatArray, v: FloatArray) -> FloatArray:
-    """Return vectors (..., 3) turned by quaternions (..., 4)."""
+    """Return vectors (..., 3) turned by quaternions (..., 4) (for [Furukawa2009]_)."""
     w, u = q[..., :1], q[..., 1:]
     return v + 2.0 * np.cross(u, np.cross(u, v) + w * v)
 
@@ -157,7 +157,7 @@ def _turn(track: Track, i: int) -> FloatArray:
 
 
 def channels(pile: Pile, track: Track) -> tuple[Channel, ...]:
-    """Return tilt, slip, centre and quaternion of every stone."""
+    """Return tilt, slip, centre and quaternion of every stone (for [Furukawa2009]_)."""
     made = []
     for i, name in enumerate(pile.body.names):
         slip = _slip(pile, track, i)
@@ -172,7 +172,7 @@ def channels(pile: Pile, track: Track) -> tuple[Channel, ...]:
 
 def stack_outcome(pile: Pile, track: Track, fates: FloatArray, last_touch: FloatArray, books: FloatArray, bodies: FloatArray,
                   *, start: float, ended: float, gravity: float, step: float) -> StackOutcome:  # fmt: skip
-    """Return the outcome of a run.
+    """Return the outcome of a run (for [Furukawa2009]_).
 
     Raises
     ------

@@ -23,7 +23,7 @@ _AXES = np.eye(3)
 
 
 def point_rows(pile: Pile) -> tuple[FloatArray, FloatArray]:
-    """Return how each contact point of the joints is displaced by the bodies' small motions.
+    """Return how each contact point of the joints is displaced by the bodies' small motions ([Furukawa2009]_).
 
     Returns
     -------
@@ -74,7 +74,7 @@ def stable_step(pile: Pile) -> float:
 
 
 def steps_per_sample(pile: Pile, dt: float, step: float | None) -> int:
-    """Return how many steps a sampling interval takes.
+    """Return how many steps a sampling interval takes ([Furukawa2009]_).
 
     Raises
     ------
@@ -101,7 +101,7 @@ def _mass_matrix(pile: Pile) -> FloatArray:
 
 
 def sink(pile: Pile, gravity: float, bodies: FloatArray, stretches: FloatArray) -> None:
-    """Lower the bodies into their springs until these carry them; points that would have to pull let go.
+    """Lower the bodies into their springs until these carry them ([Furukawa2009]_); points that would have to pull let go.
 
     Raises
     ------

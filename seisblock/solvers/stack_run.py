@@ -102,7 +102,7 @@ def _balance(books, held):
 
 @kernel(_t.int64(READ_ONLY, VECTOR, MATRIX, PILE, MEMORY, MATRIX, MATRIX, MATRIX, VECTOR, _t.Array(_t.int64, 1, "C")))
 def run(motion, settings, bodies, pile, memory, fates, rows, last_touch, books, info):
-    """Follow a pile through a motion; return a status.
+    """Follow a pile through a motion ([Furukawa2009]_); return a status.
 
     Parameters
     ----------

@@ -146,7 +146,7 @@ def _near(i, j, bounds):
 
 @kernel(_t.float64(MATRIX, _t.float64, PILE, MEMORY))
 def press_all(bodies, dt, pile, memory):
-    """Add every contact force to the bodies; return the energy in the springs, J."""
+    """Add every contact force to the bodies ([Furukawa2009]_); return the energy in the springs, J."""
     joints, _, _, pairs, _, _, counts, _, boxes, owner, _ = pile
     _, corner_slots, edge_slots, handled, _, bounds, _ = memory
     energy = 0.0
@@ -173,7 +173,7 @@ def press_all(bodies, dt, pile, memory):
 
 @kernel(_t.void(_t.int64, MATRIX, MATRIX, _t.float64, _t.float64, _t.float64, _t.float64))
 def kick(n, bodies, inert, a0, a1, a2, dt):
-    """Change the velocities by the forces, in axes that accelerate by (a0, a1, a2), gravity among it, over `dt`."""
+    """Change the velocities by the forces, in axes that accelerate by (a0, a1, a2), gravity among it, over `dt` ([Furukawa2009]_)."""
     for i in range(n):
         b = bodies[i]
         m = inert[i, MASS]
@@ -187,7 +187,7 @@ def kick(n, bodies, inert, a0, a1, a2, dt):
 
 @kernel(_t.void(_t.int64, MATRIX, MATRIX, _t.float64))
 def drift(n, bodies, inert, dt):
-    """Move and turn the bodies by their velocities over `dt`, and clear the forces."""
+    """Move and turn the bodies by their velocities over `dt`, and clear the forces ([Furukawa2009]_)."""
     for i in range(n):
         b = bodies[i]
         for k in range(3):
@@ -212,7 +212,7 @@ def drift(n, bodies, inert, dt):
 
 @kernel(_t.float64(_t.int64, MATRIX, MATRIX, _t.float64))
 def energy_of(n, bodies, inert, gravity):
-    """Return the kinetic and potential energy of the stones, J."""
+    """Return the kinetic and potential energy of the stones, J ([Furukawa2009]_)."""
     energy = 0.0
     for i in range(n):
         b = bodies[i]

@@ -98,7 +98,7 @@ def corner_response_direct(body: SpringBlock, omega: ArrayLike, direction: Array
 
 
 def lifting_amplitude(response: ComplexArray) -> FloatArray:
-    """Return A/g that just lifts corners of that response: infinite where they stand still, 0 at an undamped resonance."""
+    """Return A/g that just lifts corners of that response ([Okumura1987]_): infinite where they stand still, 0 at an undamped resonance."""
     amplitude = np.abs(response)
     with np.errstate(divide="ignore"):
         return np.where(amplitude > 1.0 / UNDAMPED_RESONANCE**0.5, 0.0, 1.0 / amplitude)

@@ -67,6 +67,10 @@ class Survey:
 def marked_survey(cemetery: Cemetery) -> Survey:
     """Return the survey of a cemetery whose stones are marked fallen or standing; those that are not marked are left out.
 
+    Parameters
+    ----------
+    cemetery : Cemetery
+
     Raises
     ------
     BodyError
@@ -85,6 +89,13 @@ def marked_survey(cemetery: Cemetery) -> Survey:
 
 def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
     """Return a survey that counted how many of so many stones fell, in a place whose stones are proportioned as these.
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+        The proportions of the stones.
+    fallen, stones : int
+        How many fell, of how many that were looked at.
 
     Raises
     ------

@@ -1,0 +1,169 @@
+"""The rules of the house that a machine can check: citations, docstrings, help, imports, the size of files."""
+
+import ast
+import inspect
+import re
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import click
+import pytest
+
+import seisblock
+from seisblock.cli import COMMANDS, main
+from seisblock.references import CITED, REFERENCES
+
+PACKAGE = Path(seisblock.__file__).parent
+CITATION = re.compile(r"\[(\w+)\]_")
+CITING = ("measures", "criteria", "solvers")
+LONGEST = 300
+
+HEAVY = {"numba", "obspy", "scipy", "matplotlib", "PIL", "rich", "pandas"}
+LIGHT = (
+    "seisblock", "seisblock.cli", "seisblock.cli.command", "seisblock.cli.options", "seisblock.cli.types", "seisblock.errors",
+    "seisblock.units", "seisblock.references", "seisblock.results", "seisblock.records", "seisblock.bodies.block",
+    "seisblock.readers.samples", "seisblock.present.words", "seisblock.present.page", "seisblock.present.document",
+    "seisblock.present.files",
+)  # fmt: skip
+"""Modules that promise to load nothing large."""
+
+
+def sources(*folders):
+    """Return the package's files, those of some folders only when given."""
+    roots = [PACKAGE / folder for folder in folders] or [PACKAGE]
+    return [path for root in roots for path in sorted(root.rglob("*.py"))]
+
+
+def public_functions(path):
+    """Return the public functions at the top of a file as (name, docstring)."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    nodes = [node for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
+    return [(node.name, ast.get_docstring(node) or "") for node in nodes]
+
+
+@pytest.mark.parametrize("folder", CITING)
+def test_every_public_function_cites(folder):
+    """No formula without its paper: measures, criteria and solvers name a key that exists."""
+    mute = [
+        f"{path.name}:{name}"
+        for path in sources(folder)
+        for name, text in public_functions(path)
+        if not set(CITATION.findall(text)) & set(REFERENCES)
+    ]
+    assert mute == []
+
+
+def test_every_key_exists():
+    """A key in any docstring, comment or case is one of the references."""
+    named = {(path.name, key) for path in sources() for key in CITATION.findall(path.read_text(encoding="utf-8"))}
+    assert {(file, key) for file, key in named if key not in REFERENCES} == set()
+
+
+def test_every_reference_is_used():
+    """The bibliography holds nothing that the program does not rely on."""
+    text = "".join(path.read_text(encoding="utf-8") for path in sources() if path.name != "references.py")
+    used = set(CITATION.findall(text)) | {key for keys in CITED.values() for key in keys}
+    assert set(REFERENCES) <= used
+
+
+def test_every_public_function_is_described():
+    """No public function of the package is without a docstring."""
+    assert [f"{path.name}:{name}" for path in sources() for name, text in public_functions(path) if not text] == []
+
+
+@pytest.mark.parametrize("name", [name for name in seisblock.__all__ if inspect.isfunction(getattr(seisblock, name))])
+def test_the_public_api_says_what_goes_in_and_what_comes_out(name):
+    """Parameters are named with what they are, and the first line or a section says what is returned."""
+    function = getattr(seisblock, name)
+    text = inspect.getdoc(function)
+    parameters = [p for p in inspect.signature(function).parameters.values() if p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)]
+    if parameters:
+        section = text.partition("Parameters\n----------\n")[2]
+        assert section, f"{name} has no section Parameters"
+        missing = [p.name for p in parameters if not re.search(rf"^[\w, *]*\b{p.name}\b[\w, *]*( :|$)", section, re.MULTILINE)]
+        assert missing == []
+    says = "Returns\n-------" in text or re.search(r"\b[Rr]eturns?\b|\bYield", text) or function.__annotations__.get("return") is not None
+    assert says, f"{name} does not say what it returns"
+
+
+def every_option():
+    """Return (command, option) for every option of every command."""
+    context = click.Context(main)
+    pairs = []
+    for name in COMMANDS:
+        command = main.get_command(context, name)
+        pairs += [(name, option) for option in command.params if isinstance(option, click.Option)]
+    return pairs
+
+
+UNITS = re.compile(
+    r"\bm\b|\bs\b|\bHz\b|\bgal\b|\bkg\b|\bN/m\b|m/s|\bPa\b|\bdeg(rees)?\b|\brad\b|, 1[;.,) ]|\b1\b|%|share|ratio|factor|times|number"
+    r"|how many|count|seed|repeat|points?|steps?|runs|threads|order", re.IGNORECASE,
+)  # fmt: skip
+
+
+def test_every_option_is_described():
+    """Each has a help text that ends like a sentence."""
+    assert [f"{name} {option.opts[0]}" for name, option in every_option() if not option.help] == []
+
+
+def test_numbers_have_a_unit_or_a_default():
+    """The help of each option that takes numbers names the unit, or says what is taken when it is left out."""
+    silent = []
+    for name, option in every_option():
+        if option.is_flag or isinstance(option.type, (click.Choice, click.Path)) or option.type.name == "text":
+            continue
+        if not (option.show_default or "[default" in option.help or "[required]" in option.help or UNITS.search(option.help)):
+            silent.append(f"{name} {option.opts[0]}: {option.help}")
+    assert silent == []
+
+
+@pytest.mark.parametrize("module", LIGHT)
+def test_light_modules_are_light(module):
+    """What promises to be lazy loads no large package when imported."""
+    script = f"import sys, {module}; print(' '.join(set(sys.modules) & {HEAVY!r}))"
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split() == []
+
+
+def test_no_command_imports_heavy_packages_at_its_top():
+    """Files of the command line import large packages inside functions only."""
+    found = []
+    for path in sources("cli"):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+            found += [f"{path.name}: {name}" for name in names if name.split(".")[0] in HEAVY]
+    assert found == []
+
+
+def test_only_the_jit_module_decorates_kernels():
+    """`numba.njit` and its options live in one place."""
+    assert [path.name for path in sources() if re.search(r"@(numba\.)?n?jit\b|fastmath=", path.read_text(encoding="utf-8"))] == []
+
+
+def test_nothing_below_the_command_line_prints():
+    """The library is silent: no print and no sys.stdout outside cli."""
+    loud = [
+        path.name
+        for path in sources()
+        if path.parent.name != "cli" and re.search(r"^\s*print\(|sys\.std(out|err)", path.read_text(encoding="utf-8"), re.MULTILINE)
+    ]
+    assert loud == []
+
+
+def test_public_names_are_where_the_package_says():
+    """Every name of the public API can be imported, and `dir` lists it."""
+    for name in seisblock.__all__:
+        assert getattr(seisblock, name) is not None
+    assert set(dir(seisblock)) == set(seisblock.__all__)
+
+
+def test_files_answer_one_question():
+    """Files beyond about 300 lines are named in a warning; twice as long is too long."""
+    lengths = {path.relative_to(PACKAGE).as_posix(): len(path.read_text(encoding="utf-8").splitlines()) for path in sources()}
+    long = {name: count for name, count in lengths.items() if count > LONGEST}
+    if long:
+        warnings.warn(f"files of more than {LONGEST} lines: {long}", stacklevel=1)
+    assert max(lengths.values()) < 2 * LONGEST
