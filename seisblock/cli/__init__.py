@@ -38,7 +38,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
 }
 """Command name: (module:attribute, one line of help). Kept here so that the list costs no import."""
 
-EXAMPLES = ("seisblock jump", "seisblock measure record.csv --plot record.png")
+EXAMPLES = ("seisblock jump", "seisblock slide record.csv --mu 0.2 --plot slide.png")
 """Two lines to begin with, at the end of the help."""
 
 INTERRUPTED = 130

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 
 from seisblock.present.words import translate
@@ -51,9 +52,21 @@ def speak(figure: Figure, lang: str) -> bool:
         return False
     from matplotlib.text import Text
 
+    for axes in figure.axes:
+        _name_categories(axes.xaxis, lang)
+        _name_categories(axes.yaxis, lang)
     for text in figure.findobj(Text):
         assert isinstance(text, Text)
         words = text.get_text()
         text.set_text(translate(words, lang))
         text.set_fontfamily([family, "DejaVu Sans"])
     return True
+
+
+def _name_categories(axis: Axis, lang: str) -> None:
+    """Translate the names along an axis of categories, which are written anew whenever it is drawn."""
+    from matplotlib.category import StrCategoryFormatter
+
+    if isinstance(axis.get_major_formatter(), StrCategoryFormatter):
+        names = [label.get_text() for label in axis.get_ticklabels()]
+        axis.set_ticks(axis.get_ticklocs(), labels=[translate(name, lang) for name in names])

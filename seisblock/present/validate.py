@@ -94,7 +94,7 @@ def _grid(results: Sequence[CaseResult] = (), *, heading: bool = False) -> Any:
         made.add_column(name, width=width, justify="right", overflow="fold")
     for r in results:
         numbers = (short(r.case.expected), short(r.computed), short(r.error, 2), short(r.case.tolerance, 2))
-        made.add_row(Padding(Text(place_of(r)), (0, 0, 0, 2)), Text(quantity(r)), *numbers)
+        made.add_row(Padding(Text(place_of(r), overflow="fold"), (0, 0, 0, 2)), Text(quantity(r), overflow="fold"), *numbers)
     return Constrain(made, WIDTH)
 
 

@@ -27,6 +27,14 @@ LABELS = {
     "PGA (gal)": "最大加速度 PGA (gal)",
     "H/B": "高さ/幅 H/B",
     "x (m)": "x (m)",
+    "largest slip (m)": "最大滑動量 (m)",
+    "ground acceleration (m/s²)": "地動加速度 (m/s²)",
+    "tilt θ (deg)": "傾き θ (deg)",
+    "slip s (mm)": "滑動量 s (mm)",
+    "α (degrees)": "転倒限界角 α (度)",
+    "largest lean over α (white: stands still)": "最大傾斜/α（白：動かない）",
+    "likelihood (over its largest)": "尤度（最大値との比）",
+    "surveyed rate": "調査転倒率",
 }
 """Labels that are replaced whole."""
 
@@ -123,6 +131,14 @@ PHRASES = {
     "equivalent frequency": "等価振動数",
     "plan: when each corner was in the air": "平面図：各隅の浮き上がり時刻",
     "the first": "最初",
+    "median": "中央値",
+    "fell": "転倒",
+    "red overturns": "赤は転倒",
+    "along +x": "+x 方向",
+    "across": "直交方向",
+    "up": "上下",
+    "first at": "最初",
+    "highest": "最大",
     # animation
     "x real time": "倍速",
     "x slower": "倍スロー再生",
