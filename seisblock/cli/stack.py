@@ -23,7 +23,7 @@ DEFAULT_PILE = "wagata"
     cls=Command,
     examples=(
         "seisblock stack --stones wagata.toml --reinforced",
-        "seisblock stack record.csv --stones lantern.toml --scale 1.5 --plot stack.png --animate stack.gif",
+        "seisblock stack record.csv --stones lantern.toml --plot stack.png --animate stack.gif",
         "seisblock stack --criterion --grid 4 --resume study.jsonl --plot criterion.png",
     ),
 )
