@@ -5,19 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from seisblock.errors import OutputError
 from seisblock.measures import ground_history
 from seisblock.records import Motion
 from seisblock.results import Phase
 from seisblock.typing import FloatArray
 
 if TYPE_CHECKING:
-    from seisblock.present.animation import Filming
+    pass
 
 Box = tuple[float, float, float, float]
 """Left, right, bottom, top, m."""
@@ -170,45 +168,3 @@ def stretch(phases: Sequence[Phase], moving: Mapping[str, str], first: float, la
     start, end = told[0].start_s, told[-1].end_s
     margin = 0.1 * (end - start) + 0.3
     return max(first, start - margin), min(last, end + 2 * margin)
-
-
-def animate_film(build: Build, span: tuple[float, float], path: Path | str, filming: Filming) -> None:
-    """Write a film; the suffix decides the format.
-
-    Parameters
-    ----------
-    build : callable
-        Returns the film for the times of its pictures.
-    span : (float, float), s
-        First and last time shown.
-    path : path
-        ``.gif``, ``.mp4`` (needs ffmpeg), or ``.html`` (one page that draws the film itself, at any size and speed).
-    filming : Filming
-        Speed, language, progress.
-
-    Raises
-    ------
-    OutputError
-        If the suffix is another, ffmpeg is missing for .mp4, or the file cannot be written.
-    """
-    from seisblock.present import animation
-
-    target = Path(path)
-    if target.suffix.lower() not in animation.SUFFIXES:
-        raise OutputError(f"cannot animate {target}: the name must end in {', '.join(animation.SUFFIXES)}")
-    if target.suffix.lower() == ".html":
-        from seisblock.present.files import write_text
-        from seisblock.present.film_page import film_page
-
-        count = int(min(max((span[1] - span[0]) * PAGE_RATE, 2), MOST_MOMENTS)) + 1
-        write_text(target, film_page(build(np.linspace(*span, count)), filming))
-        return
-    from seisblock.present.film_frames import film_frames
-
-    times, speed = animation.frame_times(*span, slow=filming.slow)
-    film = build(np.asarray(times))
-    animation.animate(film_frames(film, speed, filming), target)
-
-
-PAGE_RATE, MOST_MOMENTS = 250.0, 12000
-"""Moments a second that a page holds, so that slow motion stays smooth, and at most how many."""

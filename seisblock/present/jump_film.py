@@ -8,8 +8,9 @@ import numpy as np
 
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.present.animation import Filming
-from seisblock.present.film import Body, Box, Film, Piece, Strip, Trail, animate_film, at, ground_shift, rectangle, stretch
+from seisblock.present.film import Body, Box, Film, Piece, Strip, Trail, at, ground_shift, rectangle, stretch
 from seisblock.present.jump import COLOURS
+from seisblock.present.projector import animate_film
 from seisblock.results import Response
 from seisblock.solvers.jump import JumpOutcome
 from seisblock.typing import FloatArray
@@ -19,7 +20,7 @@ PEDESTAL = 0.06
 
 
 def animate_jump(response: Response[JumpOutcome], path: Path | str, filming: Filming) -> None:
-    """Write the film of a jump, see :func:`seisblock.present.film.animate_film`."""
+    """Write the film of a jump, see :func:`seisblock.present.projector.animate_film`."""
     span = stretch(response.phases, COLOURS, float(response.motion.time[0]), float(response.motion.time[-1]))
     animate_film(lambda times: jump_film(response, times), span, path, filming)
 

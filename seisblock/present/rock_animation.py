@@ -10,7 +10,8 @@ import numpy as np
 
 from seisblock.bodies.block import Block
 from seisblock.present.animation import REAL_TIME, Filming
-from seisblock.present.film import Body, Film, Piece, Strip, animate_film, at, ground_shift, rectangle, turned
+from seisblock.present.film import Body, Film, Piece, Strip, at, ground_shift, rectangle, turned
+from seisblock.present.projector import animate_film
 from seisblock.present.rock import COLOURS, stretch
 from seisblock.results import Response
 from seisblock.solvers.rock import solve_rock

@@ -9,7 +9,8 @@ import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.present.animation import Filming
-from seisblock.present.film import Body, Film, Piece, Strip, Trail, animate_film, at, ground_shift, rectangle, stretch
+from seisblock.present.film import Body, Film, Piece, Strip, Trail, at, ground_shift, rectangle, stretch
+from seisblock.present.projector import animate_film
 from seisblock.present.slide import COLOURS, setting
 from seisblock.results import Response
 from seisblock.solvers.slide import SlideOutcome
@@ -20,7 +21,7 @@ SMALLEST = 0.05
 
 
 def animate_slide(response: Response[SlideOutcome], path: Path | str, filming: Filming) -> None:
-    """Write the film of a slide, see :func:`seisblock.present.film.animate_film`."""
+    """Write the film of a slide, see :func:`seisblock.present.projector.animate_film`."""
     span = stretch(response.phases, COLOURS, float(response.motion.time[0]), float(response.motion.time[-1]))
     animate_film(lambda times: slide_film(response, times), span, path, filming)
 
