@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,9 +12,6 @@ from seisblock.measures import ground_history
 from seisblock.records import Motion
 from seisblock.results import Phase
 from seisblock.typing import FloatArray
-
-if TYPE_CHECKING:
-    pass
 
 Box = tuple[float, float, float, float]
 """Left, right, bottom, top, m."""
