@@ -164,8 +164,9 @@ def _write_html(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
 
 
 _PAGE = """<!doctype html>
-<html lang="en"><meta charset="utf-8"><title>seisblock</title>
-<style>body{font:14px sans-serif;margin:1em auto;max-width:@WIDTHpx}img{width:100%}div{display:flex;gap:.6em}input{flex:1}</style>
+<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>seisblock</title>
+<style>body{font:14px system-ui,sans-serif;margin:1em auto;padding:0 .8em;max-width:@WIDTHpx}
+img{width:100%}div{display:flex;gap:.6em}input{flex:1}</style>
 <img id="picture" alt="animation">
 <div><button id="play">pause</button><input id="at" type="range" min="0" max="@LAST" value="0"></div>
 <script>
