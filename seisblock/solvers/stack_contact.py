@@ -31,9 +31,12 @@ FORCE, TORQUE, ENERGY, TOUCHING, OUTSIDE = 0, 3, 6, 7, 8
 SUM = 9
 """A sum over contact points: force (3) and torque (3) on the carrier, spring energy, points in touch, points beyond the face."""
 
-STRETCH, BIRTH, ALIVE, FACE = 0, 3, 4, 5
-SLOT = 6
-"""What a wandering contact remembers: stretch of its shear spring (3), depth at birth, whether it lives, and the face it is on."""
+STRETCH, BIRTH, ALIVE, FACE, LAST = 0, 3, 4, 5, 6
+SLOT = 7
+"""What a wandering contact remembers: stretch of its shear spring (3), depth at birth, whether it lives, the face it is on, last depth."""
+
+ROUNDING = 1e-6
+"""How much, m, a depth may change in a step beyond what the velocities explain."""
 
 
 @kernel(_t.int64(_t.int64, VECTOR, BLOCK, _t.float64, VECTOR, _t.float64, VECTOR, _t.float64, _t.float64, BLOCK, MATRIX, VECTOR))
@@ -151,6 +154,7 @@ def touch(rel, y, depth, normal, k, dt, slot, total):
     if slot[ALIVE] == 0.0:
         slot[ALIVE] = 1.0
         slot[BIRTH] = depth
+        slot[LAST] = depth
         slot[0] = 0.0
         slot[1] = 0.0
         slot[2] = 0.0
@@ -161,6 +165,11 @@ def touch(rel, y, depth, normal, k, dt, slot, total):
     u1 = rel[13] + rel[17] * s0 - rel[15] * s2
     u2 = rel[14] + rel[15] * s1 - rel[16] * s0
     out = u0 * n0 + u1 * n1 + u2 * n2
+    jump = depth - slot[LAST]
+    if abs(jump) > dt * math.sqrt(u0 * u0 + u1 * u1 + u2 * u2) + ROUNDING:
+        # the contact went over to another face or edge: its squeeze goes on as the velocity says
+        slot[BIRTH] += jump + out * dt
+    slot[LAST] = depth
     # a contact born deep forgets its birth as the stones part
     slot[BIRTH] = min(slot[BIRTH], depth)
     squeezed = depth - slot[BIRTH]

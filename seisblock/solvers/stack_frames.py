@@ -24,7 +24,7 @@ BOX = 6
 """A box's constants: half sizes (3), centre in its body's axes (3)."""
 
 
-@kernel(_t.void(VECTOR))
+@kernel(_t.void(VECTOR), inline=True)
 def orient(b):
     """Write a body's rotation matrix from its quaternion (w, x, y, z) (for [Furukawa2009]_)."""
     w, x, y, z = b[Q], b[Q + 1], b[Q + 2], b[Q + 3]
@@ -39,7 +39,7 @@ def orient(b):
     b[R + 8] = 1.0 - 2.0 * (x * x + y * y)
 
 
-@kernel(_t.void(VECTOR, VECTOR))
+@kernel(_t.void(VECTOR, VECTOR), inline=True)
 def spin(b, inert):
     """Write a body's spin from its angular momentum and its axes (for [Furukawa2009]_)."""
     l0 = b[R] * b[L] + b[R + 3] * b[L + 1] + b[R + 6] * b[L + 2]
@@ -54,7 +54,7 @@ def spin(b, inert):
     b[W + 2] = b[R + 6] * w0 + b[R + 7] * w1 + b[R + 8] * w2
 
 
-@kernel(_t.void(VECTOR, _t.float64))
+@kernel(_t.void(VECTOR, _t.float64), inline=True)
 def turn(b, dt):
     """Turn a body's quaternion by its spin over a step (Cayley's form, which keeps it a unit) (for [Furukawa2009]_)."""
     w, x, y, z = b[Q], b[Q + 1], b[Q + 2], b[Q + 3]
@@ -69,10 +69,15 @@ def turn(b, dt):
         b[i] /= size
 
 
-@kernel(_t.void(VECTOR, VECTOR, VECTOR))
+@kernel(_t.void(VECTOR, VECTOR, VECTOR), inline=True)
 def arm(b, box, r):
     """Write where the centre of a box is from the centre of its body, in the ground's axes (for [Furukawa2009]_)."""
     a0, a1, a2 = box[AT], box[AT + 1], box[AT + 2]
+    if a0 == 0.0 and a1 == 0.0 and a2 == 0.0:
+        r[0] = 0.0
+        r[1] = 0.0
+        r[2] = 0.0
+        return
     r[0] = b[R] * a0 + b[R + 1] * a1 + b[R + 2] * a2
     r[1] = b[R + 3] * a0 + b[R + 4] * a1 + b[R + 5] * a2
     r[2] = b[R + 6] * a0 + b[R + 7] * a1 + b[R + 8] * a2

@@ -138,7 +138,7 @@ def press_edges(n, rel, corners, edges, half, k, dt, slots, work, total):
         The carrier's corners, and the pairs that make its edges.
     half : (3,) array, m
         Half sizes of the partner.
-    slots : (2 n, 6) array
+    slots : (2 n, 7) array
         Memory: two contacts per edge.
     work : (5, 3) array
         Scratch.

@@ -42,6 +42,9 @@ ALL_EDGES = 12
 SCRATCH = 13
 """Rows of scratch."""
 
+MARGIN = 0.01
+"""How much, m, the bounds of boxes are widened for what they may move until they are looked at again."""
+
 SLOW_SPIN = 1e-6
 """Square of the spin, rad^2/s^2, below which a body's axes count as still during a step."""
 
@@ -92,7 +95,7 @@ def _meet(pair, role, n_corners, first_edge, n_edges, check, bodies, dt, pile, m
     return total[ENERGY]
 
 
-@kernel(_t.float64(_t.int64, MATRIX, _t.float64, PILE, MEMORY))
+@kernel(_t.float64(_t.int64, MATRIX, _t.float64, PILE, MEMORY), inline=True)
 def _press_joint(j, bodies, dt, pile, memory):
     """Add the forces of a joint, and of what hangs over its border; return the energy in its springs."""
     joints, constants, points, pairs, _, _, counts, _, boxes, owner, _ = pile
@@ -131,7 +134,7 @@ def _bound(bodies, boxes, owner, bounds):
         for k in range(3):
             r = R + 3 * k
             bounds[i, k] = b[X + k] + b[r] * box[AT] + b[r + 1] * box[AT + 1] + b[r + 2] * box[AT + 2]
-            bounds[i, 3 + k] = abs(b[r]) * box[0] + abs(b[r + 1]) * box[1] + abs(b[r + 2]) * box[2]
+            bounds[i, 3 + k] = abs(b[r]) * box[0] + abs(b[r + 1]) * box[1] + abs(b[r + 2]) * box[2] + MARGIN
 
 
 @kernel(_t.boolean(_t.int64, _t.int64, MATRIX), inline=True)
@@ -144,15 +147,19 @@ def _near(i, j, bounds):
     )
 
 
-@kernel(_t.float64(MATRIX, _t.float64, PILE, MEMORY))
-def press_all(bodies, dt, pile, memory):
-    """Add every contact force to the bodies ([Furukawa2009]_); return the energy in the springs, J."""
+@kernel(_t.float64(MATRIX, _t.float64, _t.boolean, PILE, MEMORY), inline=True)
+def press_all(bodies, dt, look, pile, memory):
+    """Add every contact force to the bodies ([Furukawa2009]_); return the energy in the springs, J.
+
+    Which boxes are near each other is found anew when asked to `look`, with a margin for what they may move until the next time.
+    """
     joints, _, _, pairs, _, _, counts, _, boxes, owner, _ = pile
     _, corner_slots, edge_slots, handled, _, bounds, _ = memory
     energy = 0.0
     for j in range(joints.shape[0]):
         energy += _press_joint(j, bodies, dt, pile, memory)
-    _bound(bodies, boxes, owner, bounds)
+    if look:
+        _bound(bodies, boxes, owner, bounds)
     for pair in range(pairs.shape[0]):
         if handled[pair] > 0:
             continue
@@ -187,7 +194,7 @@ def kick(n, bodies, inert, a0, a1, a2, dt):
 
 @kernel(_t.void(_t.int64, MATRIX, MATRIX, _t.float64))
 def drift(n, bodies, inert, dt):
-    """Move and turn the bodies by their velocities over `dt`, and clear the forces ([Furukawa2009]_)."""
+    """Move and turn the bodies over `dt` ([Furukawa2009]_), and clear the forces; spins stay those of the half step, as velocities do."""
     for i in range(n):
         b = bodies[i]
         for k in range(3):
@@ -204,7 +211,6 @@ def drift(n, bodies, inert, dt):
             b[Q + 3] = z
         turn(b, dt)
         orient(b)
-        spin(b, inert[i])
     for i in range(n + 1):
         for k in range(F, T + 3):
             bodies[i, k] = 0.0
