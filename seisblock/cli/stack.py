@@ -43,7 +43,8 @@ DEFAULT_PILE = "wagata"
 @option("--vertical/--no-vertical", default=True, show_default=True, help="Whether the record's vertical component acts.")
 @option("--across/--no-across", default=True, show_default=True, help="Whether the other horizontal component acts.")
 @option("--step", type=float, metavar="S", help="Time step, s. [default: 0.7 of what the stiffest contact admits]")
-@option("--criterion", is_flag=True, help="No RECORD: the criterion study of Furukawa2009 section 3(3), over sines; long work.")
+@option("--criterion", is_flag=True,
+        help="The criterion study of Furukawa2009 section 3(3), over sines, and over each RECORD given, scaled; long work.")
 @option("--grid", type=click.IntRange(min=1), default=1, show_default=True, help="--criterion: take every so many-th amplitude and height.")
 @option("--resume", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE",
         help="--criterion: keep finished sines in this file, and go on from it.")
@@ -113,24 +114,27 @@ def _study(source: Source, output: Output, body: Gravestone, contact: Any, grid:
            reinforced: bool) -> None:  # fmt: skip
     """Run the criterion study."""
     from seisblock.cli.progress import progress
-    from seisblock.errors import ParameterError
     from seisblock.present import stack_criterion as shown
     from seisblock.present.document import Answer
-    from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, rigid_levels
+    from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, record_thresholds, rigid_levels
 
-    if source.record:
-        raise ParameterError("--criterion shakes with sines and takes no RECORD")
+    same: dict[str, Any] = {
+        "pgas": PGAS[::-1][::grid][::-1], "ratios": RATIOS[::grid], "points": points, "contact": contact, "gravity": gravity,
+    }  # fmt: skip
     with progress("sines") as tell:
-        study = criterion_study(
-            body, pgas=PGAS[::-1][::grid][::-1], ratios=RATIOS[::grid], points=points, contact=contact, gravity=gravity, resume=resume,
-            progress=tell,
-        )  # fmt: skip
-    rigid = rigid_levels(study, width=body.stones[-1].width, points=points, gravity=gravity)
+        study = criterion_study(body, **same, resume=resume, progress=tell)
+    records = load(source) if source.record else []
+    scaled = {}
+    for record in records:
+        for motion in motions(record, source):
+            with progress(f"{record.station} {motion.name}".strip()) as tell:
+                scaled[f"{record.station} {motion.name}".strip()] = record_thresholds(body, motion, **same, progress=tell)
+    rigid = rigid_levels(study, body, points=points, gravity=gravity)
     answer = Answer(
         "stack", {"pile": body, "points": points, "contact": contact, "gravity_m_s2": gravity, "criterion": True, "grid": grid},
-        [shown.summary(study, rigid, reinforced=reinforced)], citations=("Furukawa2009",),
+        [shown.summary(study, rigid, scaled, reinforced=reinforced)], records, citations=("Furukawa2009",),
     )  # fmt: skip
     emit(
-        answer, output, tables=lambda: shown.tables(study, rigid, reinforced=reinforced), csv=lambda path: shown.write(study, path),
-        figure=lambda: shown.figure(study, rigid, reinforced=reinforced),
+        answer, output, tables=lambda: shown.tables(study, rigid, scaled, reinforced=reinforced), csv=lambda path: shown.write(study, path),
+        figure=lambda: shown.figure(study, rigid, scaled, reinforced=reinforced),
     )  # fmt: skip

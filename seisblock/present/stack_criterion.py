@@ -8,14 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 from rich.text import Text
 
-from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, overturning_level
+from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, overturning_level, overturning_ratio
 from seisblock.present.files import write_table
 from seisblock.present.tables import NOTHING, number, table
-from seisblock.studies.gravestone_criterion import CriterionStudy
+from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold
 from seisblock.units import GAL
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+Scaled = dict[str, tuple[Threshold, ...]]
+"""Thresholds of scaled records, by their names."""
 
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
@@ -25,7 +28,7 @@ def published(reinforced: bool) -> tuple[GravestoneFit, str]:
     return (DOWELLED, "(10)") if reinforced else (PLAIN, "(9)")
 
 
-def summary(study: CriterionStudy, rigid: dict[float, float], *, reinforced: bool) -> dict[str, Any]:
+def summary(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, reinforced: bool) -> dict[str, Any]:
     """Return the study as one result of a document."""
     fit, equation = published(reinforced)
     return {
@@ -41,10 +44,11 @@ def summary(study: CriterionStudy, rigid: dict[float, float], *, reinforced: boo
         ],
         "fit": study.fit,
         "published": {"equation": equation, "fit": fit},
+        "scaled_records": [{"record": name, "thresholds": thresholds} for name, thresholds in scaled.items()],
     }
 
 
-def tables(study: CriterionStudy, rigid: dict[float, float], *, reinforced: bool) -> Iterator[Any]:
+def tables(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, reinforced: bool) -> Iterator[Any]:
     """Yield thresholds, levels and the fit."""
     fit, equation = published(reinforced)
     frequencies = _frequencies(study)
@@ -52,6 +56,11 @@ def tables(study: CriterionStudy, rigid: dict[float, float], *, reinforced: bool
     pgas = sorted({t.pga_m_s2 for t in study.thresholds})
     rows = ([f"{a / GAL:.0f}", *(number(found.get((f, a)), 4) for f in frequencies)] for a in pgas)
     yield table("H/B of the most squat top stone that falls", ["PGA (gal)", *(f"{f:g} Hz" for f in frequencies)], rows)
+    for name, thresholds in scaled.items():
+        title = f"{name}, scaled; equivalent frequency {thresholds[0].frequency_hz:.2f} Hz"
+        beside = ((t, float(overturning_ratio(t.pga_m_s2, t.frequency_hz, fit))) for t in thresholds)
+        lines = ([f"{t.pga_m_s2 / GAL:.0f}", number(t.ratio, 4), number(ratio, 4)] for t, ratio in beside)
+        yield table(title, ["PGA (gal)", "H/B that falls", f"published, eq. {equation}"], lines)
     of_each = ((f, (study.levels.get(f), rigid.get(f), float(overturning_level(f, fit)))) for f in frequencies)
     levels = ([f"{f:g}", *(NOTHING if a is None else f"{a / GAL:.0f}" for a in row)] for f, row in of_each)
     yield table(
@@ -75,8 +84,8 @@ def write(study: CriterionStudy, path: Path) -> None:
     write_table(path, header, rows)
 
 
-def figure(study: CriterionStudy, rigid: dict[float, float], *, reinforced: bool) -> Figure:
-    """Return figs. 4 (13), 5 and 6 of [Furukawa2009]_ drawn from this study, beside the published fit and the rigid block."""
+def figure(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, reinforced: bool) -> Figure:
+    """Return figs. 4 (13), 5, 6 and 10 of [Furukawa2009]_ drawn from this study, beside the published fit and the rigid block."""
     import numpy as np
 
     from seisblock.present import canvas
@@ -91,6 +100,11 @@ def figure(study: CriterionStudy, rigid: dict[float, float], *, reinforced: bool
             left.plot(*zip(*part, strict=True), MARKS[index % len(MARKS)], color=shade, markersize=4, label=f"{f:g} Hz")
         if f in study.levels:
             left.plot(fine / GAL, study.levels[f] / fine, color=shade, linewidth=0.8)
+    for index, (name, thresholds) in enumerate(scaled.items()):
+        part = [(t.pga_m_s2 / GAL, t.ratio) for t in thresholds if t.ratio is not None]
+        if part:
+            text = f"{name}, {thresholds[0].frequency_hz:.1f} Hz"
+            left.plot(*zip(*part, strict=True), "-", color=(canvas.ACCENT, canvas.SECOND)[index % 2], linewidth=1.2, label=text)
     left.set_ylim(0.0, 6.8)
     left.set_title("most squat stone that falls, and eq. (7)", fontsize=9, loc="left")
     canvas.label(left, "PGA (gal)", "H/B (1)")

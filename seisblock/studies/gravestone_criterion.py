@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from seisblock.bodies.block import Block
 from seisblock.bodies.gravestone import Gravestone
 from seisblock.bodies.pile import PileContact
 from seisblock.criteria.gravestones import GravestoneFit
@@ -135,12 +136,7 @@ def criterion_study(
     missing = [cell for cell in cells if cell not in known]
 
     def work(cell: tuple[float, float]) -> Threshold:
-        motion = sine_base(*cell, duration)
-        for ratio in ladder:
-            outcome = solve_stack(with_top(body, ratio), motion, points=points, contact=contact, gravity=gravity, stop_at_fall=True).outcome
-            if outcome.overturned_any:
-                return Threshold(*cell, ratio, outcome.overturned)
-        return Threshold(*cell, None)
+        return _least(body, sine_base(*cell, duration), cell, ladder, points=points, contact=contact, gravity=gravity)
 
     for done, threshold in enumerate(in_threads(work, missing, workers=workers), start=1):
         known[threshold.frequency_hz, threshold.pga_m_s2] = threshold
@@ -203,13 +199,87 @@ def _resumed(path: Path | None, mark: str) -> dict[tuple[float, float], Threshol
     return known
 
 
-def rigid_levels(study: CriterionStudy, *, width: float, points: int, gravity: float = STANDARD_GRAVITY) -> dict[float, float]:
-    """Return a(f) of the top stone as one rigid block on the outermost contact points, over the study's sines ([Furukawa2009]_ eq. (7))."""
-    from seisblock.solvers.rock import rock_verdict
-    from seisblock.studies.overturning_simulated import sao
+def record_thresholds(
+    body: Gravestone,
+    motion: Motion,
+    *,
+    pgas: Sequence[float] = PGAS,
+    ratios: Sequence[float] = RATIOS,
+    points: int = 5,
+    contact: PileContact | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    progress: Progress | None = None,
+) -> tuple[Threshold, ...]:
+    """Find the threshold of a motion scaled to each amplitude, along +x alone ([Furukawa2009]_ section 3(5), fig. 10).
 
+    The frequency of the answers is the equivalent one, PGA/(2 pi PGV). Parameters as for :func:`criterion_study`.
+
+    Raises
+    ------
+    ParameterError
+        If the motion has no acceleration along +x.
+    """
+    from seisblock.measures import ground_history
+    from seisblock.measures.frequency import pga_pgv_frequency
+
+    peak = float(np.abs(motion.horizontal).max())
+    frequency = pga_pgv_frequency(peak, float(np.abs(ground_history(motion.horizontal, motion.dt).velocity).max()))
+    if frequency is None:
+        raise ParameterError("the motion has no acceleration along its component: nothing can be scaled")
+
+    def work(pga: float) -> Threshold:
+        scaled = Motion.from_arrays(motion.horizontal * (pga / peak), motion.dt, name=motion.name)
+        return _least(body, scaled, (frequency, pga), sorted(ratios), points=points, contact=contact, gravity=gravity)
+
+    return tuple(in_threads(work, tuple(pgas), progress=progress))
+
+
+def _least(body: Gravestone, motion: Motion, cell: tuple[float, float], ladder: Sequence[float], *, points: int,
+           contact: PileContact | None, gravity: float) -> Threshold:  # fmt: skip
+    """Return the most squat top stone that falls, trying them from below."""
+    for ratio in ladder:
+        outcome = solve_stack(with_top(body, ratio), motion, points=points, contact=contact, gravity=gravity, stop_at_fall=True).outcome
+        if outcome.overturned_any:
+            return Threshold(*cell, ratio, outcome.overturned)
+    return Threshold(*cell, None)
+
+
+def rigid_top(body: Gravestone, points: int) -> Block:
+    """Return the top stone, with those it is dowelled to, as one rigid block on its outermost points ([Furukawa2009]_ fig. 12).
+
+    Parameters
+    ----------
+    body : Gravestone
+    points : int
+        Contact points along each side of the joint.
+    """
+    members = next(group for group in body.bodies() if len(body.stones) - 1 in group)
+    stones = [body.stones[i] for i in members]
+    centres = np.array([body.centres()[i] for i in members])
+    masses = np.array([stone.mass for stone in stones])
+    floor = float(centres[0, 2]) - 0.5 * stones[0].height
+    x, _, z = masses @ centres / masses.sum()
+    inertia = sum(
+        m * ((s.width**2 + s.height**2) / 12.0 + (c[0] - x) ** 2 + (c[2] - z) ** 2) for m, s, c in zip(masses, stones, centres, strict=True)
+    )
     inset = 1.0 if points == 2 else 1.0 - 1.0 / points
-    blocks = [(ratio, sao(ratio, width, inset=inset)) for ratio in RATIOS]
+    return Block(
+        stones[0].width * inset,
+        sum(stone.height for stone in stones),
+        depth=stones[0].depth,
+        mass=float(masses.sum()),
+        centroid_height=float(z) - floor,
+        centroid_offset=float(x - centres[0, 0]),
+        centroid_inertia=float(inertia),
+        name=stones[-1].name,
+    )
+
+
+def rigid_levels(study: CriterionStudy, body: Gravestone, *, points: int, gravity: float = STANDARD_GRAVITY) -> dict[float, float]:
+    """Return a(f) of the top stone as one rigid block, over the study's sines ([Furukawa2009]_ eq. (7)); parameters as for the study."""
+    from seisblock.solvers.rock import rock_verdict
+
+    blocks = [(ratio, rigid_top(with_top(body, ratio), points)) for ratio in RATIOS]
     found = []
     for threshold in study.thresholds:
         motion = sine_base(threshold.frequency_hz, threshold.pga_m_s2)

@@ -108,6 +108,14 @@ def test_own_stones(pulse, tmp_path):
     assert set(found["max_tilt_rad"]) == {"lower", "upper"}
 
 
+def test_records_beside_the_study(pulse):
+    """With RECORD the study also scales it to each amplitude, and says its equivalent frequency (fig. 10)."""
+    (found,) = answer(pulse, "--criterion", "--grid", "14", "--points", "2", "--without", "mizubachi")["results"]
+    (scaled,) = found["scaled_records"]
+    assert len(scaled["thresholds"]) == 1
+    assert 0.4 < scaled["thresholds"][0]["frequency_hz"] < 1.2
+
+
 def test_thinned_criterion_study(tmp_path):
     """The study prints thresholds beside (9), redraws its figures, and takes up what was finished."""
     held, picture, table = tmp_path / "study.jsonl", tmp_path / "study.png", tmp_path / "study.csv"
@@ -134,7 +142,6 @@ BAD = {
     "too coarse": (("--step", "0.01"), "too coarse"),
     "two stiffnesses": (("--young", "1e9", "--joint-stiffness", "1e9"), "not both"),
     "negative stiffness": (("--young", "-1"), "must be positive"),
-    "record and study": (("synthetic_jma.csv", "--criterion"), "takes no RECORD"),
     "grid without study": (("--grid", "2"), "go with --criterion"),
     "vertical as direction": (("--component", "UD"), "vertical"),
 }

@@ -2,11 +2,14 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from seisblock.bodies.gravestone import Gravestone, PileStone
+from seisblock.bodies.pile import read_pile
 from seisblock.criteria.gravestones import PLAIN, overturning_level
 from seisblock.errors import ParameterError, RecordFormatError
+from seisblock.records import Motion
 from seisblock.studies.gravestone_criterion import (
     FREQUENCIES_HZ,
     PGAS,
@@ -15,7 +18,9 @@ from seisblock.studies.gravestone_criterion import (
     criterion_study,
     fitted_criterion,
     fitted_levels,
+    record_thresholds,
     rigid_levels,
+    rigid_top,
     sine_base,
     with_top,
 )
@@ -78,5 +83,31 @@ def test_files_of_another_study_are_refused(tmp_path):
 def test_one_stone_falls_where_the_rigid_block_does():
     """At 1 Hz the level of one stone on 5 x 5 points is near that of a rigid block with pivots at 0.8."""
     study = criterion_study(SAO, frequencies=(1.0,), pgas=(3.0, 5.0), ratios=RATIOS, duration=6.0)
-    rigid = rigid_levels(study, width=8 * SUN, points=5)
+    rigid = rigid_levels(study, SAO, points=5)
     assert study.levels[1.0] == pytest.approx(rigid[1.0], rel=0.06)
+
+
+def test_a_dowelled_top_is_one_rigid_block():
+    """Sao and jodai as one body: its mass, its centre of gravity and its inertia are those of both stones."""
+    pile = read_pile("wagata", reinforced=True)
+    block = rigid_top(pile, 5)
+    jodai, sao = pile.stones[-2:]
+    mass = jodai.mass + sao.mass
+    height = (jodai.mass * jodai.height / 2 + sao.mass * (jodai.height + sao.height / 2)) / mass
+    inertia = sum(
+        stone.mass * ((stone.width**2 + stone.height**2) / 12 + (middle - height) ** 2)
+        for stone, middle in ((jodai, jodai.height / 2), (sao, jodai.height + sao.height / 2))
+    )
+    assert block.width == pytest.approx(0.8 * jodai.width)
+    assert (block.total_mass, block.centroid_height, block.centroid_inertia) == pytest.approx((mass, height, inertia))
+
+
+def test_a_sine_as_a_record_has_the_threshold_of_the_sine():
+    """A record that is a sine topples the stones that the sine does, at its own equivalent frequency."""
+    # a cosine taper keeps its velocity free of an offset
+    motion = sine_base(2.0, 1.0, 6.0)
+    motion = Motion.from_arrays(motion.horizontal * np.hanning(motion.samples) ** 0.25, motion.dt)
+    (found,) = record_thresholds(SAO, motion, pgas=(6.0,), ratios=(1.5, 2.0, 3.0, 4.0), points=2)
+    assert found.frequency_hz == pytest.approx(2.0, rel=0.05)
+    assert found.ratio == criterion_study(SAO, frequencies=(2.0,), pgas=(6.0,), ratios=(1.5, 2.0, 3.0, 4.0), points=2,
+                                          duration=6.0).thresholds[0].ratio  # fmt: skip
