@@ -210,10 +210,12 @@ def integrate(
                     for i in range(n_tracked):
                         if may_turn(c, i, degree, h, extrema):
                             keep_turning_points(c, i, degree, h, sample * dt + tau, extrema, rate, q, d)
+                    size = 0.0
                     for i in range(n_states):
                         y[i] = evaluate_row(c, i, degree, h)
-                        if not abs(y[i]) < OFF:
-                            status = NOT_FINITE
+                        size += abs(y[i])
+                    if not size < OFF:
+                        status = NOT_FINITE
                     for i in range(n_tracked):
                         keep(extrema, i, y[i], sample * dt + tau + h)
                 if tau + h > tau:

@@ -54,6 +54,9 @@ def lower_bound(c, degree, h):
 @kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
 def evaluate_row(c, i, degree, t):
     """Return the value at `t` of the polynomial in row `i`; a slice ``c[i]`` would cost reference counting."""
+    if degree == 3:
+        # sliding and flight: no loop where nearly all steps are cubics
+        return c[i, 0] + t * (c[i, 1] + t * (c[i, 2] + t * c[i, 3]))
     value = c[i, degree]
     for k in range(degree - 1, -1, -1):
         value = value * t + c[i, k]
@@ -66,6 +69,8 @@ def lower_bound_of_row(c, i, degree, h):
     if degree == 0:
         return c[i, 0]
     bound = min(c[i, 0], c[i, 0] + c[i, 1] * h)
+    if degree == 3:
+        return bound - h * h * (abs(c[i, 2]) + h * abs(c[i, 3]))
     power = h
     for k in range(2, degree + 1):
         power *= h
