@@ -1,0 +1,17 @@
+"""How long a film of a 20 s response takes to draw: it should play longer than it takes."""
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.present.animation import Filming
+from seisblock.present.rock_animation import animate_rocking
+from seisblock.records import Motion
+from seisblock.solvers.rock import solve_rock
+
+
+def test_twenty_seconds_of_rocking(benchmark, tmp_path):
+    """A 20 s response as a .gif, in real time."""
+    t = np.arange(2001) * 0.01
+    response = solve_rock(Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"), Block(0.3, 0.9))
+    benchmark.pedantic(animate_rocking, args=(response, tmp_path / "rock.gif", Filming()), rounds=1)
+    assert (tmp_path / "rock.gif").read_bytes().startswith(b"GIF89a")
