@@ -62,6 +62,7 @@ def test_a_users_zip_with_folders(tmp_path):
         (gzip.compress(bytes(range(256)))[:100], "damaged"),
         (zipped(station_files("NIG019"))[:-200], "damaged"),
     ],
+    ids=["no record", "plots only", "gzip cut short", "zip cut short"],
 )
 def test_bundles_without_a_record_or_damaged(tmp_path, data, says):
     """What is in the bundle is told, or that it is damaged."""
