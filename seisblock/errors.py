@@ -49,7 +49,3 @@ class SolverError(SeisblockError, ArithmeticError):
     """A solver gave up: the answer would not be one."""
 
     exit_code = 4
-
-
-class SeisblockWarning(UserWarning):
-    """Something the user should know, although the answer stands."""
