@@ -5,7 +5,9 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-__version__ = "0.1.0"
+from seisblock import showing
+
+__version__ = "0.2.0"
 
 _HOME = {
     "Block": "seisblock.bodies.block",
@@ -13,11 +15,11 @@ _HOME = {
     "Contact": "seisblock.bodies.two_layer",
     "Motion": "seisblock.records",
     "Record": "seisblock.records",
-    "find_margin": "seisblock.studies.margin",
+    "find_margin": "seisblock.studies.rocking.margin",
     "load_block": "seisblock.bodies.library",
-    "Gravestone": "seisblock.bodies.gravestone",
-    "PileContact": "seisblock.bodies.pile",
-    "PileStone": "seisblock.bodies.gravestone",
+    "Pile": "seisblock.bodies.pile.pile",
+    "PileContact": "seisblock.bodies.pile.contact",
+    "PileStone": "seisblock.bodies.pile.stone",
     "measure": "seisblock.measures",
     "motion_of": "seisblock.records",
     "read": "seisblock.readers",
@@ -26,31 +28,33 @@ _HOME = {
     "list_samples": "seisblock.readers",
     "read_all": "seisblock.readers",
     "sample_path": "seisblock.readers",
-    "solve_jump": "seisblock.solvers.jump",
+    "solve_jump": "seisblock.solvers.jump.solve",
     "SpringBlock": "seisblock.bodies.spring_block",
     "slide_study": "seisblock.studies.sliding",
     "criterion_study": "seisblock.studies.gravestone_criterion",
-    "read_pile": "seisblock.bodies.pile",
-    "solve_stack": "seisblock.solvers.stack",
-    "solve_slide": "seisblock.solvers.slide",
-    "natural_modes": "seisblock.solvers.uplift_modes",
-    "rocking_spectrum": "seisblock.studies.spectra",
-    "solve_rock": "seisblock.solvers.rock",
-    "solve_uplift": "seisblock.solvers.uplift",
-    "Cemetery": "seisblock.bodies.cemetery",
-    "Stone": "seisblock.bodies.cemetery",
-    "counted_survey": "seisblock.studies.survey",
-    "estimate_shaking": "seisblock.studies.shaking_estimate",
-    "marked_survey": "seisblock.studies.survey",
-    "overturning_rate": "seisblock.studies.overturning_rate",
-    "rate_curve": "seisblock.studies.overturning_rate",
-    "read_cemetery": "seisblock.bodies.cemetery_csv",
-    "scale_factors": "seisblock.studies.scale_factors",
-    "uplift_minima": "seisblock.solvers.uplift_minima",
-    "uplift_thresholds": "seisblock.solvers.uplift_harmonic",
+    "read_pile": "seisblock.bodies.pile.toml",
+    "solve_stack": "seisblock.solvers.stack.solve",
+    "solve_slide": "seisblock.solvers.slide.solve",
+    "natural_modes": "seisblock.solvers.uplift.modes",
+    "rocking_spectrum": "seisblock.studies.rocking.spectra",
+    "solve_rock": "seisblock.solvers.rock.solve",
+    "solve_uplift": "seisblock.solvers.uplift.solve",
+    "Cemetery": "seisblock.bodies.cemetery.cemetery",
+    "Stone": "seisblock.bodies.cemetery.cemetery",
+    "counted_survey": "seisblock.studies.inverse.survey",
+    "estimate_shaking": "seisblock.studies.inverse.estimate",
+    "marked_survey": "seisblock.studies.inverse.survey",
+    "overturning_rate": "seisblock.studies.cemetery.rate",
+    "rate_curve": "seisblock.studies.cemetery.rate",
+    "read_cemetery": "seisblock.bodies.cemetery.table",
+    "scale_factors": "seisblock.studies.inverse.factors",
+    "uplift_minima": "seisblock.solvers.uplift.minima",
+    "uplift_thresholds": "seisblock.solvers.uplift.harmonic",
 }
 
 __all__ = ["__version__", *_HOME]
+
+showing.lend(lambda: importlib.import_module("seisblock.present.pages.notebook"))
 
 
 def __getattr__(name: str) -> Any:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from enum import IntEnum
-from importlib import import_module
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 
 from seisblock.records.motion import Motion
+from seisblock.showing import painter
 from seisblock.typing import FloatArray, IntArray
 
 Outcome = TypeVar("Outcome", covariant=True)
@@ -158,19 +158,14 @@ class Response(Generic[Outcome]):
 
     def plot(self) -> Any:
         """Return the response's figure, a ``matplotlib.figure.Figure``; a notebook shows it."""
-        return _shown_by("plot", self)
+        return painter().plot(self)
 
     def _repr_html_(self) -> str:
         """Return what a notebook shows: the outcome as a table, and the figure."""
-        return str(_shown_by("html", self))
+        return painter().html(self)
 
     def to_dataframe(self) -> Any:
         """Return the columns as a pandas DataFrame (pandas must be installed)."""
         import pandas as pd
 
         return pd.DataFrame(self.to_columns())
-
-
-def _shown_by(name: str, response: Response[Any]) -> Any:
-    """Let the drawing room show a response: looked up by name when asked, because nothing below it may import it."""
-    return getattr(import_module("seisblock.present.notebook"), name)(response)

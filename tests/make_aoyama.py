@@ -12,7 +12,7 @@ import tomllib
 
 import numpy as np
 
-from seisblock.readers.samples import MANIFEST, sample_directory
+from seisblock.samples import MANIFEST, sample_directory
 from tests.make_sample_records import manifest
 
 NAME = "aoyama.csv"
@@ -21,9 +21,18 @@ PINNED = {2.84: 35, 3.35: 20, 3.61: 10, 3.84: 10, 4.27: 8, 5.03: 5, 5.27: 4, 5.7
 """H/B thresholds of table 6, from eqs. (9) and (10), and how many of 100 stones lie above; the first four are rounded to 5."""
 
 STRETCHES = (
-    (1.30, 2.20, 12), (2.20, 2.50, 24), (2.50, 2.79, 29),  # not pinned
-    (2.89, 3.05, 7), (3.05, 3.31, 8), (3.39, 3.58, 10), (3.90, 4.22, 2), (4.35, 4.95, 3), (5.15, 5.15, 1), (5.45, 5.65, 2), (5.95, 6.35, 2),
-)  # fmt: skip
+    (1.30, 2.20, 12),
+    (2.20, 2.50, 24),
+    (2.50, 2.79, 29),  # not pinned
+    (2.89, 3.05, 7),
+    (3.05, 3.31, 8),
+    (3.39, 3.58, 10),
+    (3.90, 4.22, 2),
+    (4.35, 4.95, 3),
+    (5.15, 5.15, 1),
+    (5.45, 5.65, 2),
+    (5.95, 6.35, 2),
+)
 """Ranges of H/B, clear of the thresholds by more than their rounding, and how many stones lie in each."""
 
 WIDTHS_SUN = (8.0, 8.0, 9.0, 8.0, 7.0, 8.0, 10.0, 8.0, 9.0, 6.0)
@@ -43,9 +52,7 @@ HEADER = """\
 
 def ratios() -> list[float]:
     """Return 100 ratios, spread evenly over each stretch."""
-    return [
-        float(value) for low, high, count in STRETCHES for value in low + (high - low) * (np.arange(count) + 0.5) / count
-    ]
+    return [float(value) for low, high, count in STRETCHES for value in low + (high - low) * (np.arange(count) + 0.5) / count]
 
 
 def make() -> str:

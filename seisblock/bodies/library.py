@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.files import length, read_table
+from seisblock.bodies.toml import length, read_table
 from seisblock.bodies.two_layer import two_layer_block
 from seisblock.errors import BodyError, ParameterError
 from seisblock.units import parse_length, parse_mass
@@ -16,15 +15,6 @@ from seisblock.units import parse_length, parse_mass
 _LENGTHS = ("width", "height", "depth", "centroid_height", "centroid_offset")
 _NUMBERS = ("density", "centroid_inertia")
 _KEYS = {"kind", "source", "name", "mass", "restitution", *_LENGTHS, *_NUMBERS}
-
-
-@dataclass(frozen=True)
-class BlockChoice:
-    """A block, the restitution it brings along (None for that of its angular momentum), and one line on where it comes from."""
-
-    block: Block
-    restitution: float | None
-    says: str
 
 
 def load_block(name: str | Path, *, side: str = "short") -> Block:
@@ -59,9 +49,14 @@ def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
     if kind == "two-layer":
         body = two_layer_block(table, side)
         return Block(
-            body.width, body.height, body.depth, body.mass, centroid_height=body.centroid_height, centroid_inertia=body.centroid_inertia,
+            body.width,
+            body.height,
+            body.depth,
+            body.mass,
+            centroid_height=body.centroid_height,
+            centroid_inertia=body.centroid_inertia,
             name=body.name,
-        )  # fmt: skip
+        )
     if kind != "block":
         raise BodyError(f'{where}: expected kind = "block" or "two-layer", found {kind!r}')
     unknown = set(table) - _KEYS
@@ -75,41 +70,8 @@ def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
         given["mass"] = parse_mass(table["mass"], what=f"{where}: mass")
     for key in _NUMBERS:
         if key in table:
-            given[key] = _number(table[key], f"{where}: {key}")
+            given[key] = number(table[key], f"{where}: {key}")
     return Block(**given, name=str(table.get("name", where)))
-
-
-def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
-    """Return the block that a set of options describes.
-
-    Parameters
-    ----------
-    asked : mapping
-        ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI; ``restitution`` overrides what a file
-        brings along. None where not given.
-
-    Raises
-    ------
-    BodyError
-        If sizes and a named block are mixed, or something needed is missing.
-    """
-    keys = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia")
-    sizes = {key: asked[key] for key in keys if asked.get(key) is not None}
-    restitution = asked.get("restitution")
-    if asked.get("block"):
-        if sizes:
-            raise BodyError(f"give either --block or sizes (--{', --'.join(key.replace('_', '-') for key in sizes)}), not both")
-        table = read_table(asked["block"])
-        own = table.get("restitution")
-        if restitution is None and own is not None:
-            restitution = _number(own, f"{asked['block']}: restitution")
-        block = block_of(table, side=asked.get("side") or "short")
-        return BlockChoice(block, restitution, f"{block.name}, from {asked['block']}")
-    missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
-    if missing:
-        raise BodyError(f"which block? {' and '.join(missing)} missing: give --width and --height, or --block NAME|FILE (say gravestone)")
-    block = Block(**sizes)
-    return BlockChoice(block, restitution, f"block {block.width:g} m wide, {block.height:g} m high")
 
 
 def described(block: Block) -> dict[str, Any]:
@@ -129,7 +91,13 @@ def described(block: Block) -> dict[str, Any]:
     }
 
 
-def _number(value: Any, what: str) -> float:
+def restitution_of(table: Mapping[str, Any], name: str) -> float | None:
+    """Return the restitution that a body's file brings along, or None."""
+    own = table.get("restitution")
+    return None if own is None else number(own, f"{name}: restitution")
+
+
+def number(value: Any, what: str) -> float:
     """Return a number of a table."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ParameterError(f"{what} must be a number, found {value!r}")

@@ -81,9 +81,14 @@ def holds_at_rest(mu: float, slope_deg: float) -> bool:
 
 
 def sliding_base(
-    mu: float, *, mu_kinetic: float | None = None, kappa: float | None = None, slope_deg: float = 0.0,
-    slope_length: float | None = None, one_way: bool = False,
-) -> SlidingBase:  # fmt: skip
+    mu: float,
+    *,
+    mu_kinetic: float | None = None,
+    kappa: float | None = None,
+    slope_deg: float = 0.0,
+    slope_length: float | None = None,
+    one_way: bool = False,
+) -> SlidingBase:
     """Return a base whose kinetic friction is given, or is `kappa` times the static one, or equals it.
 
     Raises

@@ -67,7 +67,11 @@ def spring_block(
     if frequency_vertical is None:
         raise BodyError("the springs have no stiffness: give --frequency-vertical in Hz, or --mass and --stiffness kx,ky,kz in N/m")
     return SpringBlock.from_frequency(
-        width, width if depth is None else depth, height,
-        frequency_vertical=frequency_vertical, beta=PAPER_BETA if beta is None else beta,
-        mass=REFERENCE_MASS if mass is None else mass, damping=zeta,
-    )  # fmt: skip
+        width,
+        width if depth is None else depth,
+        height,
+        frequency_vertical=frequency_vertical,
+        beta=PAPER_BETA if beta is None else beta,
+        mass=REFERENCE_MASS if mass is None else mass,
+        damping=zeta,
+    )

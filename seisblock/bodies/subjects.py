@@ -6,10 +6,10 @@ import re
 from dataclasses import dataclass
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.files import read_table
-from seisblock.bodies.library import choose_block
+from seisblock.bodies.library import block_of, restitution_of
 from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
 from seisblock.bodies.spring_choice import PAPER_BETA, PAPER_DAMPING
+from seisblock.bodies.toml import read_table
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact, two_layer_block
 from seisblock.errors import BodyError
 from seisblock.units import parse_length
@@ -76,22 +76,20 @@ def subject(
     layers = own = None
     if sizes:
         width, height = (parse_length(part, what=f"body {text}") for part in sizes.groups())
-        chosen = choose_block({"width": width, "height": height})
+        block, own_restitution = Block(width, height), None
         name = f"block {width:g} x {height:g} m"
     else:
         table = read_table(text)
         if table.get("kind") not in ("block", "two-layer"):
             raise BodyError(f"{text} is no body of one piece: expected kind block or two-layer, found {table.get('kind')!r}")
-        chosen = choose_block({"block": text, "side": side})
-        name = chosen.block.name
+        block, own_restitution = block_of(table, side=side), restitution_of(table, text)
+        name = block.name
         if table["kind"] == "two-layer":
             layers, found = two_layer_block(table, side), contact(table)
             own = Contact(**found) if len(found) == 4 else None
     static = mu if mu is not None else (own.mu if own else None)
     kinetic = mu_kinetic if mu_kinetic is not None else (own.mu_kinetic if own and mu is None else static)
-    return Subject(
-        name, chosen.block, chosen.restitution, layers if own else None, own, _on_springs(chosen.block, frequency_vertical), static, kinetic
-    )
+    return Subject(name, block, own_restitution, layers if own else None, own, _on_springs(block, frequency_vertical), static, kinetic)
 
 
 def _on_springs(block: Block, frequency: float | None) -> SpringBlock | None:
@@ -102,4 +100,4 @@ def _on_springs(block: Block, frequency: float | None) -> SpringBlock | None:
     mass = block.mass or REFERENCE_MASS
     return SpringBlock.from_frequency(
         block.width, depth, block.height, frequency_vertical=frequency, beta=PAPER_BETA, mass=mass, damping=PAPER_DAMPING
-    )  # fmt: skip
+    )

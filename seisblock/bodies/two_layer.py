@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from seisblock.bodies.files import length, lengths, masses, of_kind
+from seisblock.bodies.toml import length, lengths, masses, of_kind
 from seisblock.errors import BodyError
 from seisblock.units import STANDARD_GRAVITY
 

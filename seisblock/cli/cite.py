@@ -34,7 +34,7 @@ def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
         from rich.padding import Padding
         from rich.text import Text
 
-        from seisblock.present.tables import console
+        from seisblock.present.text.tables import console
 
         screen = console()
         for reference in chosen:

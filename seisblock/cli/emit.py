@@ -13,13 +13,14 @@ from seisblock.cli.options import Output
 from seisblock.cli.talk import say, warn
 from seisblock.errors import OutputError
 from seisblock.present.document import Answer, to_json
+from seisblock.present.faces import figure_of, film_of
 from seisblock.present.words import language
 from seisblock.results import Response
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from seisblock.present.animation import Filming
+    from seisblock.present.films.animation import Filming
 
 STDOUT = Path("-")
 """The name that stands for stdout."""
@@ -49,10 +50,13 @@ def emit(
     csv : callable
         Writes the file of ``--csv`` where time histories are not what it holds.
     figure : callable
-        Returns the matplotlib Figure of ``--plot``.
+        Returns the matplotlib Figure of ``--plot``; left out, the responses' own.
     animation : callable
-        Writes the file of ``--animate``, at the speed, in the language and with the progress it is told.
+        Writes the file of ``--animate``; left out, the responses' own film, at the speed, in the language and with the progress it is told.
     """
+    if responses:
+        figure = figure or (lambda: figure_of(responses, gal=output.gal))
+        animation = animation or film_of(responses)
     for message in answer.warnings:
         warn(message)
     if output.plot is not None and figure is None:
@@ -76,7 +80,7 @@ def emit(
     if output.json:
         click.echo(to_json(answer))
     else:
-        from seisblock.present.tables import console
+        from seisblock.present.text.tables import console
 
         screen = console()
         for part in tables():
@@ -85,8 +89,8 @@ def emit(
 
 def _draw(figure: Callable[[], Figure], target: Path, lang: str) -> None:
     """Write a figure to a file, or its .png to stdout."""
-    from seisblock.present.canvas import save, save_png
-    from seisblock.present.fonts import MISSING, speak
+    from seisblock.present.figures.canvas import save, save_png
+    from seisblock.present.figures.fonts import MISSING, speak
 
     if target == STDOUT and sys.stdout.isatty():
         raise OutputError("--plot - writes a .png to stdout, which is a terminal: send it to a file or a viewer, or give a file name")
@@ -102,8 +106,8 @@ def _draw(figure: Callable[[], Figure], target: Path, lang: str) -> None:
 def _animate(animation: Callable[[Path, Filming], None], output: Output) -> None:
     """Write an animation, with a bar while its pictures are drawn."""
     from seisblock.cli.progress import progress
-    from seisblock.present.animation import Filming
-    from seisblock.present.fonts import MISSING, japanese_font
+    from seisblock.present.figures.fonts import MISSING, japanese_font
+    from seisblock.present.films.animation import Filming
 
     assert output.animate is not None
     lang = language(output.lang)

@@ -26,25 +26,45 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
     ),
 )
 @record_options
-@option("--cemetery", metavar="FILE|NAME", section="Body",
-        help="CSV of gravestones; a column fallen says which fell (1, yes, 転倒) and which stand (0, no, 残存).")
+@option(
+    "--cemetery",
+    metavar="FILE|NAME",
+    section="Body",
+    help="CSV of gravestones; a column fallen says which fell (1, yes, 転倒) and which stand (0, no, 残存).",
+)
 @option("--rate", metavar="K/N", section="Body", help="K of N stones fell, in a place whose stones are proportioned as in --cemetery.")
 @option("--slid", type=LENGTH, metavar="M", section="Body", help="How far an object slid, m or with a unit; needs --mu.")
 @option("--jumped", type=LENGTH, metavar="M", section="Body", help="How far a two-layer block was displaced, m or with a unit.")
 @option("--block", metavar="NAME|FILE", section="Body", help=f"jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
-@option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body",
-        help="jumped: which side of the block in plan lies along the motion.")
+@option(
+    "--side",
+    type=click.Choice(["short", "long"]),
+    default="short",
+    show_default=True,
+    section="Body",
+    help="jumped: which side of the block in plan lies along the motion.",
+)
 @option("--mu", type=float, section="Body", help="slid: static friction, 1. jumped: of the landed foot. [default: jumped: the body's own]")
 @option("--mu-kinetic", type=float, section="Body", help="Kinetic friction, 1. [default: slid: as --mu; jumped: the body's own]")
 @option("--restitution-x", type=float, section="Body", help="jumped: ratio of horizontal velocities at the impact. [default: the body's]")
 @option("--restitution-y", type=float, section="Body", help="jumped: ratio of vertical velocities at the impact. [default: the body's]")
-@option("--drop", type=LENGTH, default=0.0, section="Body",
-        help="jumped: height of the floor above the ground, m or with a unit. [default: 0]")
-@option("--frequency", type=FLOATS, metavar="HZ",
-        help="Stones: equivalent frequency, Hz, or a list or range. [default: averaged over 0.5-3 Hz, and at 0.5, 1 ... 3]")
+@option(
+    "--drop", type=LENGTH, default=0.0, section="Body", help="jumped: height of the floor above the ground, m or with a unit. [default: 0]"
+)
+@option(
+    "--frequency",
+    type=FLOATS,
+    metavar="HZ",
+    help="Stones: equivalent frequency, Hz, or a list or range. [default: averaged over 0.5-3 Hz, and at 0.5, 1 ... 3]",
+)
 @option("--confidence", type=float, default=0.9, show_default=True, help="Stones: level of the intervals, 0 to 1.")
-@option("--common-error", type=float, default=0.3, show_default=True,
-        help="Stones: standard deviation of ln PGA that all stones share (criterion, ground, record).")
+@option(
+    "--common-error",
+    type=float,
+    default=0.3,
+    show_default=True,
+    help="Stones: standard deviation of ln PGA that all stones share (criterion, ground, record).",
+)
 @option("--stone-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln PGA of each stone by itself.")
 @option("--largest", is_flag=True, help="slid: the largest slip was observed, not the one left at the end.")
 @option("--vertical", is_flag=True, help="slid: let the vertical component act too.")
@@ -76,11 +96,11 @@ def infer(source: Source, output: Output, cemetery: str | None, rate: str | None
 
 def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, Any]) -> None:
     """Answer from fallen stones."""
-    from seisblock.bodies.cemetery_csv import read_cemetery
+    from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.present.document import Answer
-    from seisblock.studies.overturning_rate import FREQUENCIES
-    from seisblock.studies.shaking_estimate import Model, contour, estimate_shaking, groups_of, remarks_of
-    from seisblock.studies.survey import counted_survey, marked_survey, parse_rate
+    from seisblock.studies.cemetery.rate import FREQUENCIES
+    from seisblock.studies.inverse.estimate import Model, contour, estimate_shaking, groups_of, remarks_of
+    from seisblock.studies.inverse.survey import counted_survey, marked_survey, parse_rate
 
     stones = read_cemetery(cemetery)
     for note in stones.notes[:1]:
@@ -92,29 +112,40 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
     line = contour(survey, model)
     warnings = list(dict.fromkeys(text for each in estimates for text in remarks_of(each)))
     parameters = {
-        "cemetery": cemetery, "stones": stones.size, "rate": rate, "unknown_stones": 0 if rate else stones.size - survey.judged,
-        "confidence": model.level, "common_error_ln_pga": model.common_error, "stone_error_ln_pga": model.stone_error,
-        "criterion": "furukawa", "prior": "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given",
+        "cemetery": cemetery,
+        "stones": stones.size,
+        "rate": rate,
+        "unknown_stones": 0 if rate else stones.size - survey.judged,
+        "confidence": model.level,
+        "common_error_ln_pga": model.common_error,
+        "stone_error_ln_pga": model.stone_error,
+        "criterion": "furukawa",
+        "prior": "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given",
         "intensity": "2.68 + 1.72 log10 PGV (kine), standard deviation 0.21",
-    }  # fmt: skip
+    }
     answer = Answer(
-        "infer", parameters, [asdict(each) for each in estimates], (), ("Furukawa2009", "Midorikawa1999"), warnings,
+        "infer",
+        parameters,
+        [asdict(each) for each in estimates],
+        (),
+        ("Furukawa2009", "Midorikawa1999"),
+        warnings,
         {"contour": [asdict(each) for each in line]},
-    )  # fmt: skip
+    )
 
     def tables() -> Any:
-        from seisblock.present.infer import estimate_tables
+        from seisblock.present.text.infer import estimate_tables
 
         return estimate_tables(stones.name, estimates, gal=output.gal, level=model.level)
 
     def figure() -> Any:
-        from seisblock.present.infer_figure import estimate_figure
+        from seisblock.present.figures.infer import estimate_figure
 
         return estimate_figure(stones.name, survey, model, estimates)
 
     def csv(path: Path) -> None:
         from seisblock.present.files import write_table
-        from seisblock.present.infer import estimate_columns
+        from seisblock.present.text.infer import estimate_columns
 
         write_table(path, *estimate_columns(line))
 
@@ -126,7 +157,7 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     from seisblock.cli.inputs import load, motions
     from seisblock.cli.progress import progress
     from seisblock.present.document import Answer
-    from seisblock.studies.scale_factors import scale_factors
+    from seisblock.studies.inverse.factors import scale_factors
 
     if asked["slid"] is not None and asked["mu"] is None:
         raise click.UsageError("--slid needs --mu, the static friction coefficient, for example --mu 0.3")
@@ -144,18 +175,18 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     answer = Answer("infer", parameters, results, records, citations)
 
     def tables() -> Any:
-        from seisblock.present.infer import factor_tables
+        from seisblock.present.text.infer import factor_tables
 
         return factor_tables(curves, gal=output.gal)
 
     def figure() -> Any:
-        from seisblock.present.infer_figure import factor_figure
+        from seisblock.present.figures.infer import factor_figure
 
         return factor_figure(curves)
 
     def csv(path: Path) -> None:
         from seisblock.present.files import write_table
-        from seisblock.present.infer import factor_columns
+        from seisblock.present.text.infer import factor_columns
 
         write_table(path, *factor_columns(curves))
 
@@ -166,14 +197,14 @@ def _moving_object(asked: dict[str, Any]) -> tuple[Any, dict[str, Any], tuple[st
     """Return what gives the displacement under a motion, and what it rests on."""
     from functools import partial
 
-    from seisblock.studies import scale_factors as study
+    from seisblock.studies.inverse import factors as study
 
     if asked["slid"] is not None:
         options = {"mu_kinetic": asked["mu_kinetic"], "vertical_scale": float(asked["vertical"]), "gravity": asked["gravity"]}
         moves = partial(study.slid, mu=asked["mu"], largest=asked["largest"], **options)
         told = {"mu": asked["mu"], "mu_kinetic": asked["mu_kinetic"], "vertical": asked["vertical"], "gravity_m_s2": asked["gravity"]}
         return moves, {"object": "slid", "largest": asked["largest"], **told}, ("Fujino1978",)
-    from seisblock.bodies.choose import two_layer_choice
+    from seisblock.cli.bodies.two_layer import two_layer_choice
 
     chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
     say(f"body: {chosen.block.name}; {chosen.says}")
@@ -184,7 +215,12 @@ def _moving_object(asked: dict[str, Any]) -> tuple[Any, dict[str, Any], tuple[st
         study.jumped, block=chosen.block, contact=chosen.contact, flight_only=asked["flight_only"], repeat=asked["repeat"], **options
     )
     told = {
-        "block": chosen.block, "contact": chosen.contact, "flight_only": asked["flight_only"], "repeat": asked["repeat"],
-        "drop_m": asked["drop"], "spin": asked["spin"], "gravity_m_s2": asked["gravity"],
-    }  # fmt: skip
+        "block": chosen.block,
+        "contact": chosen.contact,
+        "flight_only": asked["flight_only"],
+        "repeat": asked["repeat"],
+        "drop_m": asked["drop"],
+        "spin": asked["spin"],
+        "gravity_m_s2": asked["gravity"],
+    }
     return moves, {"object": "jumped", **told}, ("Sugimoto2017",)

@@ -30,9 +30,7 @@ def load(source: Source, *, vertical_counts: bool = False, several_windows: bool
     if not names:
         names = (DEFAULT_SAMPLE,)
         say(f"no RECORD given: using the bundled sample {DEFAULT_SAMPLE} (synthetic)")
-    records = read_all(
-        names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level
-    )  # fmt: skip
+    records = read_all(names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level)
     prepared = [prepare(record, source, vertical_counts=vertical_counts) for record in records]
     return prepared if several_windows else [cut for record in prepared for cut in windows(record, source)]
 

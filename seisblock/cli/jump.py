@@ -22,8 +22,14 @@ DEFAULT_BLOCK = "chozusha"
 )
 @record_options
 @option("--block", metavar="NAME|FILE", section="Body", help=f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
-@option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body",
-        help="Which side of the block in plan lies along the motion.")
+@option(
+    "--side",
+    type=click.Choice(["short", "long"]),
+    default="short",
+    show_default=True,
+    section="Body",
+    help="Which side of the block in plan lies along the motion.",
+)
 @option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit; then give --heights, --masses.")
 @option("--depth", type=LENGTH, section="Body", help="Width across the motion, m; changes nothing in the plane. [default: --width]")
 @option("--heights", type=LENGTHS, metavar="H1,H2", section="Body", help="Heights of the upper and the lower layer, m or with units.")
@@ -33,47 +39,63 @@ DEFAULT_BLOCK = "chozusha"
 @option("--restitution-x", type=float, help="Ratio of horizontal velocities at the impact, 0 to 1. [default: as --mu]")
 @option("--restitution-y", type=float, help="Ratio of vertical velocities at the impact, 0 to 1. [default: as --mu]")
 @option("--drop", type=LENGTH, default=0.0, help="Height of the floor above the ground on which it lands, m or with a unit. [default: 0]")
-@option("--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q",
-        help="Spin after the impact: angular momentum, eq. (7a) as printed, or theta'2/theta'1 = Q.")
-@option("--direction", type=click.Choice(["+", "-", "both"]), default="both", show_default=True,
-        help="Sign of the ground acceleration that may start a chain.")
+@option(
+    "--spin",
+    default="momentum",
+    show_default=True,
+    metavar="momentum|printed|ratio=Q",
+    help="Spin after the impact: angular momentum, eq. (7a) as printed, or theta'2/theta'1 = Q.",
+)
+@option(
+    "--direction",
+    type=click.Choice(["+", "-", "both"]),
+    default="both",
+    show_default=True,
+    help="Sign of the ground acceleration that may start a chain.",
+)
 @option("--repeat", is_flag=True, help="Follow chain after chain until the record ends. [default: the first of each window]")
 @option("--tenon", type=LENGTH, section="Output", help="Depth of the tenon's hole: say whether the foot left it, m or with a unit.")
 @gravity_option
 @output_options
-def jump(source: Source, output: Output, gravity: float, drop: float, spin: str, direction: str, repeat: bool,
-         tenon: float | None, **body: Any) -> None:
+def jump(
+    source: Source, output: Output, gravity: float, drop: float, spin: str, direction: str, repeat: bool, tenon: float | None, **body: Any
+) -> None:
     """Rocking, impact, jump, landing and rocking-sliding of a two-layer block (Sugimoto et al. 2017).
 
     Each horizontal component is solved by itself. Tilt is positive when the block leans to the component's positive
     direction, displacements of the centroid are relative to the ground.
     """
-    from seisblock.bodies.choose import two_layer_choice
-    from seisblock.present import jump as shown
+    from seisblock.cli.bodies.two_layer import two_layer_choice
+    from seisblock.present.text import jump as shown
     from seisblock.records import motion_of
-    from seisblock.solvers.jump import join, solve_jump
+    from seisblock.solvers.jump.solve import join, solve_jump
 
     chosen = two_layer_choice(body, default=DEFAULT_BLOCK)
     say(f"body: {chosen.block.name}; {chosen.says}")
     responses = [
-        join(motion, [
-            solve_jump(motion_of(cut, motion.name), chosen.block, chosen.contact, drop=drop, spin=spin, direction=direction,
-                       repeat=repeat, gravity=gravity)
-            for cut in windows(record, source)
-        ])
+        join(
+            motion,
+            [
+                solve_jump(
+                    motion_of(cut, motion.name),
+                    chosen.block,
+                    chosen.contact,
+                    drop=drop,
+                    spin=spin,
+                    direction=direction,
+                    repeat=repeat,
+                    gravity=gravity,
+                )
+                for cut in windows(record, source)
+            ],
+        )
         for record in load(source, several_windows=True)
         for motion in motions(record, source)
-    ]  # fmt: skip
+    ]
     parameters = {**responses[0].options, "block": chosen.block, "tenon_m": tenon}
     emit(
-        response_answer("jump", responses, parameters), output, responses=responses,
-        tables=lambda: shown.tables(responses, gal=output.gal, tenon=tenon), figure=lambda: shown.figure(responses),
-        animation=lambda path, filming: _film(responses[0], path, filming),
-    )  # fmt: skip
-
-
-def _film(response: Any, path: Any, filming: Any) -> None:
-    """Write the animation of the first component."""
-    from seisblock.present.jump_film import animate_jump
-
-    animate_jump(response, path, filming)
+        response_answer("jump", responses, parameters),
+        output,
+        responses=responses,
+        tables=lambda: shown.tables(responses, gal=output.gal, tenon=tenon),
+    )

@@ -45,17 +45,39 @@ def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float |
     examples=("seisblock measure", "seisblock measure record.csv --width 24cm --height 72cm --plot record.png"),
 )
 @record_options
-@option("--threshold", callback=_acceleration, metavar="A",
-        help="Threshold of the durations, with its unit: 245gal, 2.45m/s2 or 0.25g. [default: 0.1g]")
+@option(
+    "--threshold",
+    callback=_acceleration,
+    metavar="A",
+    help="Threshold of the durations, with its unit: 245gal, 2.45m/s2 or 0.25g. [default: 0.1g]",
+)
 @option("--width", type=LENGTH, section="Body", help="Width of a block (m, or with a unit: 24cm, 8sun): the threshold is its g B/H.")
 @option("--height", type=LENGTH, section="Body", help="Height of that block (m, or with a unit).")
 @option("--block", metavar="NAME|FILE", section="Body", help="Bundled two-layer block, or TOML file: the threshold is where it rocks.")
-@option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body",
-        help="Which side of --block in plan lies along the motion.")
-@option("--direction", type=click.Choice(list(SIDES)), default="both", show_default=True,
-        help="Sign of the acceleration that counts for the durations.")
-@option("--velocity-highpass", type=float, default=0.05, show_default=True, callback=_corner, metavar="HZ",
-        help="Corner of the zero-phase high-pass behind PGV and PGD, Hz; 0 for none.")
+@option(
+    "--side",
+    type=click.Choice(["short", "long"]),
+    default="short",
+    show_default=True,
+    section="Body",
+    help="Which side of --block in plan lies along the motion.",
+)
+@option(
+    "--direction",
+    type=click.Choice(list(SIDES)),
+    default="both",
+    show_default=True,
+    help="Sign of the acceleration that counts for the durations.",
+)
+@option(
+    "--velocity-highpass",
+    type=float,
+    default=0.05,
+    show_default=True,
+    callback=_corner,
+    metavar="HZ",
+    help="Corner of the zero-phase high-pass behind PGV and PGD, Hz; 0 for none.",
+)
 @gravity_option
 @output_options
 def measure(
@@ -83,12 +105,12 @@ def measure(
     parameters = {"threshold_m_s2": level, "threshold_from": origin, **asdict(rules)}
 
     def tables() -> Any:
-        from seisblock.present.measures import measures_report
+        from seisblock.present.text.measure import measures_report
 
         return (part for r, a in zip(records, answers, strict=True) for part in measures_report(r, a, gal=output.gal))
 
     def figure() -> Any:
-        from seisblock.present.measure_figure import measure_figure
+        from seisblock.present.figures.measure import measure_figure
 
         if len(records) > 1:
             raise InputError(f"--plot draws one record, found {len(records)}: give one, or run the command for each")
@@ -106,7 +128,7 @@ def _threshold(
     if (threshold is not None) + sizes + (block is not None) > 1:
         raise click.UsageError("give one of --threshold, --width with --height, and --block")
     if block is not None:
-        from seisblock.bodies.files import read_table
+        from seisblock.bodies.toml import read_table
         from seisblock.bodies.two_layer import two_layer_block
 
         body = two_layer_block(read_table(block), side)
@@ -139,6 +161,6 @@ def _answer(records: list[Any], answers: list[Any], parameters: dict[str, Any]) 
 def _write(path: Path, records: list[Any], answers: list[Any]) -> None:
     """Write the histories behind the numbers."""
     from seisblock.present.files import write_table
-    from seisblock.present.measures import history_table
+    from seisblock.present.text.measure import history_table
 
     write_table(path, *history_table(records, answers))

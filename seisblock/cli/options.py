@@ -73,7 +73,7 @@ def _components(ctx: click.Context, param: click.Parameter, value: tuple[str, ..
 
 def _files_and_samples(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Complete a record's file name, and the names of the bundled samples."""
-    from seisblock.readers.samples import list_samples
+    from seisblock.samples import list_samples
 
     names = [sample.name for sample in list_samples() if sample.kind == "record" and sample.name.startswith(incomplete or "?")]
     return [*(CompletionItem(name) for name in names), CompletionItem(incomplete, type="file")]
@@ -81,37 +81,77 @@ def _files_and_samples(ctx: click.Context, param: click.Parameter, incomplete: s
 
 _RECORD_OPTIONS = (
     click.argument("record", nargs=-1, metavar="[RECORD]...", shell_complete=_files_and_samples),
-    option("--component", multiple=True, callback=_components, metavar="NS|EW|UD|all|DEGREES", section="Record",
-           help="Component, or azimuth in degrees clockwise from north; may be repeated. [default: all that apply]"),
+    option(
+        "--component",
+        multiple=True,
+        callback=_components,
+        metavar="NS|EW|UD|all|DEGREES",
+        section="Record",
+        help="Component, or azimuth in degrees clockwise from north; may be repeated. [default: all that apply]",
+    ),
     option("--scale", type=float, callback=_finite, section="Record", help="Factor on all components. [default: 1]"),
-    option("--target-pga", type=float, callback=_positive, metavar="GAL", section="Record",
-           help="Scale so that the largest PGA of the components solved is this, gal."),
-    option("--window", type=WINDOW, multiple=True, section="Record",
-           help="Use this stretch only, s from the record's first sample; either end may be left out."),
-    option("--highpass", type=float, callback=_positive, metavar="HZ", section="Record",
-           help="Zero-phase high-pass (4th-order Butterworth) before anything else, Hz. [default: none]"),
-    option("--demean/--no-demean", default=None, section="Record",
-           help="Remove the mean of each component. [default: for K-NET/KiK-net, whose counts carry an offset]"),
+    option(
+        "--target-pga",
+        type=float,
+        callback=_positive,
+        metavar="GAL",
+        section="Record",
+        help="Scale so that the largest PGA of the components solved is this, gal.",
+    ),
+    option(
+        "--window",
+        type=WINDOW,
+        multiple=True,
+        section="Record",
+        help="Use this stretch only, s from the record's first sample; either end may be left out.",
+    ),
+    option(
+        "--highpass",
+        type=float,
+        callback=_positive,
+        metavar="HZ",
+        section="Record",
+        help="Zero-phase high-pass (4th-order Butterworth) before anything else, Hz. [default: none]",
+    ),
+    option(
+        "--demean/--no-demean",
+        default=None,
+        section="Record",
+        help="Remove the mean of each component. [default: for K-NET/KiK-net, whose counts carry an offset]",
+    ),
     option("--format", section="Record", help="Format of the file. [default: recognised from its content]"),
     option("--units", section="Record", metavar="gal|m/s2|g", help="Unit of the numbers, where the file does not say."),
-    option("--dt", type=float, callback=_positive, section="Record", metavar="S",
-           help="Sampling interval, where the file does not say, s."),
+    option(
+        "--dt", type=float, callback=_positive, section="Record", metavar="S", help="Sampling interval, where the file does not say, s."
+    ),
     option("--station", section="Record", help="Station code, in a bundle that holds several."),
     option("--level", type=click.Choice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
-)  # fmt: skip
+)
 
 _OUTPUT_OPTIONS = (
     option("--json", is_flag=True, section="Output", help="One JSON document on stdout, SI units."),
     option("--csv", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the time history, SI units."),
-    option("--plot", type=click.Path(path_type=Path, allow_dash=True), section="Output", metavar="FILE",
-           help="Draw the figure: .png, .svg or .pdf; - writes a .png to stdout, and nothing else."),
+    option(
+        "--plot",
+        type=click.Path(path_type=Path, allow_dash=True),
+        section="Output",
+        metavar="FILE",
+        help="Draw the figure: .png, .svg or .pdf; - writes a .png to stdout, and nothing else.",
+    ),
     option("--animate", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Draw the animation: .gif, .mp4 or .html."),
-    option("--slow", type=float, default=1.0, callback=_positive, metavar="FACTOR", section="Output",
-           help="Play the animation this many times slower than life. [default: 1]"),
+    option(
+        "--slow",
+        type=float,
+        default=1.0,
+        callback=_positive,
+        metavar="FACTOR",
+        section="Output",
+        help="Play the animation this many times slower than life. [default: 1]",
+    ),
     option("--lang", type=click.Choice(LANGUAGES), section="Output", help="Language of figures. [default: of the locale, else en]"),
     option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables. [default: gal]"),
     option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors."),
-)  # fmt: skip
+)
 
 
 def record_options(function: Function) -> Function:
@@ -126,8 +166,15 @@ def output_options(function: Function) -> Function:
 
 def gravity_option(function: Function) -> Function:
     """Give a command ``--gravity``."""
-    return option("--gravity", type=float, default=STANDARD_GRAVITY, show_default=True, callback=_positive, metavar="M/S2",
-                  help="Acceleration of gravity, m/s^2.")(function)  # fmt: skip
+    return option(
+        "--gravity",
+        type=float,
+        default=STANDARD_GRAVITY,
+        show_default=True,
+        callback=_positive,
+        metavar="M/S2",
+        help="Acceleration of gravity, m/s^2.",
+    )(function)
 
 
 def _collected(function: Function, declarations: tuple[Any, ...], kind: Any, name: str) -> Function:

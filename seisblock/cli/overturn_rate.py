@@ -15,7 +15,7 @@ from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, LENGTH
 
 if TYPE_CHECKING:
-    from seisblock.studies.cemetery_rates import FrequencyKind
+    from seisblock.studies.cemetery.judgement import FrequencyKind
 
 KINDS: dict[str, FrequencyKind] = {"pga-pgv": "pga_pgv", "fourier": "fourier", "pulse-width": "pulse_width"}
 """Definitions of the equivalent frequency, as they are spelled here and in the library."""
@@ -48,29 +48,58 @@ def _share(ctx: click.Context, param: click.Parameter, value: float) -> float:
     ),
 )
 @record_options
-@option("--cemetery", required=True, metavar="FILE|NAME", section="Body",
-        help="CSV of gravestones: height_over_width, or height and width; optional reinforced, fallen, azimuth_deg, count. "
-        "Bundled: aoyama.csv.")
+@option(
+    "--cemetery",
+    required=True,
+    metavar="FILE|NAME",
+    section="Body",
+    help="CSV of gravestones: height_over_width, or height and width; optional reinforced, fallen, azimuth_deg, count. "
+    "Bundled: aoyama.csv.",
+)
 @option("--reinforced", is_flag=True, section="Body", help="Judge as if every stone were reinforced.")
 @option("--both", is_flag=True, section="Body", help="Compare with every stone reinforced, and say how many that saves.")
-@option("--most-fragile", type=click.IntRange(min=1), metavar="K", section="Body",
-        help="Compare with the K most slender stones reinforced. [default: none]")
-@option("--stone-width", type=LENGTH, section="Body",
-        help="Width of stones whose width is not in the file, m or with a unit. [default: 8sun]")
-@option("--pga", type=FLOATS, metavar="GAL",
-        help="Without RECORD: peak ground acceleration, gal; a list or range is answered one by one.")
-@option("--frequency", type=FLOATS, metavar="HZ",
-        help="Without RECORD: frequency, Hz, or a list or range (also of the curves). With RECORD: instead of its equivalent frequency.")
-@option("--equivalent", type=click.Choice(list(KINDS)), default="pga-pgv", show_default=True,
-        help="Equivalent frequency of RECORD: PGA/(2 pi PGV), dominant Fourier frequency, or from the width of the pulse of the PGA.")
-@option("--criterion", type=click.Choice(["furukawa", "rigid", "simulate"]), default="furukawa", show_default=True,
-        help="Fit to whole stones (9), (10); one rigid block under a half sine; or each stone rocking under RECORD or a 20 s sine.")
-@option("--inset", type=float, default=1.0, show_default=True,
-        help="simulate: half width of the pivots over that of the stone; 0.8 comes close to (9).")
-@option("--fit", callback=_fit, metavar="P,Q,R",
-        help="furukawa: own parameters without a dowel, gal, Hz, 1. [default: 826.8,1.92,4.6]")
-@option("--fit-reinforced", callback=_fit, metavar="P,Q,R",
-        help="furukawa: own parameters with a dowel, gal, Hz, 1. [default: 1162.9,1.84,4.5]")
+@option(
+    "--most-fragile",
+    type=click.IntRange(min=1),
+    metavar="K",
+    section="Body",
+    help="Compare with the K most slender stones reinforced. [default: none]",
+)
+@option(
+    "--stone-width", type=LENGTH, section="Body", help="Width of stones whose width is not in the file, m or with a unit. [default: 8sun]"
+)
+@option("--pga", type=FLOATS, metavar="GAL", help="Without RECORD: peak ground acceleration, gal; a list or range is answered one by one.")
+@option(
+    "--frequency",
+    type=FLOATS,
+    metavar="HZ",
+    help="Without RECORD: frequency, Hz, or a list or range (also of the curves). With RECORD: instead of its equivalent frequency.",
+)
+@option(
+    "--equivalent",
+    type=click.Choice(list(KINDS)),
+    default="pga-pgv",
+    show_default=True,
+    help="Equivalent frequency of RECORD: PGA/(2 pi PGV), dominant Fourier frequency, or from the width of the pulse of the PGA.",
+)
+@option(
+    "--criterion",
+    type=click.Choice(["furukawa", "rigid", "simulate"]),
+    default="furukawa",
+    show_default=True,
+    help="Fit to whole stones (9), (10); one rigid block under a half sine; or each stone rocking under RECORD or a 20 s sine.",
+)
+@option(
+    "--inset",
+    type=float,
+    default=1.0,
+    show_default=True,
+    help="simulate: half width of the pivots over that of the stone; 0.8 comes close to (9).",
+)
+@option("--fit", callback=_fit, metavar="P,Q,R", help="furukawa: own parameters without a dowel, gal, Hz, 1. [default: 826.8,1.92,4.6]")
+@option(
+    "--fit-reinforced", callback=_fit, metavar="P,Q,R", help="furukawa: own parameters with a dowel, gal, Hz, 1. [default: 1162.9,1.84,4.5]"
+)
 @option("--confidence", type=float, default=0.95, show_default=True, callback=_share, help="Level of the interval of a rate.")
 @gravity_option
 @output_options
@@ -82,10 +111,10 @@ def overturn_rate(
     A stone falls when its height over width exceeds a(f)/PGA. Without RECORD the curve of rates against PGA is printed, or the rate
     at --pga and --frequency; with one the rate for each horizontal component and for the larger of them.
     """
-    from seisblock.bodies.cemetery_csv import read_cemetery
+    from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.present.document import Answer
-    from seisblock.studies import cemetery_rates as study
-    from seisblock.studies.overturning_rate import FREQUENCIES
+    from seisblock.studies.cemetery import judgement as study
+    from seisblock.studies.cemetery.rate import FREQUENCIES
 
     if reinforced + both + (most_fragile is not None) > 1:
         raise click.UsageError("give one of --reinforced, --both and --most-fragile")
@@ -108,23 +137,28 @@ def overturn_rate(
     warnings = study.warnings_of(stones, [each for _, shakings in groups for each in shakings], method, after=after)
     parameters = _parameters(stones, after, method, asked)
     answer = Answer(
-        "overturn-rate", parameters, _results(found) or [{"curve": curve}], [r for r, _ in groups if r is not None], method.citations,
-        warnings, {"curve": curve},
-    )  # fmt: skip
+        "overturn-rate",
+        parameters,
+        _results(found) or [{"curve": curve}],
+        [r for r, _ in groups if r is not None],
+        method.citations,
+        warnings,
+        {"curve": curve},
+    )
 
     def tables() -> Any:
-        from seisblock.present.overturn_rate import tables as shown
+        from seisblock.present.text.overturn_rate import tables as shown
 
         return shown(stones, found, curve, gal=output.gal, confidence=method.confidence)
 
     def figure() -> Any:
-        from seisblock.present.cemetery import overturn_rate_figure
+        from seisblock.present.figures.cemetery import overturn_rate_figure
 
         return overturn_rate_figure(stones, found, curve)
 
     def csv(path: Path) -> None:
         from seisblock.present.files import write_table
-        from seisblock.present.overturn_rate import curve_columns
+        from seisblock.present.text.overturn_rate import curve_columns
 
         write_table(path, *curve_columns(curve, study.curve_of(after, method, frequencies=frequencies) if after else None))
 
@@ -133,9 +167,9 @@ def overturn_rate(
 
 def _method(asked: dict[str, Any]) -> Any:
     """Return how stones are judged."""
-    from seisblock.bodies.cemetery import PAPER_WIDTH
+    from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
     from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit
-    from seisblock.studies.cemetery_rates import Method
+    from seisblock.studies.cemetery.judgement import Method
 
     plain, dowelled = (
         preset if own is None else GravestoneFit(own[0] / 100.0, own[1], own[2])
@@ -147,8 +181,8 @@ def _method(asked: dict[str, Any]) -> Any:
 
 def _groups(source: Source, asked: dict[str, Any]) -> list[tuple[Any, list[Any]]]:
     """Return the shakings to judge, under the record they belong to, or None."""
-    from seisblock.studies.cemetery_rates import Shaking, shakings_of
-    from seisblock.studies.overturning_rate import FREQUENCIES
+    from seisblock.studies.cemetery.judgement import Shaking, shakings_of
+    from seisblock.studies.cemetery.rate import FREQUENCIES
 
     pga, frequency = asked["pga"], asked["frequency"]
     if not source.record:
@@ -179,10 +213,18 @@ def _parameters(stones: Any, after: Any, method: Any, asked: dict[str, Any]) -> 
 
     rules = Conventions()
     return {
-        "cemetery": stones.source, "stones": stones.size, "reinforced_stones": int(stones.reinforced.sum()),
+        "cemetery": stones.source,
+        "stones": stones.size,
+        "reinforced_stones": int(stones.reinforced.sum()),
         "compared_with_reinforced_stones": None if after is None else int(after.reinforced.sum()),
-        "criterion": method.criterion, "fit": method.fits[0], "fit_reinforced": method.fits[1], "inset": method.inset,
-        "stone_width_m": method.width, "gravity_m_s2": method.gravity, "confidence": method.confidence,
+        "criterion": method.criterion,
+        "fit": method.fits[0],
+        "fit_reinforced": method.fits[1],
+        "inset": method.inset,
+        "stone_width_m": method.width,
+        "gravity_m_s2": method.gravity,
+        "confidence": method.confidence,
         "equivalent_frequency": "given" if asked["frequency"] else KINDS[asked["equivalent"]],
-        "velocity_highpass_hz": rules.velocity_highpass_hz, "velocity_baseline": rules.velocity_baseline,
-    }  # fmt: skip
+        "velocity_highpass_hz": rules.velocity_highpass_hz,
+        "velocity_baseline": rules.velocity_baseline,
+    }

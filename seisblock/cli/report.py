@@ -23,24 +23,64 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     examples=("seisblock report -o report.html", "seisblock report record.csv --body 24cmx72cm --mu 0.3 --lang ja -o report.html"),
 )
 @record_options
-@option("--body", multiple=True, metavar="NAME|FILE|BxH", section="Body",
-        help="Bundled body, TOML file, or width and height (24cmx72cm); may be repeated. [default: gravestone and chozusha]")
-@option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body",
-        help="Side of a two-layer body along the motion.")
-@option("--mu", type=float, section="Body",
-        help="Static friction under the bodies, 1, for sliding. [default: the body's own, else no sliding]")
+@option(
+    "--body",
+    multiple=True,
+    metavar="NAME|FILE|BxH",
+    section="Body",
+    help="Bundled body, TOML file, or width and height (24cmx72cm); may be repeated. [default: gravestone and chozusha]",
+)
+@option(
+    "--side",
+    type=click.Choice(["short", "long"]),
+    default="short",
+    show_default=True,
+    section="Body",
+    help="Side of a two-layer body along the motion.",
+)
+@option(
+    "--mu", type=float, section="Body", help="Static friction under the bodies, 1, for sliding. [default: the body's own, else no sliding]"
+)
 @option("--mu-kinetic", type=float, section="Body", help="Kinetic friction, 1. [default: as --mu]")
-@option("--frequency-vertical", type=float, metavar="HZ", section="Body",
-        help="Vertical frequency of the bodies on corner springs, Hz, for uplift. [default: none, no uplift]")
-@option("--drop", type=LENGTH, default=0.0, section="Body",
-        help="Height of a two-layer body's floor above the ground, m or with a unit. [default: 0]")
+@option(
+    "--frequency-vertical",
+    type=float,
+    metavar="HZ",
+    section="Body",
+    help="Vertical frequency of the bodies on corner springs, Hz, for uplift. [default: none, no uplift]",
+)
+@option(
+    "--drop",
+    type=LENGTH,
+    default=0.0,
+    section="Body",
+    help="Height of a two-layer body's floor above the ground, m or with a unit. [default: 0]",
+)
 @gravity_option
-@option("-o", "--output", type=click.Path(path_type=Path), required=True, metavar="FILE", section="Output",
-        help="The page to write, .html.  [required]")
+@option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    required=True,
+    metavar="FILE",
+    section="Output",
+    help="The page to write, .html.  [required]",
+)
 @option("--lang", type=click.Choice(LANGUAGES), section="Output", help="Language of the page. [default: of the locale, else en]")
 @option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
-def report(source: Source, body: tuple[str, ...], side: str, mu: float | None, mu_kinetic: float | None,
-           frequency_vertical: float | None, drop: float, gravity: float, output: Path, lang: str | None, quiet: bool) -> None:
+def report(
+    source: Source,
+    body: tuple[str, ...],
+    side: str,
+    mu: float | None,
+    mu_kinetic: float | None,
+    frequency_vertical: float | None,
+    drop: float,
+    gravity: float,
+    output: Path,
+    lang: str | None,
+    quiet: bool,
+) -> None:
     """Write one self-contained page: the record, its measures, and how bodies slide, rock, jump, lift and overturn under it.
 
     It opens without network, on a phone and on paper. Margins stand beside every verdict.
@@ -49,7 +89,7 @@ def report(source: Source, body: tuple[str, ...], side: str, mu: float | None, m
     from seisblock.cli.inputs import components, load
     from seisblock.cli.progress import progress
     from seisblock.present.files import write_text
-    from seisblock.present.report import report as page
+    from seisblock.present.pages.report import report as page
     from seisblock.studies.assessment import assess
 
     with quietly(quiet):
@@ -73,7 +113,7 @@ def report(source: Source, body: tuple[str, ...], side: str, mu: float | None, m
 def _check_fonts(lang: str) -> None:
     """Say once when figures cannot follow the page's language."""
     if lang != "en":
-        from seisblock.present.fonts import MISSING, japanese_font
+        from seisblock.present.figures.fonts import MISSING, japanese_font
 
         if japanese_font() is None:
             say(MISSING)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import asdict, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from seisblock.cli.body import block_options, rocking_options
+from seisblock.cli.bodies.options import block_options, rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit, response_answer
 from seisblock.cli.inputs import load, motions
@@ -33,26 +32,44 @@ if TYPE_CHECKING:
 @option("--margin", is_flag=True, help="Find every factor on the record at which the verdict changes.")
 @option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest factor of that search, 1.")
 @option("--perturb", type=click.IntRange(min=1), metavar="N", help="Repeat N times with small changes: probability of overturning.")
-@option("--spread", type=float, default=0.05, show_default=True,
-        help="Half width of those changes, a share of size, slenderness, restitution and amplitude; the azimuth turns by 5 deg.")
+@option(
+    "--spread",
+    type=float,
+    default=0.05,
+    show_default=True,
+    help="Half width of those changes, a share of size, slenderness, restitution and amplitude; the azimuth turns by 5 deg.",
+)
 @option("--seed", type=int, default=0, show_default=True, help="Seed of those changes.")
 @gravity_option
 @output_options
-def rock(source: Source, output: Output, gravity: float, restitution: float | None, linear: bool, vertical: bool,
-         azimuth: tuple[str, ...], margin: bool, margin_limit: float, perturb: int | None, spread: float, seed: int,
-         **body: Any) -> None:
+def rock(
+    source: Source,
+    output: Output,
+    gravity: float,
+    restitution: float | None,
+    linear: bool,
+    vertical: bool,
+    azimuth: tuple[str, ...],
+    margin: bool,
+    margin_limit: float,
+    perturb: int | None,
+    spread: float,
+    seed: int,
+    **body: Any,
+) -> None:
     """Rocking and overturning of one rigid block about its two lower corners (Housner 1963).
 
     Each horizontal component is solved by itself. Rotation is positive when the block leans to the component's positive
     direction. After the record's end the fate is decided by energy.
     """
-    from seisblock.bodies.library import choose_block, described
+    from seisblock.bodies.library import described
+    from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.progress import progress
-    from seisblock.present import rock as shown
-    from seisblock.solvers.rock import solve_rock
-    from seisblock.studies.margin import find_margin, flagged
-    from seisblock.studies.perturb import Spread
-    from seisblock.studies.perturb import perturb as perturbed
+    from seisblock.present.text import rock as shown
+    from seisblock.solvers.rock.solve import solve_rock
+    from seisblock.studies.rocking.margin import find_margin, flagged
+    from seisblock.studies.rocking.perturb import Spread
+    from seisblock.studies.rocking.perturb import perturb as perturbed
 
     chosen = choose_block({**body, "restitution": restitution})
     say(f"body: {chosen.says}")
@@ -76,15 +93,7 @@ def rock(source: Source, output: Output, gravity: float, restitution: float | No
     for result, extra in zip(answer.results, extras, strict=True):
         result.update({key: asdict(value) for key, value in extra.items()})  # type: ignore[attr-defined]
 
-    def animation(path: Path, filming: Any) -> None:
-        from seisblock.present.rock_animation import animate_rocking
-
-        animate_rocking(responses[0], path, filming)
-
-    emit(
-        answer, output, responses=responses, tables=lambda: shown.tables(responses, extras, gal=output.gal),
-        figure=lambda: shown.figure(responses, gal=output.gal), animation=animation,
-    )  # fmt: skip
+    emit(answer, output, responses=responses, tables=lambda: shown.tables(responses, extras, gal=output.gal))
 
 
 def need_vertical(motion: Motion, vertical: bool) -> None:

@@ -12,8 +12,13 @@ from seisblock.cli.talk import quietly, say
 
 @click.command(cls=Command, examples=("seisblock samples", "seisblock samples --copy synthetic_knet"))
 @click.argument("name", nargs=-1, metavar="[NAME]...")
-@option("--copy", "target", metavar="DIR|NAME", section="Output",
-        help="Copy to this directory; or, given a sample's name, copy that sample to the present directory.")
+@option(
+    "--copy",
+    "target",
+    metavar="DIR|NAME",
+    section="Output",
+    help="Copy to this directory; or, given a sample's name, copy that sample to the present directory.",
+)
 @option("--overwrite", is_flag=True, section="Output", help="Replace files of other content that are in the way.")
 @option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
 @option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
@@ -22,7 +27,7 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
 
     NAME is a file name, or its beginning up to the first dot. Any command takes a sample's name in place of a file.
     """
-    from seisblock.present import samples as shown
+    from seisblock.present.text import samples as shown
 
     directory = None
     if target is not None:
@@ -40,7 +45,7 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
 
         click.echo(to_json(Answer("samples", {"copied_to": directory}, shown.entries(chosen))))
     elif directory is None:
-        from seisblock.present.tables import console
+        from seisblock.present.text.tables import console
 
         screen = console()
         for part in shown.listing(chosen):
@@ -49,7 +54,7 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
 
 def _destination(target: str, names: tuple[str, ...]) -> tuple[Path, tuple[str, ...]]:
     """Return the directory and the names: a sample's name in place of a directory means here, unless a directory is called so."""
-    from seisblock.readers.samples import find_sample
+    from seisblock.samples import find_sample
 
     if not names and not Path(target).is_dir() and find_sample(target) is not None:
         return Path(), (target,)

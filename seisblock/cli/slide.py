@@ -28,8 +28,9 @@ def _needed(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
     if value is None and not ctx.resilient_parsing:
         raise click.UsageError(
             "--mu is needed: the static friction coefficient between the object and its base, for example --mu 0.2; "
-            "a list 0.1,0.2 or a range 0.05:0.20:0.005 makes a parameter study", ctx,
-        )  # fmt: skip
+            "a list 0.1,0.2 or a range 0.05:0.20:0.005 makes a parameter study",
+            ctx,
+        )
     return value
 
 
@@ -42,32 +43,63 @@ def _needed(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
     ),
 )
 @record_options
-@option("--mu", type=FLOATS, callback=_needed, metavar="MU", section="Body",
-        help="Static friction coefficient, 1; a list or a range first:last:step makes a study, as with --mu-kinetic, --kappa, --slope "
-             "and --vertical-scale.  [required]")
+@option(
+    "--mu",
+    type=FLOATS,
+    callback=_needed,
+    metavar="MU",
+    section="Body",
+    help="Static friction coefficient, 1; a list or a range first:last:step makes a study, as with --mu-kinetic, --kappa, --slope "
+    "and --vertical-scale.  [required]",
+)
 @option("--mu-kinetic", type=FLOATS, metavar="MU", section="Body", help="Kinetic friction coefficient, 1. [default: as --mu]")
 @option("--kappa", type=FLOATS, metavar="RATIO", section="Body", help="Kinetic over static friction, 1, instead of --mu-kinetic.")
-@option("--slope", type=FLOATS, default="0", metavar="DEG", section="Body",
-        help="Angle of the base, degrees; the component's positive direction points downhill. [default: 0]")
-@option("--slope-length", type=LENGTH, metavar="M", section="Body",
-        help="Distance to the foot of the slope, m or with a unit, with level ground beyond. [default: no end]")
+@option(
+    "--slope",
+    type=FLOATS,
+    default="0",
+    metavar="DEG",
+    section="Body",
+    help="Angle of the base, degrees; the component's positive direction points downhill. [default: 0]",
+)
+@option(
+    "--slope-length",
+    type=LENGTH,
+    metavar="M",
+    section="Body",
+    help="Distance to the foot of the slope, m or with a unit, with level ground beyond. [default: no end]",
+)
 @option("--one-way", is_flag=True, section="Body", help="Slide downhill (or in the positive direction) only, as Newmark assumed.")
 @option("--vertical", is_flag=True, help="Let the vertical component act too.")
 @option("--vertical-scale", type=FLOATS, metavar="GAMMA", help="Factor on the vertical component, 1; implies --vertical. [default: 1]")
 @gravity_option
 @output_options
-def slide(source: Source, output: Output, mu: tuple[float, ...], mu_kinetic: tuple[float, ...] | None, kappa: tuple[float, ...] | None,
-          slope: tuple[float, ...], slope_length: float | None, one_way: bool, vertical: bool, vertical_scale: tuple[float, ...] | None,
-          gravity: float) -> None:
+def slide(
+    source: Source,
+    output: Output,
+    mu: tuple[float, ...],
+    mu_kinetic: tuple[float, ...] | None,
+    kappa: tuple[float, ...] | None,
+    slope: tuple[float, ...],
+    slope_length: float | None,
+    one_way: bool,
+    vertical: bool,
+    vertical_scale: tuple[float, ...] | None,
+    gravity: float,
+) -> None:
     """Sliding of an object on a level or sloping base (Fujino et al. 1978).
 
     Displacements are relative to the base, along it, positive in the component's positive direction. Each horizontal
     component is solved by itself; --component all-azimuths sweeps the directions in steps of 5 degrees and reports the worst.
-    """  # fmt: skip
+    """
     scales = vertical_scale or ((1.0,) if vertical else (0.0,))
     choice = {
-        "mu": mu, "mu_kinetic": mu_kinetic, "kappa": kappa, "vertical_scale": scales, "slope_deg": slope,
-    }  # fmt: skip
+        "mu": mu,
+        "mu_kinetic": mu_kinetic,
+        "kappa": kappa,
+        "vertical_scale": scales,
+        "slope_deg": slope,
+    }
     fixed = {"slope_length": slope_length, "one_way": one_way, "gravity": gravity}
     sweeps = [name.lower() for name in source.component] == [ALL_AZIMUTHS]
     several = any(values is not None and len(values) > 1 for values in choice.values())
@@ -84,9 +116,9 @@ def _one(
     records: list[Record], source: Source, output: Output, directions: list[str] | None, single: dict[str, float], fixed: dict[str, Any]
 ) -> None:
     """Solve one set of parameters for each direction, or for the worst one."""
-    from seisblock.present import slide as shown
+    from seisblock.present.text import slide as shown
     from seisblock.records import motion_of
-    from seisblock.solvers.slide import solve_slide
+    from seisblock.solvers.slide.solve import solve_slide
     from seisblock.studies.sliding import slide_study, worst_directions
 
     responses, sweep = [], []
@@ -102,26 +134,20 @@ def _one(
         responses += [solve_slide(motion, **single, **fixed) for motion in chosen]  # type: ignore[arg-type]
     extra = {"azimuths": [asdict(point) for point in sweep]} if sweep else None
     emit(
-        response_answer("slide", responses, dict(responses[0].options), extra=extra), output, responses=responses,
-        tables=lambda: shown.tables(responses, sweep), figure=lambda: shown.figure(responses),
-        animation=lambda path, filming: _film(responses[0], path, filming),
-    )  # fmt: skip
-
-
-def _film(response: Any, path: Any, filming: Any) -> None:
-    """Write the animation of the first direction."""
-    from seisblock.present.slide_film import animate_slide
-
-    animate_slide(response, path, filming)
+        response_answer("slide", responses, dict(responses[0].options), extra=extra),
+        output,
+        responses=responses,
+        tables=lambda: shown.tables(responses, sweep),
+    )
 
 
 def _study(
     records: list[Record], source: Source, output: Output, directions: list[str] | None, choice: dict[str, Any], fixed: dict[str, Any]
 ) -> None:
     """Compute every combination of parameters."""
-    from seisblock.present import slide_study as shown
     from seisblock.present.document import Answer
     from seisblock.present.files import write_table
+    from seisblock.present.text import slide_study as shown
     from seisblock.studies.sliding import slide_study, worst_directions
 
     points, results = [], []
@@ -135,11 +161,12 @@ def _study(
     warnings = [f"{steep} combinations were left out: friction does not hold at rest, or kinetic exceeds static friction"] if steep else []
     parameters = {**choice, "slope_length_m": fixed["slope_length"], "one_way": fixed["one_way"], "gravity_m_s2": fixed["gravity"]}
     emit(
-        Answer("slide", parameters, results, records, ["Fujino1978"], warnings), output,
+        Answer("slide", parameters, results, records, ["Fujino1978"], warnings),
+        output,
         tables=lambda: shown.tables(records, points),
         csv=lambda path: write_table(path, list(results[0]), ([*row.values()] for row in results)),
-        figure=lambda: shown.figure(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"]),
-    )  # fmt: skip
+        figure=lambda: _draw(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"]),
+    )
 
 
 def _motions(record: Record, source: Source, directions: list[str] | None) -> Iterator[Motion]:
@@ -163,3 +190,10 @@ def _without_azimuths(source: Source) -> Source:
     from dataclasses import replace
 
     return replace(source, component=())
+
+
+def _draw(*shown: Any, **fixed: Any) -> Any:
+    """Return the figure of a study; matplotlib is loaded only for it."""
+    from seisblock.present.figures.slide_study import figure
+
+    return figure(*shown, **fixed)

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from seisblock.cli.body import rocking_options
+from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.rock import along, need_vertical
@@ -25,30 +25,54 @@ KINDS = ("rocking", "overturning", "sliding")
     ),
 )
 @record_options
-@option("--kind", type=click.Choice(KINDS), default="rocking", show_default=True,
-        help="Largest lean over alpha; overturning alone; or the largest slip against friction.")
+@option(
+    "--kind",
+    type=click.Choice(KINDS),
+    default="rocking",
+    show_default=True,
+    help="Largest lean over alpha; overturning alone; or the largest slip against friction.",
+)
 @option("--mu", type=FLOATS, section="Body", metavar="LIST|RANGE", help="Friction, for --kind sliding. [default: 0.02 to 0.8]")
 @option("--sizes", type=LENGTHS, section="Body", metavar="LIST|RANGE", help="Diagonals 2R, m or with units. [default: 0.2 to 8, geometric]")
 @option("--frequency-parameter", type=FLOATS, section="Body", metavar="LIST|RANGE", help="p = sqrt(3g/4R), rad/s, instead of --sizes.")
 @option("--height-over-width", type=FLOATS, section="Body", metavar="LIST|RANGE", help="H/B of the blocks, 1. [default: 1.5 to 10]")
-@option("--slenderness-rad", type=FLOATS, section="Body", metavar="LIST|RANGE",
-        help="alpha = atan(B/H), rad, instead of --height-over-width.")
+@option(
+    "--slenderness-rad", type=FLOATS, section="Body", metavar="LIST|RANGE", help="alpha = atan(B/H), rad, instead of --height-over-width."
+)
 @option("--steps", type=click.IntRange(2, 1000), default=40, show_default=True, help="Points of each axis that is left to its default.")
 @rocking_options
 @gravity_option
 @output_options
-def spectrum(source: Source, output: Output, gravity: float, kind: str, mu: tuple[float, ...] | None, sizes: tuple[float, ...] | None,
-             frequency_parameter: tuple[float, ...] | None, height_over_width: tuple[float, ...] | None,
-             slenderness_rad: tuple[float, ...] | None, steps: int, restitution: float | None, linear: bool, vertical: bool,
-             azimuth: tuple[str, ...]) -> None:
+def spectrum(
+    source: Source,
+    output: Output,
+    gravity: float,
+    kind: str,
+    mu: tuple[float, ...] | None,
+    sizes: tuple[float, ...] | None,
+    frequency_parameter: tuple[float, ...] | None,
+    height_over_width: tuple[float, ...] | None,
+    slenderness_rad: tuple[float, ...] | None,
+    steps: int,
+    restitution: float | None,
+    linear: bool,
+    vertical: bool,
+    azimuth: tuple[str, ...],
+) -> None:
     """Largest lean of rectangular blocks over their alpha, against size and slenderness, for each component.
 
     Overturning is not monotone: look for islands in the figure. With --kind sliding, the largest slip against friction.
     """
     source = along(source, azimuth)
     if kind == "sliding":
-        given = {"sizes": sizes, "frequency-parameter": frequency_parameter, "height-over-width": height_over_width,
-                 "slenderness-rad": slenderness_rad, "restitution": restitution, "linear": linear}  # fmt: skip
+        given = {
+            "sizes": sizes,
+            "frequency-parameter": frequency_parameter,
+            "height-over-width": height_over_width,
+            "slenderness-rad": slenderness_rad,
+            "restitution": restitution,
+            "linear": linear,
+        }
         _refuse(kind, given)
         _sliding(source, output, gravity, mu, vertical)
         return
@@ -56,10 +80,10 @@ def spectrum(source: Source, output: Output, gravity: float, kind: str, mu: tupl
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import load, motions
     from seisblock.cli.progress import progress
-    from seisblock.present import spectrum as shown
     from seisblock.present.document import Answer
-    from seisblock.solvers.rock import check_options
-    from seisblock.studies.spectra import default_sizes, default_slendernesses, rocking_spectrum, size_of, slenderness_of
+    from seisblock.present.text import spectrum as shown
+    from seisblock.solvers.rock.solve import check_options
+    from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum, size_of, slenderness_of
 
     check_options(restitution, gravity)
     _one_of(sizes, "--sizes", frequency_parameter, "--frequency-parameter")
@@ -79,10 +103,12 @@ def spectrum(source: Source, output: Output, gravity: float, kind: str, mu: tupl
         for motion, answer in found
     ]
     emit(
-        Answer("spectrum", {"kind": kind, "gravity_m_s2": gravity, **options}, results, records, ["Housner1963", "Zhang2001"]), output,
-        tables=lambda: shown.tables(found, kind), csv=lambda path: shown.write(path, found),
-        figure=lambda: shown.figure(found, kind, gravity),
-    )  # fmt: skip
+        Answer("spectrum", {"kind": kind, "gravity_m_s2": gravity, **options}, results, records, ["Housner1963", "Zhang2001"]),
+        output,
+        tables=lambda: shown.tables(found, kind),
+        csv=lambda path: shown.write(path, found),
+        figure=lambda: _draw(found, kind, gravity),
+    )
 
 
 def _refuse(kind: str, given: dict[str, Any]) -> None:
@@ -97,8 +123,8 @@ def _sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ..
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import load, motions
     from seisblock.cli.progress import progress
-    from seisblock.present import sliding_spectrum as shown
     from seisblock.present.document import Answer
+    from seisblock.present.text import sliding_spectrum as shown
     from seisblock.studies.sliding import slide_study
 
     frictions = mu or tuple(round(0.02 * i, 2) for i in range(1, 41))
@@ -111,12 +137,29 @@ def _sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ..
     several = len(records) > 1
     results = [{**({"record_index": index[id(m.record)]} if several else {}), **shown.document(m, points)} for m, points in found]
     emit(
-        Answer("spectrum", {"kind": "sliding", "gravity_m_s2": gravity, "vertical": vertical}, results, records, ["Fujino1978"]), output,
-        tables=lambda: shown.tables(found), csv=lambda path: shown.write(path, found), figure=lambda: shown.figure(found),
-    )  # fmt: skip
+        Answer("spectrum", {"kind": "sliding", "gravity_m_s2": gravity, "vertical": vertical}, results, records, ["Fujino1978"]),
+        output,
+        tables=lambda: shown.tables(found),
+        csv=lambda path: shown.write(path, found),
+        figure=lambda: _draw_sliding(found),
+    )
 
 
 def _one_of(first: Any, name: str, second: Any, other: str) -> None:
     """Refuse two ways of saying the same."""
     if first and second:
         raise ParameterError(f"give either {name} or {other}, not both")
+
+
+def _draw(*shown: Any) -> Any:
+    """Return the figure of rocking spectra; matplotlib is loaded only for it."""
+    from seisblock.present.figures.spectrum import figure
+
+    return figure(*shown)
+
+
+def _draw_sliding(found: Any) -> Any:
+    """Return the figure of sliding spectra; matplotlib is loaded only for it."""
+    from seisblock.present.figures.sliding_spectrum import figure
+
+    return figure(found)

@@ -14,7 +14,7 @@ from seisblock.cli.options import Output, Source, gravity_option, output_options
 from seisblock.cli.talk import say
 
 if TYPE_CHECKING:
-    from seisblock.bodies.gravestone import Gravestone
+    from seisblock.bodies.pile.pile import Pile
 
 DEFAULT_PILE = "wagata"
 
@@ -28,36 +28,70 @@ DEFAULT_PILE = "wagata"
     ),
 )
 @record_options
-@option("--stones", metavar="NAME|FILE", default=DEFAULT_PILE, show_default=True, section="Body",
-        help="TOML file of the pile, or a bundled one: wagata, lantern.")
+@option(
+    "--stones",
+    metavar="NAME|FILE",
+    default=DEFAULT_PILE,
+    show_default=True,
+    section="Body",
+    help="TOML file of the pile, or a bundled one: wagata, lantern.",
+)
 @option("--reinforced", is_flag=True, section="Body", help="Put in the dowels that the file names.")
 @option("--without", multiple=True, metavar="STONE", section="Body", help="Leave a stone out; may be repeated.")
 @option("--fix", multiple=True, metavar="STONE", section="Body", help="Let a stone move with the ground; may be repeated.")
 @option("--mu", type=float, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
-@option("--points", type=click.IntRange(2, 25), default=5, show_default=True,
-        help="Contact points along each side of a joint: 2 stand at its corners, 3 and more at segment centres.")
+@option(
+    "--points",
+    type=click.IntRange(2, 25),
+    default=5,
+    show_default=True,
+    help="Contact points along each side of a joint: 2 stand at its corners, 3 and more at segment centres.",
+)
 @option("--young", type=float, metavar="PA", help="Young's modulus of the stones, Pa. [default: contact of Furukawa2009 table 2]")
 @option("--joint-stiffness", type=float, metavar="N/M3", help="Stiffness of a joint per area, N/m^3. [default: as --young]")
-@option("--damping", type=float, default=1.0, show_default=True,
-        help="Damping ratio of a stone on its joint, with --young or --joint-stiffness.")
+@option(
+    "--damping",
+    type=float,
+    default=1.0,
+    show_default=True,
+    help="Damping ratio of a stone on its joint, with --young or --joint-stiffness.",
+)
 @option("--vertical/--no-vertical", default=True, show_default=True, help="Whether the record's vertical component acts.")
 @option("--across/--no-across", default=True, show_default=True, help="Whether the other horizontal component acts.")
 @option("--step", type=float, metavar="S", help="Time step, s. [default: 0.7 of what the stiffest contact admits]")
-@option("--criterion", is_flag=True,
-        help="The criterion study of Furukawa2009 section 3(3), over sines, and over each RECORD given, scaled; long work.")
+@option(
+    "--criterion",
+    is_flag=True,
+    help="The criterion study of Furukawa2009 section 3(3), over sines, and over each RECORD given, scaled; long work.",
+)
 @option("--grid", type=click.IntRange(min=1), default=1, show_default=True, help="--criterion: take every so many-th amplitude and height.")
-@option("--resume", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE",
-        help="--criterion: keep finished sines in this file, and go on from it.")
+@option(
+    "--resume",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="--criterion: keep finished sines in this file, and go on from it.",
+)
 @gravity_option
 @output_options
-def stack(source: Source, output: Output, stones: str, reinforced: bool, without: tuple[str, ...], fix: tuple[str, ...],
-          mu: float | None, criterion: bool, grid: int, resume: Path | None, **asked: Any) -> None:
+def stack(
+    source: Source,
+    output: Output,
+    stones: str,
+    reinforced: bool,
+    without: tuple[str, ...],
+    fix: tuple[str, ...],
+    mu: float | None,
+    criterion: bool,
+    grid: int,
+    resume: Path | None,
+    **asked: Any,
+) -> None:
     """Follow a pile of stones through an earthquake, in three dimensions (Furukawa et al. 2009).
 
     Both horizontal components and the vertical one act together; +x of the pile is the component's positive direction. Without
     --component that is the record's first. Slips are relative to the stone below, in m.
     """
-    from seisblock.bodies.pile import PileContact
+    from seisblock.bodies.pile.contact import PileContact
     from seisblock.errors import ParameterError
 
     if asked["young"] is not None and asked["joint_stiffness"] is not None:
@@ -73,11 +107,11 @@ def stack(source: Source, output: Output, stones: str, reinforced: bool, without
     _record(source, output, body, contact, asked)
 
 
-def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, ...], fix: tuple[str, ...]) -> Gravestone:
+def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, ...], fix: tuple[str, ...]) -> Pile:
     """Return the pile that the options of the body describe."""
     from dataclasses import replace
 
-    from seisblock.bodies.pile import read_pile
+    from seisblock.bodies.pile.toml import read_pile
     from seisblock.errors import BodyError
 
     body = read_pile(stones, reinforced=reinforced, mu=mu)
@@ -88,39 +122,49 @@ def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, .
     return replace(body, fixed=(*body.fixed, *fix)) if fix else body
 
 
-def _record(source: Source, output: Output, body: Gravestone, contact: Any, asked: dict[str, Any]) -> None:
+def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dict[str, Any]) -> None:
     """Follow the pile through the records."""
-    from seisblock.present import stack as shown
-    from seisblock.solvers.stack import solve_stack
+    from seisblock.present.text import stack as shown
+    from seisblock.solvers.stack.solve import solve_stack
 
     responses = []
     for record in load(source):
         turned = list(motions(record, source))
         # all components act in every run: without --component one run tells all
         responses += [solve_stack(body, motion, contact=contact, **asked) for motion in (turned if source.component else turned[:1])]
-
-    def animation(path: Path, filming: Any) -> None:
-        from seisblock.present.stack_animation import animate_stack
-
-        animate_stack(responses[0], path, filming)
-
     emit(
-        response_answer("stack", responses, {**responses[0].options, "pile": body}), output, responses=responses,
-        tables=lambda: shown.tables(responses), figure=lambda: shown.figure(responses), animation=animation,
-    )  # fmt: skip
+        response_answer("stack", responses, {**responses[0].options, "pile": body}),
+        output,
+        responses=responses,
+        tables=lambda: shown.tables(responses),
+    )
 
 
-def _study(source: Source, output: Output, body: Gravestone, contact: Any, grid: int, resume: Path | None, *, points: int, gravity: float,
-           reinforced: bool) -> None:  # fmt: skip
+def _study(
+    source: Source,
+    output: Output,
+    body: Pile,
+    contact: Any,
+    grid: int,
+    resume: Path | None,
+    *,
+    points: int,
+    gravity: float,
+    reinforced: bool,
+) -> None:
     """Run the criterion study."""
     from seisblock.cli.progress import progress
-    from seisblock.present import stack_criterion as shown
     from seisblock.present.document import Answer
+    from seisblock.present.text import stack_criterion as shown
     from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, record_thresholds, rigid_levels
 
     same: dict[str, Any] = {
-        "pgas": PGAS[::-1][::grid][::-1], "ratios": RATIOS[::grid], "points": points, "contact": contact, "gravity": gravity,
-    }  # fmt: skip
+        "pgas": PGAS[::-1][::grid][::-1],
+        "ratios": RATIOS[::grid],
+        "points": points,
+        "contact": contact,
+        "gravity": gravity,
+    }
     with progress("sines") as tell:
         study = criterion_study(body, **same, resume=resume, progress=tell)
     records = load(source) if source.record else []
@@ -131,10 +175,23 @@ def _study(source: Source, output: Output, body: Gravestone, contact: Any, grid:
                 scaled[f"{record.station} {motion.name}".strip()] = record_thresholds(body, motion, **same, progress=tell)
     rigid = rigid_levels(study, body, points=points, gravity=gravity)
     answer = Answer(
-        "stack", {"pile": body, "points": points, "contact": contact, "gravity_m_s2": gravity, "criterion": True, "grid": grid},
-        [shown.summary(study, rigid, scaled, reinforced=reinforced)], records, citations=("Furukawa2009",),
-    )  # fmt: skip
+        "stack",
+        {"pile": body, "points": points, "contact": contact, "gravity_m_s2": gravity, "criterion": True, "grid": grid},
+        [shown.summary(study, rigid, scaled, reinforced=reinforced)],
+        records,
+        citations=("Furukawa2009",),
+    )
     emit(
-        answer, output, tables=lambda: shown.tables(study, rigid, scaled, reinforced=reinforced), csv=lambda path: shown.write(study, path),
-        figure=lambda: shown.figure(study, rigid, scaled, reinforced=reinforced),
-    )  # fmt: skip
+        answer,
+        output,
+        tables=lambda: shown.tables(study, rigid, scaled, reinforced=reinforced),
+        csv=lambda path: shown.write(study, path),
+        figure=lambda: _draw(study, rigid, scaled, reinforced=reinforced),
+    )
+
+
+def _draw(*shown: Any, reinforced: bool) -> Any:
+    """Return the figure of the study; matplotlib is loaded only for it."""
+    from seisblock.present.figures.stack_criterion import figure
+
+    return figure(*shown, reinforced=reinforced)

@@ -40,21 +40,37 @@ def _ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
 @option("--height", type=LENGTH, section="Body", help="Height H, m or with a unit; the centre of gravity is at half of it.")
 @option("--mass", type=MASS, section="Body", help="Mass, kg or with a unit. [default: 1000 kg, which only scales forces]")
 @option("--stiffness", type=FLOATS, metavar="KX,KY,KZ", section="Body", help="Stiffness of the springs at each corner, N/m; needs --mass.")
-@option("--frequency-vertical", type=float, metavar="HZ", section="Body",
-        help="omega_V / 2 pi on the springs, Hz; instead of --stiffness. [default: 1 with --harmonic, else required]")
+@option(
+    "--frequency-vertical",
+    type=float,
+    metavar="HZ",
+    section="Body",
+    help="omega_V / 2 pi on the springs, Hz; instead of --stiffness. [default: 1 with --harmonic, else required]",
+)
 @option("--beta", type=FLOATS, section="Body", help="Horizontal over vertical frequency. [default: 0.707, the paper's]")
-@option("--damping", type=FLOATS, section="Body",
-        help="Damping ratio: zeta of each corner dashpot, with --harmonic h of each mode. [default: 0.05]")
+@option(
+    "--damping",
+    type=FLOATS,
+    section="Body",
+    help="Damping ratio: zeta of each corner dashpot, with --harmonic h of each mode. [default: 0.05]",
+)
 @option("--alpha", type=FLOATS, section="Body", help="With --harmonic: height over depth H/b, instead of sizes. [default: 1]")
 @option("--gamma", type=FLOATS, section="Body", help="With --harmonic: width over depth a/b. [default: 1]")
 @option("--harmonic", is_flag=True, help="Steady state under harmonic shaking: no record; lists of parameters are combined.")
 @option("--phi", type=FLOATS, help="With --harmonic: azimuth of the shaking from x to y, degrees. [default: 0]")
 @option("--rho", type=FLOATS, help="With --harmonic: angle of the shaking from the vertical, degrees. [default: 90]")
-@option("--frequency-ratio", callback=_ratios, metavar="LIST|A:B:STEP",
-        help="With --harmonic: evaluate exactly at these theta/omega_1; a range also bounds the search for minima. [default: 0.01:6:0.01]")
+@option(
+    "--frequency-ratio",
+    callback=_ratios,
+    metavar="LIST|A:B:STEP",
+    help="With --harmonic: evaluate exactly at these theta/omega_1; a range also bounds the search for minima. [default: 0.01:6:0.01]",
+)
 @option("--corner", type=click.IntRange(1, 4), help="With --harmonic: this corner alone; the paper's is 4. [default: the first to lift]")
-@option("--figure", type=click.Choice(["3", "4", "6", "7", "8", "9", "10", "11"]),
-        help="The parameters of this figure of the paper; implies --harmonic, other options prevail.")
+@option(
+    "--figure",
+    type=click.Choice(["3", "4", "6", "7", "8", "9", "10", "11"]),
+    help="The parameters of this figure of the paper; implies --harmonic, other options prevail.",
+)
 @gravity_option
 @output_options
 def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figure: str | None, **given: Any) -> None:
@@ -69,8 +85,8 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
         return
     from seisblock.bodies.spring_block import described
     from seisblock.bodies.spring_choice import spring_block
-    from seisblock.present import uplift as shown
-    from seisblock.solvers.uplift import solve_uplift
+    from seisblock.present.text import uplift as shown
+    from seisblock.solvers.uplift.solve import solve_uplift
 
     only = [_flag(name) for name in (*SHAKING, "frequency_ratio", "corner") if given.pop(name) is not None]
     if only:
@@ -78,14 +94,16 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
     body = spring_block(**{name: _single(name, value) for name, value in given.items()})
     responses = [solve_uplift(body, motion, gravity=gravity) for record in load(source) for motion in motions(record, source)]
     emit(
-        response_answer("uplift", responses, {**responses[0].options, "block": described(body)}), output, responses=responses,
-        tables=lambda: shown.tables(responses, gal=output.gal), figure=lambda: _draw("record_figure", responses),
-    )  # fmt: skip
+        response_answer("uplift", responses, {**responses[0].options, "block": described(body)}),
+        output,
+        responses=responses,
+        tables=lambda: shown.tables(responses, gal=output.gal),
+    )
 
 
 def _harmonic(source: Source, output: Output, figure: int | None, given: dict[str, Any]) -> None:
     """Answer for harmonic shaking."""
-    from seisblock.present import uplift_harmonic as shown
+    from seisblock.present.text import uplift_harmonic as shown
     from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_region
 
     if source.record:
@@ -97,23 +115,27 @@ def _harmonic(source: Source, output: Output, figure: int | None, given: dict[st
         say("no --frequency-vertical given: natural frequencies are those for omega_V / 2 pi = 1 Hz; ratios need none")
     sizes = {name: given[name] for name in SIZES} if any(given[name] is not None for name in MEASURED) else None
     blocks = harmonic_blocks(
-        {name: given[name] for name in RATIOS}, sizes=sizes, figure=figure, frequency_vertical=given["frequency_vertical"] or 1.0,
+        {name: given[name] for name in RATIOS},
+        sizes=sizes,
+        figure=figure,
+        frequency_vertical=given["frequency_vertical"] or 1.0,
         **({} if given["mass"] is None else {"mass": given["mass"]}),
-    )  # fmt: skip
-    regions = [
-        uplift_region(body, ratios, phi_deg=phi, rho_deg=rho, corner=given["corner"], between=between) for body, phi, rho in blocks
-    ]
+    )
+    regions = [uplift_region(body, ratios, phi_deg=phi, rho_deg=rho, corner=given["corner"], between=between) for body, phi, rho in blocks]
     emit(
-        shown.answer(regions), output, tables=lambda: shown.tables(regions, every=given["frequency_ratio"] is not None),
-        csv=lambda path: shown.write(path, regions), figure=lambda: _draw("harmonic_figure", regions, figure),
-    )  # fmt: skip
+        shown.answer(regions),
+        output,
+        tables=lambda: shown.tables(regions, every=given["frequency_ratio"] is not None),
+        csv=lambda path: shown.write(path, regions),
+        figure=lambda: _draw(regions, figure),
+    )
 
 
-def _draw(name: str, *shown: Any) -> Any:
-    """Return a figure; matplotlib is loaded only for it."""
-    from seisblock.present import uplift_figures
+def _draw(regions: Any, figure: int | None) -> Any:
+    """Return the figure of harmonic regions; matplotlib is loaded only for it."""
+    from seisblock.present.figures.uplift_harmonic import harmonic_figure
 
-    return getattr(uplift_figures, name)(*shown)
+    return harmonic_figure(regions, figure)
 
 
 def _single(name: str, value: Any) -> Any:

@@ -25,7 +25,7 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, as_json: b
     Exits with 1 when a case that should agree does not. A case that is said to differ and suddenly agrees counts as one.
     """
     from seisblock.cli.progress import progress
-    from seisblock.present import validate as shown
+    from seisblock.present.text import validate as shown
     from seisblock.validation import cases_of
 
     chosen = [case for case in cases_of(paper) if case.quick or not quick]
@@ -37,7 +37,7 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, as_json: b
                 results.append(case.run())
         if html is not None:
             from seisblock.present.files import write_text
-            from seisblock.present.gallery import gallery
+            from seisblock.present.pages.gallery import gallery
 
             write_text(html, gallery(results))
             say(f"wrote {html}")
@@ -48,7 +48,7 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, as_json: b
         parameters, counted = {"papers": papers, "quick": quick}, {"counts": shown.counts(results)}
         click.echo(to_json(Answer("validate", parameters, shown.entries(results), citations=papers, extra=counted)))
     else:
-        from seisblock.present.tables import console
+        from seisblock.present.text.tables import console
 
         screen = console()
         for part in shown.tables(results):

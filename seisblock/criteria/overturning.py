@@ -33,9 +33,7 @@ def static_acceleration(width: float, height: float, gravity: float = STANDARD_G
     return gravity * width / height
 
 
-def housner_acceleration(
-    slenderness: float, frequency_parameter: float, frequency: float, gravity: float = STANDARD_GRAVITY
-) -> float:
+def housner_acceleration(slenderness: float, frequency_parameter: float, frequency: float, gravity: float = STANDARD_GRAVITY) -> float:
     """Return g alpha sqrt(1 + (omega/p)^2), m/s^2: the first form of [Furukawa2009]_ eq. (6), where 4 R/(3 g) = 1/p^2.
 
     Differs from the true threshold of a half-sine pulse (:func:`~seisblock.criteria.pulses.half_sine_ratio`): it asks that alpha be

@@ -1,7 +1,7 @@
 """When a block on corner springs lifts off under harmonic shaking: the paper's closed forms, for a square base.
 
 Square base (gamma = 1), equal horizontal springs, equal modal damping, small rotations, steady state. The general
-base is solved by :mod:`seisblock.solvers.uplift_harmonic`, which these formulas check and are checked by.
+base is solved by :mod:`seisblock.solvers.uplift.harmonic`, which these formulas check and are checked by.
 """
 
 from __future__ import annotations

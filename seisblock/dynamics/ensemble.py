@@ -24,14 +24,25 @@ _COUNTS = _t.Array(_t.int64, 3, "C")
 
 @kernel(
     _t.void(
-        _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP), READ_ONLY_MATRIX, MATRIX, _t.float64,
-        _t.int64, MATRIX, MATRIX, INTEGERS, BLOCK, _COUNTS, INTEGER_TABLE, MATRIX, INTEGERS,
+        _t.FunctionType(SERIES),
+        _t.FunctionType(RESET),
+        _t.FunctionType(SKIP),
+        READ_ONLY_MATRIX,
+        MATRIX,
+        _t.float64,
+        _t.int64,
+        MATRIX,
+        MATRIX,
+        INTEGERS,
+        BLOCK,
+        _COUNTS,
+        INTEGER_TABLE,
+        MATRIX,
+        INTEGERS,
     ),
     allocates=True,
-)  # fmt: skip
-def integrate_rows(
-    series, reset, skip, acceleration, gains, dt, mode, states, parameters, sizes, extrema, tallies, infos, ends, statuses
-):  # fmt: skip
+)
+def integrate_rows(series, reset, skip, acceleration, gains, dt, mode, states, parameters, sizes, extrema, tallies, infos, ends, statuses):
     """Follow one trajectory per row of `parameters`; see :func:`seisblock.dynamics.hybrid.integrate`."""
     path = np.empty((0, states.shape[1]))
     modes = np.empty(0, np.int64)
@@ -40,9 +51,28 @@ def integrate_rows(
     limits = np.empty((0, 2, states.shape[1]))
     for row in range(parameters.shape[0]):
         statuses[row] = integrate(
-            series, reset, skip, acceleration, gains[row], dt, 0, 0.0, mode, states[row], parameters[row], sizes, path, modes,
-            table, times, limits, extrema[row], tallies[row], infos[row], ends[row],
-        )  # fmt: skip
+            series,
+            reset,
+            skip,
+            acceleration,
+            gains[row],
+            dt,
+            0,
+            0.0,
+            mode,
+            states[row],
+            parameters[row],
+            sizes,
+            path,
+            modes,
+            table,
+            times,
+            limits,
+            extrema[row],
+            tallies[row],
+            infos[row],
+            ends[row],
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,15 +147,35 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     ends = np.zeros((m, 2))
     statuses = np.zeros(m, dtype=np.int64)
     integrate_rows(
-        model.series, model.reset, model.skip, motion.acceleration, scale, motion.dt, mode, states, p, sizes, extrema, tally, infos,
-        ends, statuses,
-    )  # fmt: skip
+        model.series,
+        model.reset,
+        model.skip,
+        motion.acceleration,
+        scale,
+        motion.dt,
+        mode,
+        states,
+        p,
+        sizes,
+        extrema,
+        tally,
+        infos,
+        ends,
+        statuses,
+    )
     end_time = infos[:, hybrid.INFO_SAMPLE] * motion.dt + ends[:, hybrid.LAST_TAU]
     for row in np.flatnonzero(np.isin(statuses, list(FAILURES)))[:1]:
         raise SolverError(
             f"{model.name}, row {row}: given up at {motion.start_s + end_time[row]:.6f} s, where {FAILURES[int(statuses[row])]}"
         )
     return Ensemble(
-        model, motion.dt, states, infos[:, hybrid.INFO_MODE], infos[:, hybrid.INFO_EVENTS], end_time, ends[:, hybrid.FIRST_EVENT],
-        extrema[:, : model.tracked], tally,
-    )  # fmt: skip
+        model,
+        motion.dt,
+        states,
+        infos[:, hybrid.INFO_MODE],
+        infos[:, hybrid.INFO_EVENTS],
+        end_time,
+        ends[:, hybrid.FIRST_EVENT],
+        extrema[:, : model.tracked],
+        tally,
+    )

@@ -98,15 +98,53 @@ def _step_length(c, n_states, order, h, p, floors):
 
 @kernel(
     _t.int64(
-        _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP), READ_ONLY_MATRIX, VECTOR, _t.float64, _t.int64, _t.float64,
-        _t.int64, VECTOR, VECTOR, INTEGERS, MATRIX, INTEGERS, INTEGER_TABLE, VECTOR, BLOCK, MATRIX, INTEGER_TABLE, INTEGERS, VECTOR,
+        _t.FunctionType(SERIES),
+        _t.FunctionType(RESET),
+        _t.FunctionType(SKIP),
+        READ_ONLY_MATRIX,
+        VECTOR,
+        _t.float64,
+        _t.int64,
+        _t.float64,
+        _t.int64,
+        VECTOR,
+        VECTOR,
+        INTEGERS,
+        MATRIX,
+        INTEGERS,
+        INTEGER_TABLE,
+        VECTOR,
+        BLOCK,
+        MATRIX,
+        INTEGER_TABLE,
+        INTEGERS,
+        VECTOR,
     ),
     allocates=True,
-)  # fmt: skip
+)
 def integrate(
-    series, reset, skip, acceleration, gains, dt, sample, tau, mode, y, p, sizes, path, modes, event_table, event_times,
-    event_states, extrema, tally, info, end,
-):  # fmt: skip
+    series,
+    reset,
+    skip,
+    acceleration,
+    gains,
+    dt,
+    sample,
+    tau,
+    mode,
+    y,
+    p,
+    sizes,
+    path,
+    modes,
+    event_table,
+    event_times,
+    event_states,
+    extrema,
+    tally,
+    info,
+    end,
+):
     """Follow one trajectory to the end of the record or to a mode that stops it; return a status.
 
     Parameters

@@ -216,10 +216,29 @@ def follow(
         limits = np.empty((capacity, 2, n_states))
         status = int(
             hybrid.integrate(
-                model.series, model.reset, model.skip, motion.acceleration, scale, motion.dt, start.sample, start.tau, mode, y, p, sizes,
-                path, modes, table, times, limits, extrema, hybrid.NO_TALLY, info, end,
+                model.series,
+                model.reset,
+                model.skip,
+                motion.acceleration,
+                scale,
+                motion.dt,
+                start.sample,
+                start.tau,
+                mode,
+                y,
+                p,
+                sizes,
+                path,
+                modes,
+                table,
+                times,
+                limits,
+                extrema,
+                hybrid.NO_TALLY,
+                info,
+                end,
             )
-        )  # fmt: skip
+        )
         if status != hybrid.TOO_MANY_EVENTS or capacity >= _LAST_CAPACITY:
             break
         capacity *= 8
@@ -227,14 +246,21 @@ def follow(
     ended = Instant(last, float(end[hybrid.LAST_TAU]))
     if status in FAILURES:
         raise SolverError(f"{model.name}: given up at {motion.start_s + last * motion.dt + ended.tau:.6f} s, where {FAILURES[status]}")
-    changes = tuple(
-        Change(
-            Instant(int(row[hybrid.EVENT_SAMPLE]), float(tau)), float(row[hybrid.EVENT_SAMPLE] * motion.dt + tau),
-            int(row[hybrid.EVENT_GUARD]), int(row[hybrid.EVENT_FROM]), int(row[hybrid.EVENT_TO]), both[0].copy(), both[1].copy(),
+    changes = (
+        tuple(
+            Change(
+                Instant(int(row[hybrid.EVENT_SAMPLE]), float(tau)),
+                float(row[hybrid.EVENT_SAMPLE] * motion.dt + tau),
+                int(row[hybrid.EVENT_GUARD]),
+                int(row[hybrid.EVENT_FROM]),
+                int(row[hybrid.EVENT_TO]),
+                both[0].copy(),
+                both[1].copy(),
+            )
+            for row, tau, both in zip(table[:found], times[:found], limits[:found], strict=True)
         )
-        for row, tau, both in zip(table[:found], times[:found], limits[:found], strict=True)
-    ) if keep_events else ()  # fmt: skip
+        if keep_events
+        else ()
+    )
     first = start.sample if start.tau == 0.0 else start.sample + 1
-    return Trajectory(
-        model, motion.dt, status, first, path, modes, changes, found, extrema[: model.tracked], ended, y, final_mode
-    )  # fmt: skip
+    return Trajectory(model, motion.dt, status, first, path, modes, changes, found, extrema[: model.tracked], ended, y, final_mode)

@@ -75,7 +75,7 @@ def page(title: str, body: Iterable[str], *, lang: str = "en", style: str = "", 
     foot : str
         Plain text after the program's name and version.
     """
-    head = f'<header><h1>{escape(title)}</h1>{f"<p class=soft>{escape(subtitle)}</p>" if subtitle else ""}</header>'
+    head = f"<header><h1>{escape(title)}</h1>{f'<p class=soft>{escape(subtitle)}</p>' if subtitle else ''}</header>"
     return "\n".join(
         [
             "<!doctype html>",

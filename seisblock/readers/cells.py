@@ -88,9 +88,7 @@ def _fast(lines: Sequence[str], columns: Mapping[str, int], separator: str | Non
             return None
 
 
-def _careful(
-    name: str, lines: Sequence[str], first_line: int, columns: Mapping[str, int], width: int, separator: str | None
-) -> FloatArray:
+def _careful(name: str, lines: Sequence[str], first_line: int, columns: Mapping[str, int], width: int, separator: str | None) -> FloatArray:
     """Return the table cell by cell, naming the first line that is wrong."""
     rows: list[list[float]] = []
     last = len(lines)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import codecs
 
 from seisblock.errors import RecordFormatError
-from seisblock.readers import at2, bundle, jma_csv, knet, knet_csv, plain_csv
+from seisblock.readers import bundle
+from seisblock.readers.formats import at2, jma_csv, knet, knet_csv, plain_csv
 from seisblock.readers.source import Blob, decode
 
 BUNDLE = "BUNDLE"

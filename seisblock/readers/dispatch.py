@@ -6,15 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from seisblock.errors import ParameterError, RecordFormatError, UnitError
-from seisblock.readers.at2 import read_at2
 from seisblock.readers.bundle import members_of
 from seisblock.readers.detect import BUNDLE, OBSPY, format_of
-from seisblock.readers.generic import read_generic
-from seisblock.readers.jma_csv import read_jma_csv
-from seisblock.readers.knet import read_knet
-from seisblock.readers.knet_csv import read_knet_csv
+from seisblock.readers.formats.at2 import read_at2
+from seisblock.readers.formats.generic import read_generic
+from seisblock.readers.formats.jma_csv import read_jma_csv
+from seisblock.readers.formats.knet import read_knet
+from seisblock.readers.formats.knet_csv import read_knet_csv
+from seisblock.readers.formats.plain_csv import read_plain_csv
 from seisblock.readers.naming import normal_unit
-from seisblock.readers.plain_csv import read_plain_csv
 from seisblock.readers.source import Blob
 from seisblock.records import Record
 

@@ -17,9 +17,7 @@ _CODES = {
 _CODE = {spelling: code for code, spellings in _CODES.items() for spelling in spellings}
 _QUANTITY = re.compile(r"^(?:acc(?:eleration)?|a)[ _-]+(?=.)|(?<=.)[ _-]+(?:acc(?:eleration)?|component|comp)$|加速度", re.IGNORECASE)
 _BRACKETED = re.compile(r"^(.*?)\s*[(\[{<]\s*(.*?)\s*[)\]}>]\s*$")
-_SUFFIXED = re.compile(
-    r"^(.*?)[ _]+((?:cm|mm|m)[/_ ]?s(?:ec)?[\^_]?2|(?:cm|mm|m)/s(?:ec)?/s(?:ec)?|gals?|g|ガル|sec|s|ms)$", re.IGNORECASE
-)
+_SUFFIXED = re.compile(r"^(.*?)[ _]+((?:cm|mm|m)[/_ ]?s(?:ec)?[\^_]?2|(?:cm|mm|m)/s(?:ec)?/s(?:ec)?|gals?|g|ガル|sec|s|ms)$", re.IGNORECASE)
 _UNITS = {
     "gal": "gal",
     "gals": "gal",

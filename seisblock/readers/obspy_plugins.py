@@ -11,12 +11,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from seisblock.readers.at2 import is_at2 as _claims_at2
-from seisblock.readers.at2 import read_at2 as _parse_at2
-from seisblock.readers.jma_csv import is_jma_csv as _claims_jma_csv
-from seisblock.readers.jma_csv import read_jma_csv as _parse_jma_csv
-from seisblock.readers.knet_csv import is_knet_csv as _claims_knet_csv
-from seisblock.readers.knet_csv import read_knet_csv as _parse_knet_csv
+from seisblock.readers.formats.at2 import is_at2 as _claims_at2
+from seisblock.readers.formats.at2 import read_at2 as _parse_at2
+from seisblock.readers.formats.jma_csv import is_jma_csv as _claims_jma_csv
+from seisblock.readers.formats.jma_csv import read_jma_csv as _parse_jma_csv
+from seisblock.readers.formats.knet_csv import is_knet_csv as _claims_knet_csv
+from seisblock.readers.formats.knet_csv import read_knet_csv as _parse_knet_csv
 from seisblock.readers.source import Blob
 from seisblock.records import Record
 

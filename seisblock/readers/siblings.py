@@ -6,8 +6,8 @@ import re
 from pathlib import Path
 
 from seisblock.errors import RecordError
-from seisblock.readers.at2 import is_at2, orientation, set_name
-from seisblock.readers.knet import is_knet
+from seisblock.readers.formats.at2 import is_at2, orientation, set_name
+from seisblock.readers.formats.knet import is_knet
 from seisblock.readers.source import Blob
 
 _KNET_NAME = re.compile(r"^(?P<stem>.+)\.(?P<code>NS|EW|UD)(?P<sensor>[12]?)\Z", re.IGNORECASE)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError
-from seisblock.readers.samples import find_sample, list_samples
+from seisblock.samples import find_sample, list_samples
 
 Source: TypeAlias = "str | PathLike[str]"
 

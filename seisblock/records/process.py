@@ -69,9 +69,7 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
     stop = int(np.floor((end - first) / record.dt + 1e-6)) + 1
     if stop - begin < 2:
         raise RecordError(f"{window} holds fewer than 2 samples at {record.dt:g} s: make it longer")
-    return _apply(
-        record, lambda c: c.acceleration[begin:stop], f"{window} cut out", offset_s=record.offset_s + begin * record.dt
-    )  # fmt: skip
+    return _apply(record, lambda c: c.acceleration[begin:stop], f"{window} cut out", offset_s=record.offset_s + begin * record.dt)
 
 
 def scale(record: Record, factor: float) -> Record:

@@ -13,11 +13,11 @@ from seisblock.criteria.card import Row, overturning_card
 from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures, measure
 from seisblock.records import Motion, Record, motion_of
 from seisblock.results import Response
-from seisblock.solvers.jump import solve_jump
-from seisblock.solvers.rock import solve_rock
-from seisblock.solvers.slide import solve_slide
-from seisblock.solvers.uplift import solve_uplift
-from seisblock.studies.margin import Margin, find_margin, flagged
+from seisblock.solvers.jump.solve import solve_jump
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.solvers.slide.solve import solve_slide
+from seisblock.solvers.uplift.solve import solve_uplift
+from seisblock.studies.rocking.margin import Margin, find_margin, flagged
 from seisblock.units import STANDARD_GRAVITY
 
 

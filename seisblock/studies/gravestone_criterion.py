@@ -16,13 +16,13 @@ from pathlib import Path
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.gravestone import Gravestone
-from seisblock.bodies.pile import PileContact
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
 from seisblock.criteria.gravestones import GravestoneFit
 from seisblock.errors import ParameterError, RecordFormatError
 from seisblock.records.motion import Motion
-from seisblock.solvers.stack import solve_stack
-from seisblock.studies.ensemble import Progress, in_threads
+from seisblock.solvers.stack.solve import solve_stack
+from seisblock.studies.runs import Progress, in_threads
 from seisblock.typing import FloatArray
 from seisblock.units import GAL, STANDARD_GRAVITY
 
@@ -72,7 +72,7 @@ class CriterionStudy:
     fit: GravestoneFit | None
 
 
-def with_top(body: Gravestone, ratio: float) -> Gravestone:
+def with_top(body: Pile, ratio: float) -> Pile:
     """Return the pile with its last stone as high as `ratio` times its width ([Furukawa2009]_ table 1)."""
     top = body.stones[-1]
     return replace(body, stones=(*body.stones[:-1], replace(top, height=ratio * top.width)))
@@ -85,7 +85,7 @@ def sine_base(frequency: float, pga: float, duration: float = DURATION_S) -> Mot
 
 
 def criterion_study(
-    body: Gravestone,
+    body: Pile,
     *,
     frequencies: Sequence[float] = FREQUENCIES_HZ,
     pgas: Sequence[float] = PGAS,
@@ -105,11 +105,11 @@ def criterion_study(
 
     Parameters
     ----------
-    body : Gravestone
+    body : Pile
         Its last stone is the one whose height changes.
     frequencies, pgas, ratios : sequences of float, Hz, m/s^2, 1
     points, contact, gravity
-        As for :func:`~seisblock.solvers.stack.solve_stack`.
+        As for :func:`~seisblock.solvers.stack.solve.solve_stack`.
     duration : float, s
     resume : path
         File with one line per finished sine; read if it is there, and added to.
@@ -148,6 +148,11 @@ def criterion_study(
     thresholds = tuple(known[cell] for cell in cells)
     levels = fitted_levels(thresholds)
     return CriterionStudy(thresholds, levels, fitted_criterion(levels))
+
+
+def frequencies_of(study: CriterionStudy) -> list[float]:
+    """Return the frequencies in their order."""
+    return list(dict.fromkeys(t.frequency_hz for t in study.thresholds))
 
 
 def fitted_levels(thresholds: Sequence[Threshold]) -> dict[float, float]:
@@ -200,7 +205,7 @@ def _resumed(path: Path | None, mark: str) -> dict[tuple[float, float], Threshol
 
 
 def record_thresholds(
-    body: Gravestone,
+    body: Pile,
     motion: Motion,
     *,
     pgas: Sequence[float] = PGAS,
@@ -234,8 +239,16 @@ def record_thresholds(
     return tuple(in_threads(work, tuple(pgas), progress=progress))
 
 
-def _least(body: Gravestone, motion: Motion, cell: tuple[float, float], ladder: Sequence[float], *, points: int,
-           contact: PileContact | None, gravity: float) -> Threshold:  # fmt: skip
+def _least(
+    body: Pile,
+    motion: Motion,
+    cell: tuple[float, float],
+    ladder: Sequence[float],
+    *,
+    points: int,
+    contact: PileContact | None,
+    gravity: float,
+) -> Threshold:
     """Return the most squat top stone that falls, trying them from below."""
     for ratio in ladder:
         outcome = solve_stack(with_top(body, ratio), motion, points=points, contact=contact, gravity=gravity, stop_at_fall=True).outcome
@@ -244,12 +257,12 @@ def _least(body: Gravestone, motion: Motion, cell: tuple[float, float], ladder: 
     return Threshold(*cell, None)
 
 
-def rigid_top(body: Gravestone, points: int) -> Block:
+def rigid_top(body: Pile, points: int) -> Block:
     """Return the top stone, with those it is dowelled to, as one rigid block on its outermost points ([Furukawa2009]_ fig. 12).
 
     Parameters
     ----------
-    body : Gravestone
+    body : Pile
     points : int
         Contact points along each side of the joint.
     """
@@ -275,9 +288,9 @@ def rigid_top(body: Gravestone, points: int) -> Block:
     )
 
 
-def rigid_levels(study: CriterionStudy, body: Gravestone, *, points: int, gravity: float = STANDARD_GRAVITY) -> dict[float, float]:
+def rigid_levels(study: CriterionStudy, body: Pile, *, points: int, gravity: float = STANDARD_GRAVITY) -> dict[float, float]:
     """Return a(f) of the top stone as one rigid block, over the study's sines ([Furukawa2009]_ eq. (7)); parameters as for the study."""
-    from seisblock.solvers.rock import rock_verdict
+    from seisblock.solvers.rock.solve import rock_verdict
 
     blocks = [(ratio, rigid_top(with_top(body, ratio), points)) for ratio in RATIOS]
     found = []

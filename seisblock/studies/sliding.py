@@ -16,9 +16,9 @@ from seisblock.bodies.sliding_base import SlidingBase, holds_at_rest, sliding_ba
 from seisblock.dynamics import follow_many
 from seisblock.errors import ParameterError
 from seisblock.records.motion import Motion
-from seisblock.solvers.slide import check
-from seisblock.solvers.slide_model import BACKWARD, CONTACT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, parameters
-from seisblock.solvers.slide_rest import slip_at_rest
+from seisblock.solvers.slide.model import BACKWARD, CONTACT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, parameters
+from seisblock.solvers.slide.rest import slip_at_rest
+from seisblock.solvers.slide.solve import check
 from seisblock.units import STANDARD_GRAVITY
 
 SLIDING_MODES = [FORWARD, BACKWARD, LEVEL + FORWARD, LEVEL + BACKWARD]
@@ -42,7 +42,7 @@ class SlidePoint:
         Whether static friction holds without shaking; if not nothing was computed, and what follows is None.
     slips : bool
     slip_start_s, max_slip_m, max_slip_time_s, residual_slip_m, final_slip_m, slip_count, fell_off_slope, lifted_off, slides_at_end
-        As in :class:`seisblock.solvers.slide.SlideOutcome`.
+        As in :class:`seisblock.solvers.slide.solve.SlideOutcome`.
     beta : float or None
         Largest slip over that of the horizontal motion alone; None without vertical motion, or when nothing slips without it.
     """
@@ -87,10 +87,10 @@ def slide_study(
     ----------
     motions : Motion or several
     mu, mu_kinetic, kappa, vertical_scale, slope_deg : float or sequence
-        As in :func:`seisblock.solvers.slide.solve_slide`; every combination is computed. A combination in which static friction does
+        As in :func:`seisblock.solvers.slide.solve.solve_slide`; every combination is computed. A combination in which static friction does
         not hold at rest, or kinetic exceeds static friction, is listed with nothing computed.
     slope_length, one_way, gravity
-        As in :func:`seisblock.solvers.slide.solve_slide`.
+        As in :func:`seisblock.solvers.slide.solve.solve_slide`.
     progress : callable or None
         Told how many runs are done, of how many.
     workers : int or None
@@ -119,9 +119,13 @@ def slide_study(
     if not any(isinstance(base, SlidingBase) for base in bases) or (slope_length is not None and not any(_values(slope_deg))):
         # nothing can be computed, or the slope's length means nothing: the first combination says why
         sliding_base(
-            _values(mu)[0], mu_kinetic=_values(mu_kinetic)[0], kappa=_values(kappa)[0], slope_deg=_values(slope_deg)[0],
-            slope_length=slope_length, one_way=one_way,
-        )  # fmt: skip
+            _values(mu)[0],
+            mu_kinetic=_values(mu_kinetic)[0],
+            kappa=_values(kappa)[0],
+            slope_deg=_values(slope_deg)[0],
+            slope_length=slope_length,
+            one_way=one_way,
+        )
     # the horizontal motion alone is what beta compares with
     computed = tuple(dict.fromkeys((*scales, 0.0))) if any(scales) else scales
     rows = [(base, scale) for base in bases if isinstance(base, SlidingBase) for scale in computed]
@@ -196,10 +200,17 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
     many = follow_many(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
     entered = many.tally.sum(axis=1) - many.tally[:, FOOT]
     numbers = zip(
-        rows, p, many.final.tolist(), many.final_mode.tolist(), many.extrema[:, 0].tolist(), many.first_change.tolist(),
-        entered[:, SLIDING_MODES].sum(axis=1).tolist(), (many.tally[:, :, LEVEL:].sum(axis=(1, 2)) > 0).tolist(),
-        (many.tally[:, CONTACT].sum(axis=1) > 0).tolist(), strict=True,
-    )  # fmt: skip
+        rows,
+        p,
+        many.final.tolist(),
+        many.final_mode.tolist(),
+        many.extrema[:, 0].tolist(),
+        many.first_change.tolist(),
+        entered[:, SLIDING_MODES].sum(axis=1).tolist(),
+        (many.tally[:, :, LEVEL:].sum(axis=(1, 2)) > 0).tolist(),
+        (many.tally[:, CONTACT].sum(axis=1) > 0).tolist(),
+        strict=True,
+    )
     points = []
     for (base, scale), row, final, mode, (highest, highest_time, lowest, lowest_time), first, slips, fell, flew in numbers:
         slip, at = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
@@ -207,7 +218,12 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
         moved = first == first  # not NaN
         points.append(
             SlidePoint(
-                motion.name, base.mu, base.mu_kinetic, base.mu_kinetic / base.mu, base.slope_deg, scale,
+                motion.name,
+                base.mu,
+                base.mu_kinetic,
+                base.mu_kinetic / base.mu,
+                base.slope_deg,
+                scale,
                 holds_at_rest=True,
                 slips=moved,
                 slip_start_s=motion.start_s + first if moved else None,
@@ -220,7 +236,7 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
                 lifted_off=flew,
                 slides_at_end=mode % LEVEL != STICK,
             )
-        )  # fmt: skip
+        )
     return points
 
 

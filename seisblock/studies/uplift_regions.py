@@ -13,14 +13,19 @@ from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
 from seisblock.bodies.spring_choice import spring_block
 from seisblock.errors import BodyError
 from seisblock.records.record import frozen
-from seisblock.solvers.uplift_harmonic import uplift_thresholds
-from seisblock.solvers.uplift_minima import UpliftMinimum, least_uplift, uplift_minima
-from seisblock.solvers.uplift_modes import Modes, natural_modes
+from seisblock.solvers.uplift.harmonic import uplift_thresholds
+from seisblock.solvers.uplift.minima import UpliftMinimum, least_uplift, uplift_minima
+from seisblock.solvers.uplift.modes import Modes, natural_modes
 from seisblock.typing import ArrayLike, FloatArray
 
 PAPER_RATIOS: dict[str, tuple[float, ...]] = {
-    "alpha": (1.0,), "gamma": (1.0,), "beta": (0.707,), "damping": (0.05,), "phi": (0.0,), "rho": (90.0,),
-}  # fmt: skip
+    "alpha": (1.0,),
+    "gamma": (1.0,),
+    "beta": (0.707,),
+    "damping": (0.05,),
+    "phi": (0.0,),
+    "rho": (90.0,),
+}
 """The block and the direction that figs. 6 to 11 of [Okumura1987]_ vary from: square, shaken along x."""
 
 DEFAULT_RATIOS = tuple(i / 100.0 for i in range(1, 601))
@@ -74,9 +79,13 @@ class UpliftRegion:
         """The paper's parameters of this region, by name."""
         body = self.body
         return {
-            "alpha": body.alpha, "gamma": body.gamma, "beta": body.beta, "damping": body.damping,
-            "phi": self.phi_deg, "rho": self.rho_deg,
-        }  # fmt: skip
+            "alpha": body.alpha,
+            "gamma": body.gamma,
+            "beta": body.beta,
+            "damping": body.damping,
+            "phi": self.phi_deg,
+            "rho": self.rho_deg,
+        }
 
 
 def uplift_region(
@@ -109,10 +118,16 @@ def uplift_region(
     thresholds = uplift_thresholds(body, ratio, phi_deg=phi_deg, rho_deg=rho_deg)
     least = thresholds.min(axis=0) if corner is None else thresholds[corner - 1]
     return UpliftRegion(
-        body, phi_deg, rho_deg, corner, natural_modes(body), ratio, frozen(least),
+        body,
+        phi_deg,
+        rho_deg,
+        corner,
+        natural_modes(body),
+        ratio,
+        frozen(least),
         least_uplift(body, phi_deg=phi_deg, rho_deg=rho_deg, corner=corner, between=between),
         uplift_minima(body, phi_deg=phi_deg, rho_deg=rho_deg, corner=corner, between=between),
-    )  # fmt: skip
+    )
 
 
 def harmonic_blocks(

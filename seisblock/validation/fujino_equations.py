@@ -10,7 +10,7 @@ import numpy as np
 from seisblock.criteria.sliding import friction_that_holds, friction_that_stops, pulse_slip, slip_acceleration, slip_limits, steady_slip
 from seisblock.records import Motion
 from seisblock.results import Response
-from seisblock.solvers.slide import SlideOutcome, solve_slide
+from seisblock.solvers.slide.solve import SlideOutcome, solve_slide
 from seisblock.validation.case import CONVERGED, EXACT, Case
 
 G = 9.8

@@ -12,10 +12,10 @@ from functools import cache, partial
 
 import numpy as np
 
-from seisblock.bodies.cemetery import Cemetery
-from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.criteria.gravestones import DOWELLED, ON_THE_LINE, PLAIN, GravestoneFit, judge, overturning_level, overturning_ratio
-from seisblock.studies.overturning_rate import overturning_rate
+from seisblock.studies.cemetery.rate import overturning_rate
 from seisblock.units import GAL
 from seisblock.validation.case import Case
 from seisblock.validation.furukawa_surveys import SURVEYS, Survey

@@ -6,14 +6,14 @@ from functools import cache, partial
 
 import numpy as np
 
-from seisblock.bodies.gravestone import Gravestone
-from seisblock.bodies.pile import read_pile
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.toml import read_pile
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, overturning_ratio
 from seisblock.measures import ground_history
 from seisblock.records.motion import Motion
-from seisblock.solvers.stack import solve_stack
-from seisblock.studies.ensemble import in_threads
+from seisblock.solvers.stack.solve import solve_stack
 from seisblock.studies.gravestone_criterion import RATIOS, criterion_study
+from seisblock.studies.runs import in_threads
 from seisblock.typing import FloatArray
 from seisblock.validation.case import Case
 
@@ -24,7 +24,14 @@ LEVELS = {
 }
 """PGA, m/s^2, and PGV, m/s, of x, y and z on the shaking table ([Furukawa2009]_ table 4)."""
 
-FALLS = {("6-lower", False): 0.0, ("6-upper", False): 1.0, ("7", False): 1.0, ("6-lower", True): 0.0, ("6-upper", True): 0.0, ("7", True): 1.0}
+FALLS = {
+    ("6-lower", False): 0.0,
+    ("6-upper", False): 1.0,
+    ("7", False): 1.0,
+    ("6-lower", True): 0.0,
+    ("6-upper", True): 0.0,
+    ("7", True): 1.0,
+}
 """Whether the sao fell on the shaking table ([Furukawa2009]_ table 5(c)), for each level, plain and dowelled."""
 
 MOTIONS = 12
@@ -78,7 +85,7 @@ def share_fallen(level: str, reinforced: bool) -> float:
 
 def threshold(reinforced: bool, frequency: float, pga: float) -> float:
     """Return H/B of the most squat sao that a sine fells; more than any when none falls."""
-    pile: Gravestone = read_pile("wagata", reinforced=reinforced).without("mizubachi")
+    pile: Pile = read_pile("wagata", reinforced=reinforced).without("mizubachi")
     study = criterion_study(pile, frequencies=(frequency,), pgas=(pga,))
     found = study.thresholds[0].ratio
     return RATIOS[-1] + NEXT_HEIGHT if found is None else found
@@ -88,7 +95,10 @@ def _table_5() -> list[Case]:
     """Return a case for each cell of the shaking table."""
     made = []
     notes = {
-        ("6-lower", False): "one motion on the table; of such noise a third to a half of the motions fell it, and the paper's own criterion "
+        (
+            "6-lower",
+            False,
+        ): "one motion on the table; of such noise a third to a half of the motions fell it, and the paper's own criterion "
         "has this cell on the line (table 5(b))",
         ("7", True): FRICTION + "With 0.7 for 0.438 half of the motions fell it",
     }
@@ -110,10 +120,20 @@ def _sines() -> list[Case]:
     """Return thresholds of the pile beside (9) and (10)."""
     rows = (
         (False, 1.0, 3.0, ""),
-        (False, 1.5, 3.0, "the pile needs no more at 1.5 Hz than at 1 Hz, nor does a rigid block on the outermost points; (9) rises by 12 %"),
+        (
+            False,
+            1.5,
+            3.0,
+            "the pile needs no more at 1.5 Hz than at 1 Hz, nor does a rigid block on the outermost points; (9) rises by 12 %",
+        ),
         (False, 2.0, 3.0, ""),
         (False, 2.5, 6.0, ""),
-        (False, 3.0, 6.0, "the pile needs less than (9) says at 3 Hz; a rigid block on the outermost points gives a(3 Hz) = 2290 gal, (9) 2451"),
+        (
+            False,
+            3.0,
+            6.0,
+            "the pile needs less than (9) says at 3 Hz; a rigid block on the outermost points gives a(3 Hz) = 2290 gal, (9) 2451",
+        ),
         (False, 1.0, 10.0, FRICTION + "Nothing below H/B 1.6 falls at any amplitude"),
         (True, 1.0, 5.0, "(10) is not what one rigid body of sao and jodai does; and " + FRICTION),
     )

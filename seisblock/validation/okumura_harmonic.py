@@ -9,9 +9,9 @@ import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.criteria.uplift import harmonic_uplift_ratio
-from seisblock.solvers.uplift_harmonic import corner_response, corner_response_direct, shaking_direction, uplift_thresholds
-from seisblock.solvers.uplift_minima import UpliftMinimum, uplift_minima
-from seisblock.solvers.uplift_modes import natural_modes
+from seisblock.solvers.uplift.harmonic import corner_response, corner_response_direct, shaking_direction, uplift_thresholds
+from seisblock.solvers.uplift.minima import UpliftMinimum, uplift_minima
+from seisblock.solvers.uplift.modes import natural_modes
 from seisblock.validation.case import EXACT
 from seisblock.validation.okumura_modes import COUNT, dimensionless, steps_not_rising
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.criteria.uplift import square_base_modes
-from seisblock.solvers.uplift_modes import natural_modes
+from seisblock.solvers.uplift.modes import natural_modes
 from seisblock.typing import FloatArray
 from seisblock.validation.case import EXACT, Case
 

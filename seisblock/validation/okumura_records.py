@@ -9,9 +9,9 @@ import numpy as np
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.records.motion import Motion
 from seisblock.results import Response
-from seisblock.solvers.uplift import UpliftOutcome, solve_uplift
-from seisblock.solvers.uplift_harmonic import shaking_direction, uplift_thresholds
-from seisblock.solvers.uplift_modes import natural_modes
+from seisblock.solvers.uplift.harmonic import shaking_direction, uplift_thresholds
+from seisblock.solvers.uplift.modes import natural_modes
+from seisblock.solvers.uplift.solve import UpliftOutcome, solve_uplift
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.validation.okumura_modes import COUNT, dimensionless
 

@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 from functools import cache, partial
 
-from seisblock.bodies.files import read_table
+from seisblock.bodies.toml import read_table
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact, two_layer_block
 from seisblock.records import Motion, motion_of
 from seisblock.records.process import crop
-from seisblock.solvers.jump import solve_jump
-from seisblock.solvers.jump_chain import Chain
-from seisblock.solvers.jump_impact import launch, spin_ratio
+from seisblock.solvers.jump.chain import Chain
+from seisblock.solvers.jump.impact import launch, spin_ratio
+from seisblock.solvers.jump.solve import solve_jump
 from seisblock.validation.case import EXACT, Case
 
 GRAVITY = 9.8

@@ -22,11 +22,23 @@ LONGEST = 300
 
 HEAVY = {"numba", "obspy", "scipy", "matplotlib", "PIL", "rich", "pandas"}
 LIGHT = (
-    "seisblock", "seisblock.cli", "seisblock.cli.command", "seisblock.cli.options", "seisblock.cli.types", "seisblock.errors",
-    "seisblock.units", "seisblock.references", "seisblock.results", "seisblock.records", "seisblock.bodies.block",
-    "seisblock.readers.samples", "seisblock.present.words", "seisblock.present.page", "seisblock.present.document",
+    "seisblock",
+    "seisblock.cli",
+    "seisblock.cli.command",
+    "seisblock.cli.options",
+    "seisblock.cli.types",
+    "seisblock.errors",
+    "seisblock.units",
+    "seisblock.references",
+    "seisblock.results",
+    "seisblock.records",
+    "seisblock.bodies.block",
+    "seisblock.samples",
+    "seisblock.present.words",
+    "seisblock.present.page",
+    "seisblock.present.document",
     "seisblock.present.files",
-)  # fmt: skip
+)
 """Modules that promise to load nothing large."""
 
 
@@ -100,8 +112,9 @@ def every_option():
 
 UNITS = re.compile(
     r"\bm\b|\bs\b|\bHz\b|\bgal\b|\bkg\b|\bN/m\b|m/s|\bPa\b|\bdeg(rees)?\b|\brad\b|, 1[;.,) ]|\b1\b|%|share|ratio|factor|times|number"
-    r"|how many|count|seed|repeat|points?|steps?|runs|threads|order", re.IGNORECASE,
-)  # fmt: skip
+    r"|how many|count|seed|repeat|points?|steps?|runs|threads|order",
+    re.IGNORECASE,
+)
 
 
 def test_every_option_is_described():

@@ -3,10 +3,10 @@
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.present.animation import Filming
-from seisblock.present.rock_animation import animate_rocking
+from seisblock.present.films.animation import Filming
+from seisblock.present.films.rock import animate_rocking
 from seisblock.records import Motion
-from seisblock.solvers.rock import solve_rock
+from seisblock.solvers.rock.solve import solve_rock
 
 
 def test_twenty_seconds_of_rocking(benchmark, tmp_path):

@@ -6,8 +6,8 @@ import pytest
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.dynamics import follow
 from seisblock.records import Motion
-from seisblock.solvers import jump_flight as flying
-from seisblock.solvers import jump_rocking as rocking
+from seisblock.solvers.jump import flight as flying
+from seisblock.solvers.jump import rocking
 
 N = 50_000
 BLOCK = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)

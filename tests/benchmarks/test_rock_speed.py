@@ -7,9 +7,9 @@ import numpy as np
 from seisblock.bodies.block import Block, from_slenderness
 from seisblock.dynamics import follow
 from seisblock.records import Motion
-from seisblock.solvers.rock import rock_verdict, solve_rock
-from seisblock.solvers.rock_model import REST, ROCKING, TO_RIGHT, parameters
-from seisblock.studies.spectra import default_sizes, default_slendernesses, rocking_spectrum
+from seisblock.solvers.rock.model import REST, ROCKING, TO_RIGHT, parameters
+from seisblock.solvers.rock.solve import rock_verdict, solve_rock
+from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum
 
 SAMPLES = 10_000
 

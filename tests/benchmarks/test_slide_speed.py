@@ -9,8 +9,8 @@ import numpy as np
 from seisblock.bodies.sliding_base import sliding_base
 from seisblock.dynamics import follow_many
 from seisblock.records import Motion
-from seisblock.solvers.slide import solve_slide
-from seisblock.solvers.slide_model import SLIDE, STICK, parameters
+from seisblock.solvers.slide.model import SLIDE, STICK, parameters
+from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.sliding import slide_study
 from tests.crosscheck.test_slide import PYSLAMMER, G, pyslammer_motion
 

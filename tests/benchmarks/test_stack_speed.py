@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seisblock.bodies.gravestone import Gravestone, PileStone
-from seisblock.bodies.pile import PileContact, read_pile
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.bodies.pile.toml import read_pile
 from seisblock.records import Motion
-from seisblock.solvers.stack import solve_stack
+from seisblock.solvers.stack.solve import solve_stack
 
 WIDTH = 0.2424
 SECONDS = 10.0
@@ -17,7 +19,7 @@ SHAKING = Motion.from_arrays(3.0 * np.sin(2.0 * np.pi * 2.0 * np.arange(0.0, SEC
 
 def test_one_block_on_four_points(benchmark):
     """One block on 4 points, on contacts that rock within 2 % of Housner: 300 simulated seconds per second."""
-    block = Gravestone("block", (PileStone("block", WIDTH, WIDTH, 4 * WIDTH),), mu=5.0)
+    block = Pile("block", (PileStone("block", WIDTH, WIDTH, 4 * WIDTH),), mu=5.0)
     response = benchmark(solve_stack, block, SHAKING, points=2, contact=PileContact(stiffness=1e9, damping_ratio=3.0))
     assert response.outcome.max_tilt_rad["block"] > 0.01
     assert benchmark.stats is None or response.time[-1] / benchmark.stats.stats.min > 300.0

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
-from seisblock.solvers.uplift import solve_uplift
-from seisblock.solvers.uplift_harmonic import uplift_thresholds
+from seisblock.solvers.uplift.harmonic import uplift_thresholds
+from seisblock.solvers.uplift.solve import solve_uplift
 from tests.solvers.uplift_motions import shaking
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seisblock.bodies.cemetery import Cemetery, Stone
-from seisblock.bodies.cemetery_csv import parse_cemetery, read_cemetery
+from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
+from seisblock.bodies.cemetery.table import parse_cemetery, read_cemetery
 from seisblock.errors import BodyError
 from seisblock.readers import sample_path
 from tests import make_aoyama

@@ -5,7 +5,8 @@ import math
 import pytest
 
 from seisblock.bodies.block import Block, resized
-from seisblock.bodies.library import block_of, choose_block, described, load_block
+from seisblock.bodies.library import block_of, described, load_block
+from seisblock.cli.bodies.block import choose_block
 from seisblock.errors import BodyError, InputError, ParameterError
 
 
@@ -71,9 +72,13 @@ def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
 
 @pytest.mark.parametrize(
     ("asked", "says"),
-    [({}, "--width and --height missing"), ({"width": 0.2}, "--height missing"), ({"block": "gravestone", "mass": 3.0}, "not both"),
-     ({"block": "obelisk"}, "no body file obelisk")],
-)  # fmt: skip
+    [
+        ({}, "--width and --height missing"),
+        ({"width": 0.2}, "--height missing"),
+        ({"block": "gravestone", "mass": 3.0}, "not both"),
+        ({"block": "obelisk"}, "no body file obelisk"),
+    ],
+)
 def test_incomplete_choices_are_refused(asked, says):
     """The message says what is missing."""
     with pytest.raises(BodyError, match=says):

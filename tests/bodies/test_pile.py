@@ -5,8 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from seisblock.bodies.gravestone import Gravestone, PileStone
-from seisblock.bodies.pile import PileContact, read_pile
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.bodies.pile.toml import read_pile
 from seisblock.errors import BodyError, ParameterError
 from seisblock.units import SUN
 
@@ -15,7 +17,7 @@ HEAD = PileStone("head", 0.3, 0.3, 0.5, on="foot")
 
 
 def pile(*stones, **more):
-    return Gravestone("pile", stones, **more)
+    return Pile("pile", stones, **more)
 
 
 def test_wagata_is_the_papers():
@@ -58,8 +60,14 @@ def test_the_lantern_stands():
         (lambda: pile(FOOT, replace(HEAD, bottom=0.25)), "the stone head floats"),
         (lambda: pile(FOOT, replace(HEAD, offset=(0.5, 0.0))), "the stone head floats"),
         (lambda: pile(FOOT, replace(HEAD, offset=(0.31, 0.0))), "unstable at rest: the stone head"),
-        (lambda: pile(PileStone("post", 0.2, 0.2, 0.5), PileStone("slab", 0.5, 0.5, 0.1, on="post"),
-                      PileStone("load", 0.2, 0.2, 0.9, on="slab", offset=(0.2, 0.0))), "unstable at rest: the stone slab"),
+        (
+            lambda: pile(
+                PileStone("post", 0.2, 0.2, 0.5),
+                PileStone("slab", 0.5, 0.5, 0.1, on="post"),
+                PileStone("load", 0.2, 0.2, 0.9, on="slab", offset=(0.2, 0.0)),
+            ),
+            "unstable at rest: the stone slab",
+        ),
         (lambda: pile(FOOT, replace(HEAD, density=0.0)), "density of the stone head must be positive"),
         (lambda: pile(FOOT, replace(HEAD, height=-1.0)), "height of the stone head must be positive"),
         (lambda: pile(FOOT, replace(HEAD, mu=-0.1)), "friction under the stone head must be zero or more"),
@@ -71,7 +79,7 @@ def test_the_lantern_stands():
         (lambda: pile(FOOT, replace(HEAD, on="nose")), "stands on 'nose'"),
         (lambda: pile(), "has no stones"),
     ],
-)  # fmt: skip
+)
 def test_impossible_piles_are_refused(make, message):
     """Overlapping, floating, unstable, weightless, wrongly dowelled: one sentence that names the stone."""
     with pytest.raises(BodyError, match=message) as caught:

@@ -10,8 +10,8 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import COMMANDS, main
-from seisblock.readers.samples import list_samples, sample_directory
 from seisblock.references import CITED, REFERENCES
+from seisblock.samples import list_samples, sample_directory
 
 OF_THE_PROGRAM = {"validate", "cite", "samples", "completion", "report"}
 """Commands whose answers rest on no paper of their own."""

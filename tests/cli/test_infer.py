@@ -10,14 +10,26 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.cli import main
 from seisblock.criteria.gravestones import overturning_level
 
 ESTIMATE = {
-    "stones", "fallen", "standing", "frequency_hz", "bound", "pga_m_s2", "pga_interval_m_s2", "pgv_m_s", "pgv_interval_m_s",
-    "threshold_ratio", "threshold_ratio_interval", "jma_intensity", "jma_intensity_interval", "jma_classes",
-}  # fmt: skip
+    "stones",
+    "fallen",
+    "standing",
+    "frequency_hz",
+    "bound",
+    "pga_m_s2",
+    "pga_interval_m_s2",
+    "pgv_m_s",
+    "pgv_interval_m_s",
+    "threshold_ratio",
+    "threshold_ratio_interval",
+    "jma_intensity",
+    "jma_intensity_interval",
+    "jma_classes",
+}
 
 
 @pytest.fixture

@@ -15,10 +15,22 @@ from seisblock.cli import main
 from seisblock.readers import sample_path
 
 CHAIN_KEYS = {
-    "outcome", "direction", "rocking_start_s", "impact_s", "landing_s", "end_s", "rocking_duration_s", "jump_duration_s",
-    "rock_slide_duration_s", "max_rotation_rad", "impact_velocity_rad_s", "max_rise_m", "jump_displacement_m",
-    "rock_slide_displacement_m", "total_displacement_m",
-}  # fmt: skip
+    "outcome",
+    "direction",
+    "rocking_start_s",
+    "impact_s",
+    "landing_s",
+    "end_s",
+    "rocking_duration_s",
+    "jump_duration_s",
+    "rock_slide_duration_s",
+    "max_rotation_rad",
+    "impact_velocity_rad_s",
+    "max_rise_m",
+    "jump_displacement_m",
+    "rock_slide_displacement_m",
+    "total_displacement_m",
+}
 
 
 def run(*arguments):
@@ -153,7 +165,7 @@ BAD = {
     "plot suffix": (("--plot", "figure.xyz"), 3, ".png"),
     "plot directory": (("--plot", "no/such/dir/f.png"), 3, "no directory"),
     "no animation format": (("--scale", "nan"), 2, "finite"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("arguments", "code", "says"), BAD.values(), ids=BAD)

@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import COMMANDS, main
-from seisblock.readers.samples import sample_path
+from seisblock.samples import sample_path
 
 HEAVY = ("numba", "obspy", "scipy", "matplotlib", "PIL", "pandas")
 SEISBLOCK = f"{shlex.quote(sys.executable)} -m seisblock"
@@ -23,7 +23,7 @@ def shell(line, cwd, **environment):
     """Run a line in bash, with pipefail."""
     return subprocess.run(
         ["bash", "-o", "pipefail", "-c", line], cwd=cwd, env={**os.environ, **environment}, capture_output=True, text=True, check=False
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.parametrize("words", [["--help"], ["--version"], *([name, "--help"] for name in COMMANDS)], ids=" ".join)
@@ -97,7 +97,7 @@ def on_a_terminal(words, cwd, **environment):
     environment = {**inherited, "TERM": "xterm-256color", "COLUMNS": "80", **environment}
     with subprocess.Popen(
         [sys.executable, "-m", "seisblock", *words], cwd=cwd, stdin=follower, stdout=follower, stderr=follower, env=environment
-    ) as process:  # fmt: skip
+    ) as process:
         os.close(follower)
         pieces = []
         while True:
@@ -175,7 +175,7 @@ def test_help_ends_with_lines_that_run(name, workshop):
     for line in lines:
         assert "seisblock" in line
         if any(sign in line for sign in "|>$"):
-            function = f"seisblock() {{ {SEISBLOCK} \"$@\"; }}\n"
+            function = f'seisblock() {{ {SEISBLOCK} "$@"; }}\n'
             done = shell(function + line, workshop)
             assert done.returncode == 0, (line, done.stderr)
         else:

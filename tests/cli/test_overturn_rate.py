@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.cli import main
 from seisblock.criteria.gravestones import DOWELLED, overturning_ratio
 from seisblock.readers import sample_path
-from seisblock.studies.overturning_rate import clopper_pearson
+from seisblock.studies.cemetery.rate import clopper_pearson
 
 AOYAMA = read_cemetery("aoyama.csv")
 KEYS = {"pga_m_s2", "equivalent_frequency_hz", "threshold_ratio", "rate", "rate_interval"}

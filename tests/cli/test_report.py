@@ -9,13 +9,13 @@ from click.testing import CliRunner
 from seisblock.bodies.library import load_block
 from seisblock.bodies.subjects import subject
 from seisblock.cli import main
-from seisblock.present.report import report
-from seisblock.present.report_words import told
+from seisblock.present.pages.report import report
+from seisblock.present.pages.report_words import told
 from seisblock.present.words import SENTENCES
 from seisblock.readers import read, sample_path
 from seisblock.records import motion_of
 from seisblock.records.process import crop
-from seisblock.solvers.rock import solve_rock
+from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.assessment import assess
 
 
@@ -45,9 +45,16 @@ def test_it_is_readable_on_a_phone_and_on_paper(pages):
 def test_it_holds_every_section(pages):
     """Record, measures, rocking, criteria, sliding, jump, uplift, provenance."""
     for heading in (
-        "The record", "gravestone", "Chozu-sha, short side", "Rocking and overturning", "Criteria beside the simulation", "Sliding",
-        "Jump of the two-layer block", "Uplift from corner springs", "Where this comes from",
-    ):  # fmt: skip
+        "The record",
+        "gravestone",
+        "Chozu-sha, short side",
+        "Rocking and overturning",
+        "Criteria beside the simulation",
+        "Sliding",
+        "Jump of the two-layer block",
+        "Uplift from corner springs",
+        "Where this comes from",
+    ):
         assert re.search(rf"<h[23]>{re.escape(heading)}</h[23]>", pages["en"]), heading
         assert re.search(rf"<h[23]>{re.escape(heading)}</h[23]>", pages["ja"]) is None
 

@@ -11,10 +11,26 @@ from click.testing import CliRunner
 from seisblock.cli import main
 
 KEYS = {
-    "component", "rocks", "rocking_start_s", "max_rotation_rad", "max_rotation_ratio", "impacts", "overturned", "overturning_time_s",
-    "alpha_passed_s", "decided_after_record", "slenderness_rad", "frequency_parameter_rad_s", "restitution", "threshold_m_s2",
-    "max_friction_demand", "max_friction_demand_s", "contact_lost", "contact_lost_s", "verdict_flips_within_2_percent",
-}  # fmt: skip
+    "component",
+    "rocks",
+    "rocking_start_s",
+    "max_rotation_rad",
+    "max_rotation_ratio",
+    "impacts",
+    "overturned",
+    "overturning_time_s",
+    "alpha_passed_s",
+    "decided_after_record",
+    "slenderness_rad",
+    "frequency_parameter_rad_s",
+    "restitution",
+    "threshold_m_s2",
+    "max_friction_demand",
+    "max_friction_demand_s",
+    "contact_lost",
+    "contact_lost_s",
+    "verdict_flips_within_2_percent",
+}
 
 
 @pytest.fixture
@@ -112,8 +128,14 @@ def test_table_figure_and_history(run, pulse, tmp_path):
     assert (tmp_path / "rock.png").stat().st_size > 10_000
     rows = list(csv.DictReader((tmp_path / "rock.csv").open()))
     assert set(rows[0]) == {
-        "component", "time_s", "rotation_rad", "angular_velocity_rad_s", "ground_acceleration_m_s2", "vertical_acceleration_m_s2", "phase",
-    }  # fmt: skip
+        "component",
+        "time_s",
+        "rotation_rad",
+        "angular_velocity_rad_s",
+        "ground_acceleration_m_s2",
+        "vertical_acceleration_m_s2",
+        "phase",
+    }
     assert float(rows[-1]["ground_acceleration_m_s2"]) == 0.0
     north = [row for row in rows if row["component"] == "NS"]
     assert float(north[-1]["rotation_rad"]) == pytest.approx(-math.pi / 2)

@@ -11,8 +11,8 @@ from click.testing import CliRunner
 from seisblock.bodies.block import Block
 from seisblock.cli import main
 from seisblock.records import Motion
-from seisblock.solvers.rock import solve_rock
-from seisblock.studies.spectra import rocking_spectrum
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.studies.rocking.spectra import rocking_spectrum
 
 GRID = ("--component", "NS", "--scale", 0.6, "--sizes", "30cm,1,3", "--height-over-width", "2,4")
 

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from seisblock.bodies.gravestone import Gravestone
+from seisblock.bodies.pile.pile import Pile
 from seisblock.records import Motion
 from seisblock.units import STANDARD_GRAVITY
 
 
-def model_of(body: Gravestone, timestep: float, time_constant: float = 0.004):
+def model_of(body: Pile, timestep: float, time_constant: float = 0.004):
     """Return the MuJoCo model of a pile whose stones stand free on each other; friction is that of the pile."""
     import mujoco
 
@@ -30,7 +30,7 @@ def model_of(body: Gravestone, timestep: float, time_constant: float = 0.004):
     )
 
 
-def falls(body: Gravestone, motion: Motion, timestep: float = 5e-4) -> bool:
+def falls(body: Pile, motion: Motion, timestep: float = 5e-4) -> bool:
     """Return whether any stone leans beyond 60 degrees under a motion."""
     import mujoco
 

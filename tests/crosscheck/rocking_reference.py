@@ -75,9 +75,15 @@ def events(a, av, dt, arms, h, gyration_squared, restitution, until=math.pi / 2,
             if back > 0:
                 step = min(step, 0.6 * abs(y[1]) / back)
         answer = solve_ivp(
-            lambda time, state, corner=side: [state[1], acceleration(time, state[0], corner)], (t, end), y, "DOP853",
-            rtol=1e-12, atol=1e-17, events=[impact, topple], max_step=step,
-        )  # fmt: skip
+            lambda time, state, corner=side: [state[1], acceleration(time, state[0], corner)],
+            (t, end),
+            y,
+            "DOP853",
+            rtol=1e-12,
+            atol=1e-17,
+            events=[impact, topple],
+            max_step=step,
+        )
         t, y = float(answer.t[-1]), [float(value) for value in answer.y[:, -1]]
         if answer.t_events[1].size:
             found.append((t, "overturns"))

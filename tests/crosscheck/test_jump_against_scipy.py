@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.records import Motion
-from seisblock.solvers.jump import solve_jump
+from seisblock.solvers.jump.solve import solve_jump
 from tests.motions import half_sine, real_motions
 
 G = 9.8
@@ -132,7 +132,7 @@ CASES = [
         (1, 7.0, 0.5, LONG, -0.2, 0.3),
         (1, 7.0, 0.5, LONG, -0.166, 0.0),
     ]
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("motion", "block", "spin", "drop"), CASES)
@@ -146,8 +146,9 @@ def test_chain_under_a_pulse(motion, block, spin, drop):
     assert found.landing_corner == ("leading" if spin > 0 else "trailing")
     np.testing.assert_allclose(
         [found.rocking_start_s, found.impact_s, found.landing_s, found.end_s, found.jump_displacement_m, found.rock_slide_displacement_m],
-        [onset, impact, landing, end, jumped, moved], atol=2e-9,
-    )  # fmt: skip
+        [onset, impact, landing, end, jumped, moved],
+        atol=2e-9,
+    )
 
 
 @pytest.mark.parametrize("friction", [(0.4, 0.3), (0.9, 0.9)])
@@ -173,5 +174,6 @@ def test_chain_under_real_records(index):
     assert not stops
     np.testing.assert_allclose(
         [found.rocking_start_s, found.impact_s, found.landing_s, found.end_s, found.jump_displacement_m, found.rock_slide_displacement_m],
-        [onset, impact, landing, end, jumped, moved], atol=1e-8,
-    )  # fmt: skip
+        [onset, impact, landing, end, jumped, moved],
+        atol=1e-8,
+    )

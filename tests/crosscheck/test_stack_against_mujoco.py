@@ -5,16 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seisblock.bodies.gravestone import Gravestone, PileStone
-from seisblock.bodies.pile import PileContact, read_pile
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.bodies.pile.toml import read_pile
 from seisblock.records import Motion
-from seisblock.solvers.stack import solve_stack
+from seisblock.solvers.stack.solve import solve_stack
 
 pytest.importorskip("mujoco", reason="an extra: pip install seisblock[mujoco]")
 
 WIDTH, DT = 0.2424, 0.01
 STIFF = PileContact(stiffness=1e9)
-BLOCK = Gravestone("block", (PileStone("block", WIDTH, WIDTH, 3 * WIDTH),), mu=1.0)
+BLOCK = Pile("block", (PileStone("block", WIDTH, WIDTH, 3 * WIDTH),), mu=1.0)
 
 
 def cycle(pga, hertz):

@@ -9,7 +9,7 @@ from seisblock.criteria.sliding import friction_that_holds, friction_that_stops,
 from seisblock.errors import ParameterError
 from seisblock.records import Motion, motion_of
 from seisblock.records.process import scale_to_pga
-from seisblock.solvers.slide import solve_slide
+from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.sliding import slide_study
 from seisblock.validation.case import EXACT, Case
 from seisblock.validation.fujino import CASES

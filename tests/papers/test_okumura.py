@@ -9,9 +9,9 @@ from scipy.linalg import eigh
 from seisblock.bodies.spring_block import SpringBlock, corner_rows, mass_matrix, stiffness_matrix
 from seisblock.criteria.uplift import harmonic_uplift_ratio, square_base_modes
 from seisblock.errors import BodyError, ParameterError
-from seisblock.solvers.uplift_harmonic import shaking_direction, uplift_thresholds
-from seisblock.solvers.uplift_minima import least_uplift, uplift_minima
-from seisblock.solvers.uplift_modes import natural_modes
+from seisblock.solvers.uplift.harmonic import shaking_direction, uplift_thresholds
+from seisblock.solvers.uplift.minima import least_uplift, uplift_minima
+from seisblock.solvers.uplift.modes import natural_modes
 from seisblock.validation.case import EXACT, Case
 from seisblock.validation.okumura import CASES
 
@@ -30,9 +30,7 @@ def test_eq_4_couplings_are_alpha_over_two():
     body = SpringBlock.from_ratios(1.3, 0.6, gamma=1.4)
     alpha, gamma = body.alpha, body.gamma
     wx2, wy2, wz2 = (w * w for w in body.omega)
-    expected = np.diag(
-        [wx2, wy2, wz2, (wy2 * alpha**2 + wz2) / 4, (wx2 * alpha**2 + wz2 * gamma**2) / 4, (wx2 + wy2 * gamma**2) / 4]
-    )
+    expected = np.diag([wx2, wy2, wz2, (wy2 * alpha**2 + wz2) / 4, (wx2 * alpha**2 + wz2 * gamma**2) / 4, (wx2 + wy2 * gamma**2) / 4])
     expected[0, 4] = expected[4, 0] = -alpha / 2 * wx2
     expected[1, 3] = expected[3, 1] = alpha / 2 * wy2
     np.testing.assert_allclose(stiffness_matrix(body), expected, rtol=EXACT, atol=1e-12)

@@ -9,10 +9,10 @@ from PIL import Image
 
 from seisblock.bodies.block import Block
 from seisblock.errors import OutputError
-from seisblock.present.animation import MOST_FRAMES, animate, frame_times
-from seisblock.present.rock_animation import animate_rocking, centre_of, corners, to_the_end
+from seisblock.present.films.animation import MOST_FRAMES, animate, frame_times
+from seisblock.present.films.rock import animate_rocking, centre_of, corners, to_the_end
 from seisblock.records import Motion
-from seisblock.solvers.rock import solve_rock
+from seisblock.solvers.rock.solve import solve_rock
 
 
 @pytest.fixture(scope="module")

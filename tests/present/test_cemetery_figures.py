@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seisblock.bodies.cemetery_csv import read_cemetery
-from seisblock.present.cemetery import figure_14, figure_16, figure_20, overturn_rate_figure
-from seisblock.studies.cemetery_rates import Method, Shaking, curve_of, judge_cemetery
-from seisblock.studies.overturning_rate import overturning_rate
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.present.figures.cemetery import figure_14, figure_16, figure_20, overturn_rate_figure
+from seisblock.studies.cemetery.judgement import Method, Shaking, curve_of, judge_cemetery
+from seisblock.studies.cemetery.rate import overturning_rate
 from seisblock.validation.furukawa_surveys import SURVEYS
 
 AOYAMA = read_cemetery("aoyama.csv")

@@ -10,20 +10,20 @@ import pytest
 from PIL import Image
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.files import read_table
+from seisblock.bodies.toml import read_table
 from seisblock.bodies.two_layer import Contact, contact, two_layer_block
 from seisblock.measures import ground_history
-from seisblock.present.animation import Filming
-from seisblock.present.film import Body, Film, Piece, rectangle, turned
-from seisblock.present.film_frames import pace
-from seisblock.present.film_page import film_page
-from seisblock.present.jump_film import animate_jump, jump_film
-from seisblock.present.rock_animation import animate_rocking, rocking_film
+from seisblock.present.films.animation import Filming
+from seisblock.present.films.film import Body, Film, Piece, rectangle, turned
+from seisblock.present.films.frames import pace
+from seisblock.present.films.jump import animate_jump, jump_film
+from seisblock.present.films.page import film_page
+from seisblock.present.films.rock import animate_rocking, rocking_film
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.records.process import crop
-from seisblock.solvers.jump import solve_jump
-from seisblock.solvers.rock import solve_rock
+from seisblock.solvers.jump.solve import solve_jump
+from seisblock.solvers.rock.solve import solve_rock
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
@@ -146,9 +146,21 @@ def test_a_browser_draws_the_page(film, tmp_path, width):
     path = tmp_path / "film.html"
     path.write_text(film_page(film, Filming()) + "<script>document.title = String(byId('scene').width > 300)</script>")
     done = subprocess.run(
-        [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu", f"--window-size={width},900", "--virtual-time-budget=500",
-         f"--user-data-dir={tmp_path}/profile", "--dump-dom", path.as_uri()],
-        capture_output=True, text=True, check=True, timeout=60,
-    )  # fmt: skip
+        [
+            CHROMIUM,
+            "--headless=new",
+            "--no-sandbox",
+            "--disable-gpu",
+            f"--window-size={width},900",
+            "--virtual-time-budget=500",
+            f"--user-data-dir={tmp_path}/profile",
+            "--dump-dom",
+            path.as_uri(),
+        ],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
     assert re.search(r'id="clock">2[67]\.\d{3} s<', done.stdout)
     assert "<title>true</title>" in done.stdout

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from seisblock.measures import Conventions, measure
-from seisblock.present.measure_figure import measure_figure
+from seisblock.present.figures.measure import measure_figure
 from seisblock.records import Component, Record
 
 

@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import seisblock
-from seisblock.bodies.files import read_table
+from seisblock.bodies.toml import read_table
 from seisblock.bodies.two_layer import Contact, contact, two_layer_block
 from seisblock.errors import ParameterError
 from seisblock.records import Motion

@@ -7,10 +7,10 @@ import pytest
 from PIL import Image
 
 from seisblock.bodies.sliding_base import SlidingBase
-from seisblock.present.animation import Filming
-from seisblock.present.slide_film import animate_slide, place, slide_film
+from seisblock.present.films.animation import Filming
+from seisblock.present.films.slide import animate_slide, place, slide_film
 from seisblock.records import Motion
-from seisblock.solvers.slide import solve_slide
+from seisblock.solvers.slide.solve import solve_slide
 
 
 @pytest.fixture(scope="module")

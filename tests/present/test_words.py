@@ -5,7 +5,7 @@ from click.testing import CliRunner
 from matplotlib.figure import Figure
 
 from seisblock.cli import main
-from seisblock.present import fonts
+from seisblock.present.figures import fonts
 from seisblock.present.words import LABELS, PHRASES, language, translate
 
 

@@ -9,19 +9,23 @@ from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block, resized
 from seisblock.records import Motion
-from seisblock.solvers.rock import rock_verdict, solve_rock
+from seisblock.solvers.rock.solve import rock_verdict, solve_rock
 from seisblock.units import STANDARD_GRAVITY as G
 
 pytestmark = pytest.mark.kernel
 
 shakings = st.builds(
     lambda seed, amplitude, n: amplitude * np.random.default_rng(seed).normal(size=n).cumsum() / 3,
-    st.integers(0, 10**6), st.floats(0.3, 3.0), st.integers(20, 60),
-)  # fmt: skip
+    st.integers(0, 10**6),
+    st.floats(0.3, 3.0),
+    st.integers(20, 60),
+)
 blocks = st.builds(
     lambda height, ratio, offset: Block(height / ratio, height, centroid_offset=offset * height / ratio / 2),
-    st.floats(0.3, 3.0), st.floats(2.0, 8.0), st.sampled_from([0.0, 0.0, -0.3, 0.4]),
-)  # fmt: skip
+    st.floats(0.3, 3.0),
+    st.floats(2.0, 8.0),
+    st.sampled_from([0.0, 0.0, -0.3, 0.4]),
+)
 few = settings(max_examples=25, deadline=None)
 
 

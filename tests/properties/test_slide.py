@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from seisblock.records import Motion
-from seisblock.solvers.slide import SLIDING, solve_slide
+from seisblock.solvers.slide.solve import SLIDING, solve_slide
 from seisblock.studies.sliding import slide_study
 
 QUICK = settings(max_examples=40, deadline=None, derandomize=True)
@@ -148,6 +148,15 @@ def test_study_gives_the_single_answers(seed, kappa, slope, scale):
         alone = solve_slide(
             motion, point.mu, kappa=kappa, slope_deg=slope, slope_length=length, vertical_scale=point.vertical_scale
         ).outcome
-        for name in ("slips", "slip_start_s", "max_slip_m", "residual_slip_m", "final_slip_m", "slip_count", "fell_off_slope",
-                     "lifted_off", "slides_at_end"):  # fmt: skip
+        for name in (
+            "slips",
+            "slip_start_s",
+            "max_slip_m",
+            "residual_slip_m",
+            "final_slip_m",
+            "slip_count",
+            "fell_off_slope",
+            "lifted_off",
+            "slides_at_end",
+        ):
             assert getattr(point, name) == getattr(alone, name), name

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.criteria.uplift import harmonic_uplift_ratio, square_base_modes
 from seisblock.records.motion import Motion
-from seisblock.solvers.uplift import solve_uplift
-from seisblock.solvers.uplift_harmonic import corner_response, corner_response_direct, shaking_direction, uplift_thresholds
-from seisblock.solvers.uplift_minima import uplift_minima
-from seisblock.solvers.uplift_modes import natural_modes
+from seisblock.solvers.uplift.harmonic import corner_response, corner_response_direct, shaking_direction, uplift_thresholds
+from seisblock.solvers.uplift.minima import uplift_minima
+from seisblock.solvers.uplift.modes import natural_modes
+from seisblock.solvers.uplift.solve import solve_uplift
 from tests.solvers.uplift_motions import shaking
 
 RATIO = st.floats(0.2, 5.0)
@@ -23,11 +23,15 @@ ANGLE = st.floats(-180.0, 180.0)
 def blocks():
     """Return blocks of any base, kx and ky unequal."""
     return st.builds(
-        lambda a, b, h, f, x, y, zeta: SpringBlock(
-            a, b, h, 1000.0, tuple(250.0 * (2 * np.pi * f * r) ** 2 for r in (x, y, 1.0)), zeta
-        ),
-        st.floats(0.3, 3.0), st.floats(0.3, 3.0), st.floats(0.3, 5.0), st.floats(2.0, 15.0), RATIO, RATIO, DAMPING,
-    )  # fmt: skip
+        lambda a, b, h, f, x, y, zeta: SpringBlock(a, b, h, 1000.0, tuple(250.0 * (2 * np.pi * f * r) ** 2 for r in (x, y, 1.0)), zeta),
+        st.floats(0.3, 3.0),
+        st.floats(0.3, 3.0),
+        st.floats(0.3, 5.0),
+        st.floats(2.0, 15.0),
+        RATIO,
+        RATIO,
+        DAMPING,
+    )
 
 
 @given(RATIO, RATIO)

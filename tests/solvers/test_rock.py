@@ -11,8 +11,8 @@ from seisblock.bodies.block import Block, from_slenderness
 from seisblock.dynamics import follow
 from seisblock.errors import BodyError, ParameterError, SolverError
 from seisblock.records import Motion
-from seisblock.solvers import rock_model
-from seisblock.solvers.rock_aftermath import fate, sides
+from seisblock.solvers.rock import model as rock_model
+from seisblock.solvers.rock.aftermath import fate, sides
 from seisblock.units import STANDARD_GRAVITY as G
 
 T = np.arange(1201) * 0.005
@@ -190,8 +190,17 @@ def test_impossible_blocks_are_refused(sizes, says):
         Block(**sizes)
 
 
-@pytest.mark.parametrize("options", [{"restitution": 0.0}, {"restitution": 1.1}, {"restitution": math.nan}, {"gravity": 0.0},
-                                     {"initial": (2.0, 0.0)}, {"initial": (0.0, math.inf)}])  # fmt: skip
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"restitution": 0.0},
+        {"restitution": 1.1},
+        {"restitution": math.nan},
+        {"gravity": 0.0},
+        {"initial": (2.0, 0.0)},
+        {"initial": (0.0, math.inf)},
+    ],
+)
 def test_impossible_options_are_refused(options):
     """One sentence each."""
     with pytest.raises(ParameterError):

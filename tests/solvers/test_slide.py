@@ -8,7 +8,7 @@ import pytest
 from seisblock.bodies.sliding_base import sliding_base
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.records import Component, Motion, Record, motion_of
-from seisblock.solvers.slide import solve_slide
+from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.sliding import slide_study, worst_directions
 
 G = 9.80665
@@ -128,8 +128,14 @@ def test_vertical_motion_needs_a_vertical_component():
 def test_numbers_must_be_finite(number):
     """NaN and infinity are refused for every parameter."""
     motion = shaking()
-    for how in ({"mu": number}, {"mu": 0.2, "mu_kinetic": number}, {"mu": 0.2, "kappa": number}, {"mu": 0.2, "slope_deg": number},
-                {"mu": 0.2, "slope_deg": 5.0, "slope_length": number}, {"mu": 0.2, "vertical_scale": number},
-                {"mu": 0.2, "gravity": number}):  # fmt: skip
+    for how in (
+        {"mu": number},
+        {"mu": 0.2, "mu_kinetic": number},
+        {"mu": 0.2, "kappa": number},
+        {"mu": 0.2, "slope_deg": number},
+        {"mu": 0.2, "slope_deg": 5.0, "slope_length": number},
+        {"mu": 0.2, "vertical_scale": number},
+        {"mu": 0.2, "gravity": number},
+    ):
         with pytest.raises(ParameterError):
             solve_slide(motion, **how)

@@ -6,12 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seisblock.bodies.gravestone import Gravestone, PileStone
-from seisblock.bodies.pile import PileContact, read_pile
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.bodies.pile.toml import read_pile
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
-from seisblock.solvers.stack import solve_stack
-from seisblock.solvers.stack_outcome import CREATED_AT_MOST
+from seisblock.solvers.stack.outcome import CREATED_AT_MOST
+from seisblock.solvers.stack.solve import solve_stack
 from seisblock.units import STANDARD_GRAVITY as G
 
 WIDTH = 0.24
@@ -19,7 +21,7 @@ STIFF = PileContact(stiffness=1e9)
 
 
 def block(ratio=3.0, **more):
-    return Gravestone("block", (PileStone("block", WIDTH, WIDTH, ratio * WIDTH),), **more)
+    return Pile("block", (PileStone("block", WIDTH, WIDTH, ratio * WIDTH),), **more)
 
 
 def slope(angle, dt=0.01):
@@ -96,7 +98,7 @@ def test_turning_pile_and_shaking_by_a_right_angle_changes_nothing():
     stones = (PileStone("foot", 0.5, 0.5, 0.2), PileStone("head", WIDTH, WIDTH, 0.7, on="foot"))
     along = sine(5.0, 1.5, 3.0)
     across = Motion(along.acceleration[[1, 0, 2]], along.dt)
-    one, other = (solve_stack(Gravestone("two", stones), motion, stop_at_fall=True) for motion in (along, across))
+    one, other = (solve_stack(Pile("two", stones), motion, stop_at_fall=True) for motion in (along, across))
     assert one.outcome.overturned == other.outcome.overturned == ("head",)
     np.testing.assert_allclose(one["head_x"], other["head_y"], atol=1e-9)
 
@@ -125,9 +127,9 @@ def test_a_toppled_block_comes_to_lie_on_its_side():
 
 def test_a_free_body_keeps_its_energy():
     """A block that turns about all its axes in the air keeps its energy until it lands."""
-    from seisblock.solvers.stack_arrays import pile_arrays
-    from seisblock.solvers.stack_frames import L, X, orient, spin
-    from seisblock.solvers.stack_step import drift, energy_of, kick
+    from seisblock.solvers.stack.arrays import pile_arrays
+    from seisblock.solvers.stack.frames import L, X, orient, spin
+    from seisblock.solvers.stack.step import drift, energy_of, kick
 
     pile = pile_arrays(block(2.0), PileContact(), 2)
     bodies = pile.bodies.copy()
@@ -152,7 +154,7 @@ def test_a_stone_pushed_over_the_edge_falls_when_its_centre_passes_it(shift, fal
     pulse = sine(1.0, 1.0 / seconds, seconds, dt).acceleration[0]
     pulse = np.append(pulse, np.zeros(round(1.0 / dt)))
     moved = np.cumsum(np.cumsum(pulse)) * dt * dt
-    body = replace(Gravestone("ledge", (post, slab)), fixed=("post",))
+    body = replace(Pile("ledge", (post, slab)), fixed=("post",))
     response = solve_stack(body, Motion.from_arrays(-pulse * distance / moved[-1], dt), contact=PileContact(stiffness=3e8))
     assert response.outcome.overturned == (("slab",) if falls else ())
     if falls:
@@ -189,7 +191,7 @@ def test_a_step_too_coarse_is_refused():
 
 def test_created_energy_is_an_error(monkeypatch):
     """A run that creates energy is refused, whatever it answers."""
-    from seisblock.solvers import stack_outcome
+    from seisblock.solvers.stack import outcome as stack_outcome
 
     monkeypatch.setattr(stack_outcome, "CREATED_AT_MOST", -1.0)
     with pytest.raises(SolverError, match="give a smaller --step"):

@@ -12,10 +12,10 @@ from seisblock.bodies.spring_block import SpringBlock
 from seisblock.dynamics.model import follow
 from seisblock.records.motion import Motion, motion_of
 from seisblock.records.record import Component, Record
-from seisblock.solvers.uplift import solve_uplift
-from seisblock.solvers.uplift_harmonic import uplift_thresholds
-from seisblock.solvers.uplift_model import UPLIFT, W, X, at_rest, contact_name, parameters, rotations
-from seisblock.solvers.uplift_modes import natural_modes
+from seisblock.solvers.uplift.harmonic import uplift_thresholds
+from seisblock.solvers.uplift.model import UPLIFT, W, X, at_rest, contact_name, parameters, rotations
+from seisblock.solvers.uplift.modes import natural_modes
+from seisblock.solvers.uplift.solve import solve_uplift
 from seisblock.units import STANDARD_GRAVITY
 from tests.solvers.uplift_motions import harmonic, shaking
 

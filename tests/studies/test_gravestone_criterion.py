@@ -5,8 +5,9 @@ import json
 import numpy as np
 import pytest
 
-from seisblock.bodies.gravestone import Gravestone, PileStone
-from seisblock.bodies.pile import read_pile
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.bodies.pile.toml import read_pile
 from seisblock.criteria.gravestones import PLAIN, overturning_level
 from seisblock.errors import ParameterError, RecordFormatError
 from seisblock.records import Motion
@@ -26,7 +27,7 @@ from seisblock.studies.gravestone_criterion import (
 )
 from seisblock.units import SUN
 
-SAO = Gravestone("sao", (PileStone("sao", 8 * SUN, 8 * SUN, 20 * SUN),), mu=2.0)
+SAO = Pile("sao", (PileStone("sao", 8 * SUN, 8 * SUN, 20 * SUN),), mu=2.0)
 SMALL = {"frequencies": (1.0,), "pgas": (2.0, 4.0), "ratios": (2.0, 3.0, 4.0), "points": 2, "duration": 3.0}
 
 
@@ -71,7 +72,7 @@ def test_files_of_another_study_are_refused(tmp_path):
     criterion_study(SAO, **SMALL, resume=held)
     before = held.read_text(encoding="utf-8")
     with pytest.raises(ParameterError, match="belongs to a study of another pile"):
-        criterion_study(Gravestone("another", SAO.stones), **SMALL, resume=held)
+        criterion_study(Pile("another", SAO.stones), **SMALL, resume=held)
     assert held.read_text(encoding="utf-8") == before
     held.write_text("nothing\n" + before, encoding="utf-8")
     with pytest.raises(RecordFormatError, match="line 1"):
@@ -109,5 +110,7 @@ def test_a_sine_as_a_record_has_the_threshold_of_the_sine():
     motion = Motion.from_arrays(motion.horizontal * np.hanning(motion.samples) ** 0.25, motion.dt)
     (found,) = record_thresholds(SAO, motion, pgas=(6.0,), ratios=(1.5, 2.0, 3.0, 4.0), points=2)
     assert found.frequency_hz == pytest.approx(2.0, rel=0.05)
-    assert found.ratio == criterion_study(SAO, frequencies=(2.0,), pgas=(6.0,), ratios=(1.5, 2.0, 3.0, 4.0), points=2,
-                                          duration=6.0).thresholds[0].ratio  # fmt: skip
+    assert (
+        found.ratio
+        == criterion_study(SAO, frequencies=(2.0,), pgas=(6.0,), ratios=(1.5, 2.0, 3.0, 4.0), points=2, duration=6.0).thresholds[0].ratio
+    )

@@ -9,10 +9,10 @@ import pytest
 from seisblock.bodies.block import Block, from_slenderness, resized
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.solvers.rock import rock_verdict, solve_rock
-from seisblock.studies.ensemble import CHUNK, in_threads
-from seisblock.studies.margin import find_margin, flagged, flips_nearby
-from seisblock.studies.perturb import Spread, perturb, turned, wilson_interval
+from seisblock.solvers.rock.solve import rock_verdict, solve_rock
+from seisblock.studies.rocking.margin import find_margin, flagged, flips_nearby
+from seisblock.studies.rocking.perturb import Spread, perturb, turned, wilson_interval
+from seisblock.studies.runs import CHUNK, in_threads
 from seisblock.units import STANDARD_GRAVITY as G
 
 ALPHA, P = 0.25, 2.14

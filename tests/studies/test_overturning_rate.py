@@ -7,20 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from seisblock.bodies.cemetery import Cemetery, Stone
-from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
+from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, overturning_ratio
 from seisblock.errors import ParameterError
-from seisblock.studies.overturning_limits import rigid_limits
-from seisblock.studies.overturning_rate import (
-    clopper_pearson,
-    overturning_rate,
-    overturns,
-    rate_curve,
-    remarks,
-    stones_saved,
-    threshold_ratio,
-)
+from seisblock.studies.cemetery.limits import rigid_limits
+from seisblock.studies.cemetery.rate import clopper_pearson, overturning_rate, overturns, rate_curve, remarks, stones_saved, threshold_ratio
 
 AOYAMA = read_cemetery("aoyama.csv")
 

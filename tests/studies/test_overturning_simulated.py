@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.cemetery import Cemetery, Stone
-from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
+from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.criteria.gravestones import overturning_level
 from seisblock.errors import ParameterError
 from seisblock.readers import read
 from seisblock.records import motion_of
 from seisblock.records.process import scale
-from seisblock.solvers.rock import solve_rock
-from seisblock.studies.overturning_rate import overturning_rate
-from seisblock.studies.overturning_simulated import sao, simulated_curve, simulated_overturns, sine_motion
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.studies.cemetery.rate import overturning_rate
+from seisblock.studies.cemetery.simulated import sao, simulated_curve, simulated_overturns, sine_motion
 
 AOYAMA = read_cemetery("aoyama.csv")
 GRID = Cemetery(tuple(Stone(float(ratio)) for ratio in np.arange(1.25, 6.51, 0.05)))

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from seisblock.bodies.choose import two_layer_choice
+from seisblock.cli.bodies.two_layer import two_layer_choice
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.readers import read
 from seisblock.records import Motion, Record, motion_of
-from seisblock.solvers.jump import solve_jump
-from seisblock.solvers.slide import solve_slide
-from seisblock.studies.scale_factors import jumped, scale_factors, scaled, slid
+from seisblock.solvers.jump.solve import solve_jump
+from seisblock.solvers.slide.solve import solve_slide
+from seisblock.studies.inverse.factors import jumped, scale_factors, scaled, slid
 
 MOTION = motion_of(read("synthetic_jma.csv"), "EW")
 PULSE = Motion.from_arrays(np.concatenate([np.full(101, 4.0), np.zeros(300)]), 0.01, name="pulse")

@@ -7,15 +7,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seisblock.bodies.cemetery import Cemetery, Stone
-from seisblock.bodies.cemetery_csv import read_cemetery
+from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
+from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.criteria.gravestones import overturning_level
 from seisblock.criteria.intensity import intensity_from_velocity
 from seisblock.errors import BodyError, ParameterError
 from seisblock.measures import jma_class
-from seisblock.studies.overturning_limits import fitted_limits
-from seisblock.studies.shaking_estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, Model, contour, estimate_shaking, groups_of
-from seisblock.studies.survey import COMMON_ERROR, STONE_ERROR, counted_survey, likelihood, log_likelihood, marked_survey, parse_rate
+from seisblock.studies.cemetery.limits import fitted_limits
+from seisblock.studies.inverse.estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, Model, contour, estimate_shaking, groups_of
+from seisblock.studies.inverse.survey import (
+    COMMON_ERROR,
+    STONE_ERROR,
+    counted_survey,
+    likelihood,
+    log_likelihood,
+    marked_survey,
+    parse_rate,
+)
 
 AOYAMA = read_cemetery("aoyama.csv")
 SHARP = Model(stone_error=0.02)

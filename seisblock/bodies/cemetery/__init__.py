@@ -1,0 +1,1 @@
+"""A cemetery and its table."""

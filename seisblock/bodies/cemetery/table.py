@@ -1,0 +1,271 @@
+"""Reading a cemetery from a table: the columns that survey teams write, in English or Japanese."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+import unicodedata
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
+from seisblock.errors import BodyError, InputError
+from seisblock.units import LENGTH_UNITS, parse_length
+
+_NAMES = {
+    "height_over_width": (
+        "heightoverwidth",
+        "h/b",
+        "hb",
+        "h/w",
+        "height/width",
+        "高さ幅比",
+        "高さ/幅",
+        "縦横比",
+        "高さ幅比h/b",
+        "竿の高さ幅比",
+    ),
+    "height": ("height", "h", "高さ", "竿高さ", "竿の高さ", "高"),
+    "width": ("width", "b", "幅", "竿幅", "竿の幅"),
+    "reinforced": ("reinforced", "dowelled", "doweled", "補強", "補強の有無"),
+    "fallen": ("fallen", "overturned", "転倒", "転倒の有無", "被害"),
+    "azimuth_deg": ("azimuthdeg", "azimuth", "方位", "方位角", "向き"),
+    "count": ("count", "number", "個数", "基数", "数"),
+}
+"""Column names accepted, without case, blanks and underscores."""
+
+_COLUMNS = {spelling: name for name, spellings in _NAMES.items() for spelling in spellings}
+_YES = {"1", "yes", "y", "true", "○", "〇", "有", "有り", "あり"}
+_NO = {"0", "no", "n", "false", "×", "無", "無し", "なし"}
+_WORDS = {
+    "fallen": (_YES | {"fallen", "overturned", "転倒"}, _NO | {"standing", "stood", "残存"}, "0, 1, yes, no, 転倒 or 残存"),
+    "reinforced": (_YES | {"reinforced", "補強", "補強有", "補強あり"}, _NO | {"unreinforced", "無補強", "補強なし"}, "0, 1, yes or no"),
+}
+_UNIT = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
+
+LARGEST = 20.0
+"""A stone beyond this, m, is taken for a number whose unit was forgotten."""
+
+MOST_ALIKE = 100_000
+"""Most stones that one row stands for."""
+
+DISAGREEMENT = 0.05
+"""Largest relative difference between a ratio written down and that of the sizes beside it."""
+
+MOST_NAMED = 5
+"""How many further bad rows a message names."""
+
+
+def read_cemetery(name: str | Path) -> Cemetery:
+    """Return a cemetery from a CSV file, or a bundled one by its name.
+
+    The header names the columns: ``height_over_width``, or ``height`` and ``width`` (a unit in the name, ``height (cm)``,
+    or in the cell, ``8sun``; metres without); and, where known, ``reinforced``, ``fallen``, ``azimuth_deg``, ``count``. Japanese
+    names (高さ幅比, 高さ, 幅, 補強, 転倒, 方位, 個数) do as well. Lines that begin with # are comments; those before the header are kept
+    as notes. UTF-8 with or without a byte order mark, Shift-JIS and UTF-16 are recognised; other columns are passed over.
+
+    Parameters
+    ----------
+    name : str or Path
+        A file, else for example ``aoyama.csv``.
+
+    Raises
+    ------
+    BodyError
+        If there is no such file or bundled cemetery, a column is missing, or a row is wrong; rows are named by their line.
+
+    Examples
+    --------
+    >>> read_cemetery("aoyama.csv").size
+    100
+    """
+    text = _text(_path(name), str(name))
+    return parse_cemetery(text, source=str(name))
+
+
+def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
+    """Return a cemetery from the text of a table, see :func:`read_cemetery`."""
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1)]
+    filled = [(number, line) for number, line in lines if line.strip(" \t,;") and not line.lstrip().startswith("#")]
+    if not filled:
+        raise BodyError(f"{source}: there is no gravestone in it, only {len(lines)} empty lines and comments")
+    (header_line, header), rows = filled[0], filled[1:]
+    separator = next((mark for mark in ",\t;" if mark in header), ",")
+    columns, units = _header(_cells(header, separator), source, header_line)
+    if not rows:
+        raise BodyError(f"{source}, line {header_line}: there is no gravestone below the header; add one line per stone")
+    stones, wrong = [], []
+    for number, line in rows:
+        try:
+            stones.append(_stone(_row(columns, _cells(line, separator)), units, number))
+        except InputError as error:
+            wrong.append((number, str(error)))
+    if wrong:
+        raise BodyError(f"{source}, line {wrong[0][0]}: {wrong[0][1]}{_others([number for number, _ in wrong[1:]])}")
+    notes = tuple(line.lstrip("# ").rstrip() for number, line in lines if number < header_line and line.startswith("#"))
+    return Cemetery(tuple(stones), Path(source).stem, source, notes)
+
+
+def _path(name: str | Path) -> Path:
+    """Return the file that a name means: a path, else a bundled cemetery."""
+    from seisblock.samples import find_sample, list_samples
+
+    path = Path(name)
+    if path.is_dir():
+        raise BodyError(f"{name} is a directory: give the CSV file of a cemetery")
+    if path.exists():
+        return path
+    known = [sample.name for sample in list_samples() if sample.kind == "cemetery"]
+    bundled = find_sample(str(name)) if path.parent == Path() else None
+    if bundled is None or bundled.name not in known:
+        raise BodyError(f"no cemetery file {name}, and no bundled cemetery of that name; bundled are {', '.join(known) or 'none'}")
+    return bundled
+
+
+def _text(path: Path, name: str) -> str:
+    """Return a file's text, whichever of the usual encodings it has."""
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise BodyError(f"cannot read {name}: {error.strerror}") from error
+    if b"\0" in data and data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
+        raise BodyError(f"{name} is no table of text: give a CSV file with one line per gravestone")
+    for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp932"):
+        try:
+            return data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    raise BodyError(f"{name} is neither UTF-8 nor Shift-JIS: save it as CSV UTF-8")
+
+
+def _cells(line: str, separator: str) -> list[str]:
+    """Return the cells of a line, full-width letters made plain."""
+    try:
+        cells = next(csv.reader([line], delimiter=separator), [])
+    except csv.Error as error:
+        raise BodyError(f"this line is no row of a table: {error}") from error
+    return [unicodedata.normalize("NFKC", cell).strip() for cell in cells]
+
+
+def _header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
+    """Return the meaning of each column, empty for those passed over, and the units that stand in their names."""
+    columns, units = [], {}
+    for cell in cells:
+        name, unit = _named(cell)
+        if name and name in columns:
+            raise BodyError(f"{source}, line {line}: two columns mean {name}: rename or remove one")
+        columns.append(name)
+        if unit:
+            units[name] = unit
+    if "height_over_width" not in columns and not {"height", "width"} <= set(columns):
+        found = ", ".join(cells) or "none"
+        raise BodyError(f"{source}, line {line}: expected a column height_over_width, or height and width; found {found}")
+    return columns, units
+
+
+def _named(cell: str) -> tuple[str, str]:
+    """Return what a heading means, and its unit."""
+    match = _UNIT.match(cell)
+    bare, unit = (match[1], match[2]) if match else (cell, "")
+    key = _plain(bare)
+    if not unit and key not in _COLUMNS and "_" in bare:  # height_cm
+        head, _, tail = bare.rpartition("_")
+        if tail in LENGTH_UNITS and _plain(head) in _COLUMNS:
+            key, unit = _plain(head), tail
+    name = _COLUMNS.get(key, "")
+    return name, unit if name in ("height", "width") else ""
+
+
+def _plain(text: str) -> str:
+    """Return a heading without case, blanks and underscores."""
+    return re.sub(r"[\s_]+", "", text).casefold()
+
+
+def _row(columns: Sequence[str], cells: Sequence[str]) -> dict[str, str]:
+    """Return the cells of a row by what their columns mean."""
+    if any(cells[len(columns) :]):
+        raise BodyError(f"expected {len(columns)} cells as in the header, found {len(cells)}")
+    return dict(zip(columns, cells, strict=False))
+
+
+def _stone(row: Mapping[str, str], units: Mapping[str, str], line: int) -> Stone:
+    """Return the stone of one row."""
+    width, height = (_size(row, key, units) for key in ("width", "height"))
+    ratio = _number(row, "height_over_width")
+    if ratio is not None and not (math.isfinite(ratio) and ratio > 0.0):
+        raise BodyError(f"height over width must be positive, found {ratio:g}")
+    if width is not None and height is not None:
+        if ratio is not None and abs(height / width / ratio - 1.0) > DISAGREEMENT:
+            raise BodyError(f"height over width is {ratio:g}, but height and width give {height / width:.3g}")
+        ratio = height / width if ratio is None else ratio
+    elif ratio is None:
+        missing = [name for name, value in (("height", height), ("width", width)) if value is None]
+        raise BodyError(f"there is neither height over width nor height and width: {' and '.join(missing)} empty")
+    elif height is not None:
+        width = height / ratio
+    return Stone(
+        ratio,
+        width,
+        reinforced=bool(_truth(row, "reinforced")),
+        fallen=_truth(row, "fallen"),
+        azimuth_deg=_number(row, "azimuth_deg"),
+        count=_count(row),
+        line=line,
+    )
+
+
+def _size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> float | None:
+    """Return a length in metres, None where the cell is empty."""
+    text = row.get(key, "")
+    if not text:
+        return None
+    bare = re.fullmatch(r"[-+.\deE]+", text) is not None
+    unit = units.get(key, "")
+    value = parse_length(text + unit if bare else text, what=key)
+    if not value > 0.0:
+        raise BodyError(f"{key} must be positive, found {text}")
+    if value > LARGEST:
+        remedy = f" (without a unit it means metres: name the column for example {key} (cm))" if bare and not unit else ""
+        raise BodyError(f"{key} of {value:g} m is no gravestone{remedy}")
+    return value
+
+
+def _number(row: Mapping[str, str], key: str) -> float | None:
+    """Return a number, None where the cell is empty."""
+    text = row.get(key, "")
+    if not text:
+        return None
+    try:
+        return float(text)
+    except ValueError:
+        raise BodyError(f"{key} must be a number, found {text!r}") from None
+
+
+def _count(row: Mapping[str, str]) -> int:
+    """Return how many stones a row stands for, one where the cell is empty."""
+    value = _number(row, "count")
+    if value is None:
+        return 1
+    if not (1 <= value <= MOST_ALIKE and value == int(value)):
+        raise BodyError(f"count must be a whole number of stones, 1 to {MOST_ALIKE}, found {row['count']}")
+    return int(value)
+
+
+def _truth(row: Mapping[str, str], key: str) -> bool | None:
+    """Return yes, no, or None where the cell is empty."""
+    text = row.get(key, "")
+    yes, no, expected = _WORDS[key]
+    if not text:
+        return None
+    if text.casefold() not in yes | no:
+        raise BodyError(f"{key} must be {expected}, found {text!r}")
+    return text.casefold() in yes
+
+
+def _others(lines: Sequence[int]) -> str:
+    """Return a remark on further bad rows."""
+    if not lines:
+        return ""
+    named = ", ".join(map(str, lines[:MOST_NAMED])) + (" ..." if len(lines) > MOST_NAMED else "")
+    return f" (and {len(lines)} more bad rows: lines {named})"

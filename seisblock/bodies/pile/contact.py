@@ -1,0 +1,73 @@
+"""How the stones of a pile press on each other."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from seisblock.errors import ParameterError
+
+
+@dataclass(frozen=True)
+class PileContact:
+    """Spring, dashpot and slider at each contact point.
+
+    Two descriptions: per unit mass of the upper stone and per point, as [Furukawa2009]_ table 2 must be read (3947.8 = (2 pi 10)^2
+    is 10 Hz, 125.66 = 2 (2 pi 10) critical damping; as N/m the stones would sink by centimetres); or physical, by the stones'
+    Young's modulus or the stiffness of the joint per area.
+
+    Parameters
+    ----------
+    normal, shear : float, 1/s^2
+        Stiffness per point over the upper stone's mass.
+    normal_damping, shear_damping : float, 1/s
+        Dashpots per point over the upper stone's mass.
+    young : float, Pa, or None
+        Each joint is as stiff as the half heights of its two stones, all damped by ``damping_ratio``; replaces the four above.
+    stiffness : float, N/m^3, or None
+        Stiffness of the joints per area; replaces the four above.
+    damping_ratio : float
+        Of the upper stone on its whole joint, for the physical descriptions.
+    shear_ratio : float
+        Shear over normal stiffness, for the physical descriptions; 0.4 as in [Furukawa2009]_ table 2.
+    """
+
+    normal: float = 3947.8
+    shear: float = 1579.1
+    normal_damping: float = 125.66
+    shear_damping: float = 50.265
+    young: float | None = None
+    stiffness: float | None = None
+    damping_ratio: float = 1.0
+    shear_ratio: float = 0.4
+
+    def __post_init__(self) -> None:
+        for name in ("normal", "shear", "shear_ratio", "young", "stiffness"):
+            value = getattr(self, name)
+            if value is not None and not (value > 0.0 and math.isfinite(value)):
+                raise ParameterError(f"{name} of the contact must be positive, found {value}")
+        for name in ("normal_damping", "shear_damping", "damping_ratio"):
+            value = getattr(self, name)
+            if not (value >= 0.0 and math.isfinite(value)):
+                raise ParameterError(f"{name} of the contact must be zero or more, found {value}")
+        if self.young is not None and self.stiffness is not None:
+            raise ParameterError("the contact takes Young's modulus or the stiffness per area, not both")
+
+    def of_joint(self, mass: float, area: float, length_: float, points: int) -> tuple[float, float, float, float]:
+        """Return normal spring and dashpot, shear spring and dashpot of one point of a joint, N/m and N s/m.
+
+        Parameters
+        ----------
+        mass : float, kg
+            Of the upper stone.
+        area, length_ : float, m^2, m
+            Of the joint; and half the heights of both stones together.
+        points : int
+            How many points share the joint.
+        """
+        per_area = self.stiffness if self.young is None else self.young / length_
+        if per_area is None:
+            return mass * self.normal, mass * self.normal_damping, mass * self.shear, mass * self.shear_damping
+        whole = per_area * area
+        dashpot = 2.0 * self.damping_ratio * math.sqrt(whole * mass)
+        return whole / points, dashpot / points, self.shear_ratio * whole / points, self.shear_ratio * dashpot / points

@@ -1,0 +1,95 @@
+"""A pile of rectangular stones: gravestones, lanterns, pagodas, columns of drums, stacked crates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from seisblock.bodies.pile.checks import check_pile
+from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, overlap, span
+
+
+@dataclass(frozen=True)
+class Pile:
+    """An ordered pile of stones ([Furukawa2009]_ section 3(2), fig. 3).
+
+    Parameters
+    ----------
+    name : str
+    stones : tuple of PileStone
+        From below upwards.
+    dowels : tuple of tuples of str
+        Names of stones held together as one body ([Furukawa2009]_ section 3(6)).
+    fixed : tuple of str
+        Stones that move with the ground.
+    mu : float
+        Friction of the joints that have none of their own; 0.438 is that of [Furukawa2009]_ table 2.
+
+    Raises
+    ------
+    BodyError
+        If stones overlap, float, or do not touch where a dowel holds them; if the pile is unstable at rest.
+    """
+
+    name: str
+    stones: tuple[PileStone, ...]
+    dowels: tuple[tuple[str, ...], ...] = ()
+    fixed: tuple[str, ...] = ()
+    mu: float = 0.438
+
+    def __post_init__(self) -> None:
+        check_pile(self)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the stones, from below upwards."""
+        return tuple(stone.name for stone in self.stones)
+
+    def centres(self) -> list[tuple[float, float, float]]:
+        """Return the centres of the stones, m, seen from the ground under the pile."""
+        found: dict[str, tuple[float, float, float]] = {}
+        for stone in self.stones:
+            x, y, top = 0.0, 0.0, 0.0
+            if stone.on != GROUND:
+                below = self.stones[self.names.index(stone.on)]
+                x, y, middle = found[stone.on]
+                top = middle + 0.5 * below.height
+            bottom = top if stone.bottom is None else stone.bottom
+            found[stone.name] = (x + stone.offset[0], y + stone.offset[1], bottom + 0.5 * stone.height)
+        return [found[stone.name] for stone in self.stones]
+
+    def joints(self) -> list[Joint]:
+        """Return where stones stand on each other and on the ground."""
+        centres = self.centres()
+        made = []
+        for upper, stone in enumerate(self.stones):
+            floor = centres[upper][2] - 0.5 * stone.height
+            if abs(floor) <= TOUCHING:
+                made.append(Joint(upper, -1, span(centres[upper][0], stone.width), span(centres[upper][1], stone.depth), floor))
+            for lower, below in enumerate(self.stones):
+                if lower != upper and abs(centres[lower][2] + 0.5 * below.height - floor) <= TOUCHING:
+                    shared = [overlap(centres[upper][k], stone.size[k], centres[lower][k], below.size[k]) for k in (0, 1)]
+                    if all(high - low > TOUCHING for low, high in shared):
+                        made.append(Joint(upper, lower, shared[0], shared[1], floor))
+        return made
+
+    def bodies(self) -> Iterator[tuple[int, ...]]:
+        """Yield the stones that move as one, without the fixed ones."""
+        index = {name: i for i, name in enumerate(self.names)}
+        held = {name: tuple(sorted(index[member] for member in group)) for group in self.dowels for name in group}
+        done: set[int] = set()
+        for i, name in enumerate(self.names):
+            members = held.get(name, (i,))
+            if i not in done and not any(self.names[m] in self.fixed for m in members):
+                done.update(members)
+                yield members
+
+    def without(self, *names: str) -> Pile:
+        """Return the pile without some of its stones, on which none of the others may stand."""
+        kept = tuple(stone for stone in self.stones if stone.name not in names)
+        dowels = tuple(group for group in self.dowels if not set(group) & set(names))
+        return replace(self, stones=kept, dowels=dowels, fixed=tuple(name for name in self.fixed if name not in names))
+
+    def dowelled(self, *names: str) -> Pile:
+        """Return the pile with these stones held together."""
+        return replace(self, dowels=(*self.dowels, names))

@@ -1,0 +1,1 @@
+"""Which body the user means: options and what they build."""

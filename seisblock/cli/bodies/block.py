@@ -1,0 +1,53 @@
+"""Which block the user means: sizes given one by one, a TOML file, or a bundled body by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.library import block_of, restitution_of
+from seisblock.bodies.toml import read_table
+from seisblock.errors import BodyError
+
+
+@dataclass(frozen=True)
+class BlockChoice:
+    """A block, the restitution it brings along (None for that of its angular momentum), and one line on where it comes from."""
+
+    block: Block
+    restitution: float | None
+    says: str
+
+
+def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
+    """Return the block that a set of options describes.
+
+    Parameters
+    ----------
+    asked : mapping
+        ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI; ``restitution`` overrides what a file
+        brings along. None where not given.
+
+    Raises
+    ------
+    BodyError
+        If sizes and a named block are mixed, or something needed is missing.
+    """
+    keys = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia")
+    sizes = {key: asked[key] for key in keys if asked.get(key) is not None}
+    restitution = asked.get("restitution")
+    if asked.get("block"):
+        if sizes:
+            raise BodyError(f"give either --block or sizes (--{', --'.join(key.replace('_', '-') for key in sizes)}), not both")
+        table = read_table(asked["block"])
+        if restitution is None:
+            restitution = restitution_of(table, asked["block"])
+        block = block_of(table, side=asked.get("side") or "short")
+        return BlockChoice(block, restitution, f"{block.name}, from {asked['block']}")
+    missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
+    if missing:
+        raise BodyError(f"which block? {' and '.join(missing)} missing: give --width and --height, or --block NAME|FILE (say gravestone)")
+    block = Block(**sizes)
+    return BlockChoice(block, restitution, f"block {block.width:g} m wide, {block.height:g} m high")

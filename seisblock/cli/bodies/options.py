@@ -1,0 +1,70 @@
+"""The options that say which block is meant, for every command about one rigid block."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import click
+
+from seisblock.cli.command import option
+from seisblock.cli.types import LENGTH, MASS
+
+_SIZES = (
+    option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit (24cm, 8sun)."),
+    option("--height", type=LENGTH, section="Body", help="Height H, m or with a unit."),
+)
+
+_REST = (
+    option("--depth", type=LENGTH, section="Body", help="Width across the motion, m or with a unit; only the mass depends on it."),
+    option("--mass", type=MASS, section="Body", help="Mass, kg or with a unit; the motion depends on it only with --inertia."),
+    option("--centroid-height", type=LENGTH, section="Body", help="Height of the centre of gravity, m. [default: half the height]"),
+    option("--centroid-offset", type=LENGTH, section="Body", help="Its distance to +x from the middle of the base, m. [default: 0]"),
+    option(
+        "--inertia",
+        "centroid_inertia",
+        type=float,
+        metavar="KG.M2",
+        section="Body",
+        help="Moment of inertia about the centre of gravity, kg m^2. [default: m (B^2 + H^2)/12]",
+    ),
+    option("--block", metavar="NAME|FILE", section="Body", help="Bundled body (gravestone) or TOML file, instead of sizes."),
+    option(
+        "--side",
+        type=click.Choice(["short", "long"]),
+        section="Body",
+        help="Side of a two-layer --block along the motion. [default: short]",
+    ),
+)
+
+
+def block_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the options of one rigid block; it receives them by name, for ``choose_block``."""
+    for declare in reversed((*_SIZES, *_REST)):
+        function = declare(function)
+    return function
+
+
+def rocking_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command ``--restitution``, ``--linear``, ``--vertical`` and ``--azimuth``."""
+    for declare in reversed(
+        (
+            option(
+                "--restitution",
+                type=float,
+                metavar="E",
+                help="Angular velocity after an impact over that before, (0, 1]. [default: 1 - 1.5 sin^2(alpha), or the body's own]",
+            ),
+            option("--linear", is_flag=True, help="The linearised equation of slender blocks. [default: the exact one]"),
+            option("--vertical", is_flag=True, help="Let the vertical component act, too. [default: horizontal motion alone]"),
+            option(
+                "--azimuth",
+                multiple=True,
+                metavar="DEG[,DEG...]",
+                section="Record",
+                help="Direction of +x, degrees clockwise from north; as --component DEG.",
+            ),
+        )
+    ):
+        function = declare(function)
+    return function

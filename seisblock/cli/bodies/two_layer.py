@@ -1,0 +1,71 @@
+"""Which two-layer block the user means: a bundled one, a file, or sizes given one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from seisblock.bodies.toml import read_table
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact, two_layer_block
+from seisblock.errors import BodyError
+
+_CONTACT = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
+
+
+@dataclass(frozen=True)
+class TwoLayerChoice:
+    """A block with its contact, and one line on where they come from."""
+
+    block: TwoLayerBlock
+    contact: Contact
+    says: str
+
+
+def two_layer_choice(asked: Mapping[str, Any], *, default: str) -> TwoLayerChoice:
+    """Return the block and contact that a set of options describes.
+
+    Parameters
+    ----------
+    asked : mapping
+        ``block``, ``side``, or ``width``, ``depth``, ``heights``, ``masses``; and ``mu``, ``mu_kinetic``, ``restitution_x``,
+        ``restitution_y``, which override those that a preset brings along. SI; None where not given.
+    default : str
+        Bundled body taken when neither a block nor sizes are given.
+
+    Raises
+    ------
+    BodyError
+        If sizes and a named block are mixed, or something needed is missing.
+    """
+    sizes = {key: asked.get(key) for key in ("width", "heights", "masses")}
+    given = [key for key, value in sizes.items() if value is not None]
+    if given and asked.get("block"):
+        raise BodyError(f"give either --block or sizes (--{', --'.join(given)}), not both")
+    preset: Mapping[str, float] = {}
+    if given:
+        block = _from_sizes(asked, sizes)
+        origin = "sizes as given"
+    else:
+        name = asked.get("block") or default
+        table = read_table(name)
+        block, preset = two_layer_block(table, asked.get("side") or "short"), contact(table)
+        origin = f"from {name}" + ("" if asked.get("block") else " (the default)")
+    values = {key: asked[key] if asked.get(key) is not None else preset.get(key) for key in _CONTACT}
+    missing = [f"--{key.replace('_', '-')}" for key, value in values.items() if value is None]
+    if missing:
+        raise BodyError(f"{block.name} brings no contact of its own: give {', '.join(missing)}")
+    told = ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in values.items())
+    return TwoLayerChoice(block, Contact(**values), f"{origin}; {told}")  # type: ignore[arg-type]
+
+
+def _from_sizes(asked: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerBlock:
+    """Return a block from sizes given one by one."""
+    missing = [f"--{key}" for key, value in sizes.items() if value is None]
+    if missing:
+        raise BodyError(f"a block given by its sizes also needs {', '.join(missing)}")
+    for key in ("heights", "masses"):
+        if len(sizes[key]) != 2:
+            raise BodyError(f"--{key} takes two values, upper and lower layer, found {len(sizes[key])}")
+    width, depth = sizes["width"], asked.get("depth")
+    return TwoLayerBlock(width, width if depth is None else depth, *sizes["heights"], *sizes["masses"])

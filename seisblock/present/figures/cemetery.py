@@ -1,0 +1,182 @@
+"""Cemeteries in pictures: how slender the stones are, and which share falls ([Furukawa2009]_ figs. 14 to 20)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.present.figures.canvas import ACCENT, INPUT, label, legend, new_figure
+from seisblock.records import Record
+from seisblock.studies.cemetery.judgement import LARGER, CemeteryRate, Reinforcement
+from seisblock.studies.cemetery.rate import FREQUENCIES, CurvePoint, overturning_rate, rate_curve
+from seisblock.units import GAL
+from seisblock.validation.furukawa_surveys import SURVEYS, Survey
+
+LINES = (
+    ("#08214a", "-"),
+    ("#1f4e8c", (0, (6, 1.5))),
+    ("#3f78b5", (0, (1.5, 1.2))),
+    ("#0a6b5e", (0, (5, 1, 1.2, 1))),
+    ("#3fa08f", "-"),
+    ("#9bb3c4", (0, (6, 1.5))),
+)
+"""Colour and dashes of the curves by frequency: dark to light, so that their order can be read in grey too."""
+
+MARKERS = "osD^vP"
+BIN = 0.25
+"""Width of the histogram's bins of H/B."""
+
+FINE_PGA = tuple(round(0.1 * i, 1) for i in range(1, 181))
+"""PGA at which curves of the formula are drawn, m/s^2."""
+
+
+def proportions(axis: Axes, cemetery: Cemetery, threshold: float | None = None) -> None:
+    """Draw how slender the stones are: shares per bin, and the share above each H/B; what lies beyond a threshold is in colour."""
+    ratios = np.sort(cemetery.ratios)
+    edges = np.arange(np.floor(ratios[0] / BIN) * BIN, ratios[-1] + BIN, BIN).tolist()
+    share = np.full(ratios.size, 1.0 / ratios.size)
+    axis.hist(ratios, bins=edges, weights=share, color="0.78", edgecolor="white", label=f"share per {BIN:g}")
+    if threshold is not None:
+        beyond = ratios > threshold
+        axis.hist(ratios[beyond], bins=edges, weights=share[beyond], color=ACCENT, alpha=0.55, edgecolor="white", label="falls")
+        axis.axvline(threshold, color=ACCENT, linewidth=0.9, linestyle=(0, (4, 2)))
+    above = 1.0 - np.arange(ratios.size + 1) / ratios.size
+    axis.step(np.concatenate([ratios, ratios[-1:]]), above, where="pre", color="0.15", linewidth=1.1, label="share above")
+    axis.set_ylim(0.0, 1.02)
+    label(axis, x="H/B", y="share of stones")
+    legend(axis, loc="upper right", bbox_to_anchor=(1.0, 1.0), ncols=1)
+
+
+def rates(axis: Axes, curve: Iterable[CurvePoint], *, frequencies: Sequence[float] = FREQUENCIES) -> None:
+    """Draw the rate against PGA for each frequency."""
+    points = list(curve)
+    for frequency in dict.fromkeys(point.frequency_hz for point in points):
+        pga = np.array([p.pga_m_s2 for p in points if p.frequency_hz == frequency]) / GAL
+        rate = np.array([p.rate for p in points if p.frequency_hz == frequency])
+        index = list(frequencies).index(frequency) if frequency in frequencies else len(LINES) - 1
+        colour, dashes = LINES[index % len(LINES)]
+        axis.plot(pga, rate, label=f"{frequency:.3g} Hz", linewidth=1.1, color=colour, linestyle=dashes)
+    axis.set_ylim(-0.02, 1.02)
+    label(axis, x="PGA (gal)", y="overturning rate")
+
+
+def _key(axis: Axes) -> None:
+    """Add the key beside the panel: six curves and some points hide too much inside it."""
+    legend(axis, loc="upper left", bbox_to_anchor=(1.01, 1.0), ncols=1)
+
+
+def overturn_rate_figure(
+    cemetery: Cemetery, groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]], curve: Sequence[CurvePoint]
+) -> Figure:
+    """Return the figure of ``overturn-rate``: the stones, the curves and the points of a record, and the same with dowels.
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    groups : sequence of (Record or None, results)
+        Of records' components, or of bare numbers; may be empty.
+    curve : sequence of CurvePoint
+        Drawn where there is no result.
+    """
+    shown = [(_name(record, each, len(groups) > 1), each) for record, results in groups for each in results if each.component != LARGER]
+    governing = max((each for _, each in shown), key=lambda each: each.rate, default=None)
+    compared = governing is not None and governing.reinforced is not None
+    columns = 3 if compared else 2
+    figure, axes = new_figure(1, columns=columns, width=4.2 * columns + 1.2, height=3.9, title=f"{cemetery.name}: {cemetery.size} stones")
+    proportions(axes[0], cemetery, governing.threshold_ratio if governing else None)
+    _panel(axes[1], [(name, each, each) for name, each in shown], governing, curve)
+    if governing is not None and governing.reinforced is not None:
+        after = [(name, each, each.reinforced) for name, each in shown if each.reinforced is not None]
+        _panel(axes[2], after, governing.reinforced, curve)
+        axes[1].set_title("as surveyed", fontsize=9, loc="left")
+        axes[2].set_title(f"{governing.reinforced.reinforced_stones} of {cemetery.size} stones reinforced", fontsize=9, loc="left")
+    _key(axes[-1])
+    return figure
+
+
+def _name(record: Record | None, each: CemeteryRate, several: bool) -> str:
+    """Return what a point is called before its frequency."""
+    if record is None:
+        return ""
+    return f"{record.station or record.source} {each.component}, " if several else f"{each.component}, "
+
+
+def _panel(
+    axis: Axes,
+    shown: Sequence[tuple[str, CemeteryRate, CemeteryRate | Reinforcement]],
+    governing: CemeteryRate | Reinforcement | None,
+    curve: Sequence[CurvePoint],
+) -> None:
+    """Draw the curves, those of the results in colour, and the rate of each result with its interval."""
+    own = {each.equivalent_frequency_hz for _, each, _ in shown}
+    rates(axis, [p for p in (governing.curve if governing else curve) if p.frequency_hz not in own])
+    for index, (name, each, found) in enumerate(shown):
+        points = [p for p in found.curve if p.frequency_hz == each.equivalent_frequency_hz]
+        thick = 1.8 if found is governing else 0.9
+        axis.plot([p.pga_m_s2 / GAL for p in points], [p.rate for p in points], color=ACCENT, linewidth=thick, zorder=3)
+        (low, high), pga = found.rate_interval, each.pga_m_s2 / GAL
+        axis.errorbar(
+            [pga],
+            [found.rate],
+            yerr=[[found.rate - low], [high - found.rate]],
+            fmt=MARKERS[index % len(MARKERS)],
+            color="black",
+            markersize=5,
+            markerfacecolor=ACCENT,
+            capsize=2.5,
+            linewidth=0.9,
+            zorder=4,
+            label=f"{name}{each.equivalent_frequency_hz:.3g} Hz",
+        )
+    axis.set_xlim(left=0.0)  # last, for it ends the scaling to what is drawn
+
+
+def figure_14(cemetery: Cemetery) -> Figure:
+    """Return the histogram and the cumulative distribution of H/B ([Furukawa2009]_ figs. 14, 15)."""
+    figure, (axis,) = new_figure(1, width=6.0, height=3.8, title=f"{cemetery.name}: height over width of {cemetery.size} stones")
+    proportions(axis, cemetery)
+    return figure
+
+
+def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence[Survey] = ()) -> Figure:
+    """Return the rate curves: fig. 16, fig. 17 reinforced, and figs. 18, 19 with surveyed rates ([Furukawa2009]_).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    reinforced : bool
+        All stones with a dowel.
+    surveys : sequence of Survey
+        Points to draw; :data:`seisblock.validation.furukawa_surveys.SURVEYS` for figs. 18 and 19.
+    """
+    kind = "reinforced" if reinforced else "not reinforced"
+    figure, (axis,) = new_figure(1, width=7.2, height=4.4, title=f"{cemetery.name}, {kind}")
+    rates(axis, rate_curve(cemetery.dowelled() if reinforced else cemetery, FINE_PGA))
+    for index, survey in enumerate(surveys):
+        where: dict[str, Any] = {"marker": MARKERS[index % len(MARKERS)], "color": ACCENT, "s": 26, "zorder": 4}
+        axis.scatter([survey.pga / GAL], [survey.rate], label=f"{survey.name}, {survey.frequency:.2f} Hz", **where)
+    axis.set_xlim(left=0.0)
+    _key(axis)
+    return figure
+
+
+def figure_20(cemetery: Cemetery, surveys: Sequence[Survey] = SURVEYS) -> Figure:
+    """Return surveyed rates against those of the curves, without a dowel and with one ([Furukawa2009]_ fig. 20)."""
+    figure, (axis,) = new_figure(1, width=4.8, height=4.6, title=f"rates: curves of {cemetery.name}, and surveys")
+    axis.plot([0, 1], [0, 1], color=INPUT, linewidth=0.9)
+    for index, survey in enumerate(surveys):
+        plain = overturning_rate(cemetery, survey.pga, survey.frequency).rate
+        dowelled = overturning_rate(cemetery.dowelled(), survey.pga, survey.frequency).rate
+        marker = MARKERS[index % len(MARKERS)]
+        axis.plot([dowelled, plain], [survey.rate] * 2, color="0.8", linewidth=0.8, zorder=1)
+        axis.scatter([plain], [survey.rate], marker=marker, color=ACCENT, s=30, zorder=3, label=survey.name)
+        axis.scatter([dowelled], [survey.rate], marker=marker, facecolor="white", edgecolor="0.4", s=26, zorder=2)
+    axis.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), aspect="equal")
+    label(axis, x="rate by the curves (hollow: reinforced)", y="surveyed rate")
+    _key(axis)
+    return figure

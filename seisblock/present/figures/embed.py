@@ -1,0 +1,55 @@
+"""A figure inside a page, as data: sharp on paper, small on a phone."""
+
+from __future__ import annotations
+
+import base64
+import io
+from html import escape
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from seisblock.present.figures.fonts import speak
+
+LARGEST_DRAWING = 200_000
+"""A drawing of more bytes is put in as a picture."""
+
+PICTURE_DPI = 170
+
+
+def picture(figure: Figure, lang: str, caption: str, *, width: float = 6.0) -> str:
+    """Return an HTML figure.
+
+    Parameters
+    ----------
+    figure : Figure
+        Narrowed to `width`, so that its letters stay readable where the page is small.
+    lang : "en" or "ja"
+    caption : str
+        Plain text, also what is read aloud.
+    width : float, inch
+    """
+    have, height = figure.get_size_inches()
+    if have > width:
+        figure.set_size_inches(width, height * (0.75 + 0.25 * width / have))
+    for axis in figure.axes:
+        _part(axis)
+    speak(figure, lang)
+    held = io.BytesIO()
+    figure.savefig(held, format="svg")
+    kind = "svg+xml"
+    if held.tell() > LARGEST_DRAWING:
+        held, kind = io.BytesIO(), "png"
+        figure.savefig(held, format="png", dpi=PICTURE_DPI)
+    data = base64.b64encode(held.getvalue()).decode("ascii")
+    return (
+        f'<figure><img alt="{escape(caption, quote=True)}" src="data:image/{kind};base64,{data}">'
+        f"<figcaption>{escape(caption)}</figcaption></figure>"
+    )
+
+
+def _part(axis: Axes) -> None:
+    """Lift a panel's title over its legend, which a narrow figure would draw on it."""
+    title = axis.get_title(loc="left")
+    if title and axis.get_legend() is not None:
+        axis.set_title(title, loc="left", fontsize=8, pad=13.0)

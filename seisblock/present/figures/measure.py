@@ -1,0 +1,141 @@
+"""The record as engineers know it: acceleration, velocity, Fourier and response spectra of its components."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from seisblock.measures import RecordMeasures, fourier_amplitude, ground_history, response_spectrum
+from seisblock.measures.spectra import DAMPING
+from seisblock.present.figures.canvas import ACCENT, INPUT, curve, dress, label, legend, thin, threshold
+from seisblock.records import Component, Record
+from seisblock.records.process import pick
+from seisblock.typing import FloatArray
+from seisblock.units import GAL, KINE
+
+LINES = (("0.1", "-"), ("#1f5a8c", (0, (5, 1.5))), ("#b5651d", (0, (1.2, 1.2))), ("0.55", "-"))
+"""Colour and dashes of the components' spectra: told apart in grey too."""
+
+
+def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) -> Figure:
+    """Draw acceleration and velocity of each component, time above the threshold in colour, and their spectra.
+
+    Parameters
+    ----------
+    record, answer : Record, RecordMeasures
+        The record and what :func:`seisblock.measures.measure` found in it.
+    gal : bool
+        Accelerations in gal and velocities in kine, else SI.
+    """
+    parts = [pick(record, m.component) for m in answer.components]
+    n = len(parts)
+    figure = Figure(figsize=(8.5, 1.1 + 2.2 * n + 3.0), dpi=110, layout="constrained")
+    FigureCanvasAgg(figure)
+    figure.suptitle(_title(record, answer), fontsize=10, x=0.01, ha="left")
+    above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=(2.2 * n + 0.4, 3.0))[:, 0]
+    histories = above.subplots(2 * n, 1, sharex=True, squeeze=False)[:, 0]
+    left, right = below.subplots(1, 2)
+    for axis in (*histories, left, right):
+        dress(axis)
+    _draw_accelerations(histories[:n], record, parts, answer, gal=gal)
+    _draw_velocities(histories[n:], record, parts, answer, gal=gal)
+    label(histories[-1], x="t (s)")
+    histories[-1].set_xlim(record.time[0], record.time[-1])
+    _draw_fourier(left, record, parts, answer.conventions.fourier_smoothing_hz, gal=gal)
+    _draw_response(right, record, parts, gal=gal)
+    return figure
+
+
+def _title(record: Record, answer: RecordMeasures) -> str:
+    """Return station, start and intensity in one line."""
+    start = record.start.strftime("%Y-%m-%d %H:%M:%S UTC") if record.start else ""
+    intensity = "" if answer.jma_intensity is None else f"JMA intensity {answer.jma_intensity:.2f} ({answer.jma_class})"
+    return "   ".join(text for text in (record.station or "record", start, intensity) if text)
+
+
+def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component], answer: RecordMeasures, *, gal: bool) -> None:
+    """Draw the accelerations on one scale, what exceeds the threshold filled."""
+    unit, name = (GAL, "gal") if gal else (1.0, "m/s²")
+    reach = 1.15 * max(m.pga_m_s2 for m in answer.components) / unit or 1.0
+    for axis, part, m in zip(axes, parts, answer.components, strict=True):
+        values = part.acceleration / unit
+        level = m.duration.threshold_m_s2 / unit
+        signs = {"both": (1, -1), "positive": (1,), "negative": (-1,)}[answer.conventions.threshold_side]
+        if level < reach:
+            threshold(axis, [sign * level for sign in signs])
+        curve(axis, record.time, values, color=INPUT, linewidth=0.6)
+        # thinned by extrema, the filled part keeps every peak above the threshold
+        time, thinned = thin(record.time, values)
+        for sign in signs:
+            exceeds = sign * thinned >= level
+            axis.fill_between(time, sign * level, thinned, where=exceeds, interpolate=True, color=ACCENT, linewidth=0.6, zorder=3)
+        peak = values[round((m.time_of_pga_s - record.offset_s) / record.dt)]
+        axis.plot([m.time_of_pga_s], [peak], "o", ms=4, mfc="white", mec="black", zorder=4)
+        axis.set_ylim(-reach, reach)
+        _note(axis, f"{part.code}   PGA {m.pga_m_s2 / unit:.4g} {name};  {m.duration.total_s:.3g} s beyond {level:.4g} {name}")
+    label(axes[len(axes) // 2], y=f"a ({name})")
+
+
+def _draw_velocities(axes: list[Axes], record: Record, parts: list[Component], answer: RecordMeasures, *, gal: bool) -> None:
+    """Draw the velocities of the baseline of the PGV, on one scale."""
+    unit, name = (KINE, "kine") if gal else (1.0, "m/s")
+    reach = 1.15 * max(m.pgv_m_s for m in answer.components) / unit or 1.0
+    for axis, part, m in zip(axes, parts, answer.components, strict=True):
+        history = ground_history(part.acceleration, record.dt, highpass_hz=answer.conventions.velocity_highpass_hz)
+        curve(axis, record.time, history.velocity / unit, color="0.2", linewidth=0.7)
+        axis.set_ylim(-reach, reach)
+        _note(axis, f"{part.code}   PGV {m.pgv_m_s / unit:.4g} {name}")
+    label(axes[len(axes) // 2], y=f"v ({name})")
+
+
+def _draw_fourier(axis: Axes, record: Record, parts: list[Component], smoothing_hz: float, *, gal: bool) -> None:
+    """Draw the smoothed Fourier amplitudes from 0.1 Hz to 30 Hz or half the sampling rate."""
+    unit, name = (GAL, "gal s") if gal else (1.0, "m/s")
+    for part, (colour, dashes) in zip(parts, _styles(len(parts)), strict=True):
+        frequency, amplitude = fourier_amplitude(part.acceleration, record.dt, smoothing_hz=smoothing_hz)
+        shown = (frequency >= 0.1) & (frequency <= min(0.5 / record.dt, 30.0))
+        axis.plot(frequency[shown], amplitude[shown] / unit, color=colour, linestyle=dashes, linewidth=1.0, label=part.code)
+    _logarithmic(axis)
+    label(axis, x="f (Hz)", y=f"|A| ({name})")
+    axis.set_title(f"Fourier amplitude, Parzen {smoothing_hz:g} Hz", fontsize=8, loc="left")
+    legend(axis, loc="lower center")
+
+
+def _draw_response(axis: Axes, record: Record, parts: list[Component], *, gal: bool) -> None:
+    """Draw the absolute acceleration response."""
+    unit, name = (GAL, "gal") if gal else (1.0, "m/s²")
+    for part, (colour, dashes) in zip(parts, _styles(len(parts)), strict=True):
+        spectrum = response_spectrum(part.acceleration, record.dt)
+        axis.plot(spectrum.period_s, spectrum.sa_m_s2 / unit, color=colour, linestyle=dashes, linewidth=1.0, label=part.code)
+    _logarithmic(axis)
+    label(axis, x="T (s)", y=f"$S_A$ ({name})")
+    axis.set_title(f"Response spectrum, damping {100 * DAMPING:g} %", fontsize=8, loc="left")
+    legend(axis, loc="lower center")
+
+
+def _styles(count: int) -> list[tuple[str, object]]:
+    """Return a colour and dashes for each component."""
+    return [LINES[i % len(LINES)] for i in range(count)]
+
+
+def _logarithmic(axis: Axes) -> None:
+    """Use logarithmic axes where there is something positive to show; three decades of amplitude at most."""
+    highest = max((float(np.max(line.get_ydata(), initial=0.0)) for line in axis.get_lines()), default=0.0)
+    axis.set_xscale("log")
+    if highest > 0:
+        axis.set_yscale("log")
+        axis.set_ylim(max(highest * 1e-3, _lowest(axis)) * 0.8, highest * 1.6)
+    axis.xaxis.set_major_formatter("{x:g}")
+
+
+def _lowest(axis: Axes) -> float:
+    """Return the smallest positive value drawn."""
+    drawn: list[FloatArray] = [np.asarray(line.get_ydata()) for line in axis.get_lines()]
+    return min((float(values[values > 0].min()) for values in drawn if (values > 0).any()), default=0.0)
+
+
+def _note(axis: Axes, text: str) -> None:
+    """Write over a panel, out of the way of its curve."""
+    axis.set_title(text, fontsize=7.5, loc="left", pad=2.0)

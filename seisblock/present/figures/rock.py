@@ -1,0 +1,114 @@
+"""Rocking in pictures: ground motion, lean over alpha with impacts, and the phase plane."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from seisblock.present.figures import canvas
+from seisblock.present.text.rock import Rockings
+from seisblock.results import Response
+from seisblock.solvers.rock.outcome import RockOutcome
+from seisblock.units import GAL
+
+COLOURS = {"rocks to +x": "#f4d9c6", "rocks to -x": "#d5dcef", "beyond +alpha": "#e6b39a", "beyond -alpha": "#a9b6dd"}
+
+
+def figure(responses: Rockings, *, gal: bool = True) -> Figure:
+    """Return the figure: per component acceleration with its band, lean over alpha with impacts and phases, and the phase plane."""
+    n = len(responses)
+    made = Figure(figsize=(10.5, 0.5 + 3.4 * n), dpi=110, layout="constrained")
+    FigureCanvasAgg(made)
+    grid = made.add_gridspec(2 * n, 2, width_ratios=(2.6, 1.0))
+    for index, response in enumerate(responses):
+        above = made.add_subplot(grid[2 * index, 0])
+        below = made.add_subplot(grid[2 * index + 1, 0], sharex=above)
+        plane = made.add_subplot(grid[2 * index : 2 * index + 2, 1])
+        for axis in (above, below, plane):
+            canvas.dress(axis)
+        draw_ground(above, response, gal=gal)
+        draw_lean(below, response)
+        _draw_plane(plane, response)
+        above.set_xlim(*stretch(response))
+    return made
+
+
+def stretch(response: Response[RockOutcome]) -> tuple[float, float]:
+    """Return the stretch of time worth drawing."""
+    start = response.outcome.rocking_start_s
+    first, last = float(response.time[0]), float(response.time[-1])
+    if start is None:
+        return first, last
+    moving = [phase for phase in response.phases if phase.name != "rest"]
+    margin = 0.05 * (moving[-1].end_s - start) + 0.2
+    return max(first, start - margin), min(last, moving[-1].end_s + margin)
+
+
+def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> None:
+    """Draw the ground acceleration over the band within which the block rests."""
+    unit, name = (GAL, "gal") if gal else (1.0, "m/s²")
+    outcome, options = response.outcome, response.options
+    weight = 1.0 + response["vertical_acceleration"] / options["gravity_m_s2"]
+    right, left = (
+        arm / response.body.centre if not options["linear"] else alpha
+        for arm, alpha in zip(response.body.arms, response.body.slendernesses, strict=True)
+    )
+    g = options["gravity_m_s2"] / unit
+    band = f"rests within ± {'(g + a_v)' if options['vertical'] else 'g'} tan α"
+    axis.fill_between(response.time, -g * right * weight, g * left * weight, color="0.92", linewidth=0, label=band)
+    if not options["vertical"]:
+        canvas.threshold(axis, [-g * right, g * left])
+    canvas.curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
+    canvas.label(axis, y=f"a ({name})")
+    canvas.legend(axis)
+    e = f"e {outcome.restitution:.3f}" + ("; a 2 % change flips the verdict" if outcome.verdict_flips_within_2_percent else "")
+    axis.set_title(f"{response.motion.name}  {response.body.name}: α {outcome.slenderness_rad:.3f} rad, {e}", fontsize=9, loc="left")
+
+
+def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
+    """Draw the lean over alpha with its phases and impacts."""
+    ratio = response["rotation"] / response.outcome.slenderness_rad
+    canvas.shade(axis, _merged(response), COLOURS)
+    canvas.curve(axis, response.time, ratio, color=canvas.ACCENT)
+    canvas.threshold(axis, [-1.0, 1.0])
+    reach = float(np.abs(ratio).max())
+    limit = 1.6 if reach > 1.6 else max(1.15 * reach, 1e-3) if reach < 0.8 else 1.2
+    limit = max(limit, 1.15 * min(reach, 1.4))
+    axis.set_ylim(-limit, limit)
+    impacts = [event.time_s for event in response.events if event.name == "impact"]
+    axis.plot(impacts, np.full(len(impacts), -0.95 * limit), "|", color="0.2", markersize=5, markeredgewidth=0.6, label="impacts")
+    if response.outcome.overturned:
+        when = response.outcome.alpha_passed_s
+        if when is not None and when <= response.time[-1]:
+            axis.axvline(when, color=canvas.ACCENT, linewidth=0.8, linestyle=":", label="α passed for good")
+    canvas.label(axis, "t (s)", "θ/α")
+    canvas.legend(axis)
+
+
+def _merged(response: Response[RockOutcome]) -> list[Any]:
+    """Return the phases long enough to be seen, so that dying hops do not become thousands of bands."""
+    shortest = (response.time[-1] - response.time[0]) / 2000
+    return [phase for phase in response.phases if phase.duration_s > shortest]
+
+
+def _draw_plane(axis: Any, response: Response[RockOutcome]) -> None:
+    """Draw the phase plane: angular velocity over p against lean over alpha, with the separatrices of free rocking."""
+    outcome = response.outcome
+    alpha, p = outcome.slenderness_rad, outcome.frequency_parameter_rad_s
+    lean, rate = response["rotation"] / alpha, response["angular_velocity"] / (p * alpha)
+    u = np.linspace(0.0, 2.0, 60)
+    edge = np.abs(1 - u) if response.options["linear"] else 2 * np.abs(np.sin(alpha * (1 - u) / 2)) / alpha
+    for sign in (1, -1):
+        inward = np.where(u < 1, edge, -edge)
+        label = "edge of falling, unshaken" if sign > 0 else None
+        axis.plot(sign * u, sign * inward, color="0.3", linewidth=0.8, linestyle=(0, (4, 2)), label=label)
+    axis.plot(lean, rate, color=canvas.ACCENT, linewidth=0.7)
+    reach = min(max(float(np.abs(lean).max()) * 1.1, 0.2), 1.8)
+    high = max(float(np.abs(rate[np.abs(lean) <= reach]).max()) * 1.1, 0.2)
+    axis.set_xlim(-reach, reach)
+    axis.set_ylim(-high, high)
+    canvas.label(axis, "θ/α", "θ'/(p α)")
+    canvas.legend(axis)

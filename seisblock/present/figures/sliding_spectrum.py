@@ -1,0 +1,22 @@
+"""A sliding spectrum in pictures: largest slip against friction."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from seisblock.present.figures import canvas
+from seisblock.present.text.sliding_spectrum import Curves
+
+
+def figure(curves: Curves) -> Figure:
+    """Return the figure: largest slip against friction, a curve per component."""
+    made, (axis,) = canvas.new_figure(1, height=4.0)
+    for index, (motion, points) in enumerate(curves):
+        style = (canvas.ACCENT, canvas.SECOND, "0.3")[index % 3], ("-", (0, (5, 1.5)), (0, (1.2, 1.2)))[index % 3]
+        slips = [p.max_slip_m or np.nan for p in points]
+        axis.plot([p.mu for p in points], slips, color=style[0], linestyle=style[1], linewidth=1.2, label=motion.name or "x")
+    axis.set_yscale("log")
+    canvas.label(axis, "μ", "largest slip (m)")
+    canvas.legend(axis)
+    return made

@@ -1,0 +1,146 @@
+"""Uplift under a record in pictures: motion, corners and plan."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from seisblock.bodies.spring_block import CORNERS
+from seisblock.present.figures import canvas
+from seisblock.results import Phase, Response
+
+if TYPE_CHECKING:
+    from seisblock.solvers.uplift.solve import UpliftOutcome
+
+COLOURS = (canvas.ACCENT, canvas.SECOND, "#2e7d4f", "#8a6d1f", "#6b4c8a", "0.25")
+LIFTED = canvas.BANDS[0]
+
+
+def record_figure(responses: Sequence[Response[UpliftOutcome]]) -> Figure:
+    """Return ground motion, four corner displacements with uplift shaded, and a plan of which corner lifted when."""
+    columns = len(responses)
+    made, axes = canvas.new_figure(
+        6, columns=columns, width=3.0 + 5.0 * columns, height=12.0, sharex=False, gridspec_kw={"height_ratios": [1.3, 1, 1, 1, 1, 2.6]}
+    )
+    for index, response in enumerate(responses):
+        panels = [axes[row * columns + index] for row in range(6)]
+        _motion(panels[0], response)
+        for i, panel in enumerate(panels[1:5]):
+            panel.sharex(panels[0])
+            panel.sharey(panels[1])
+            _corner(panel, response, i)
+        for panel in panels[:4]:
+            panel.tick_params(labelbottom=False)
+        canvas.label(panels[4], x="t (s)")
+        start, end = _span(response)
+        panels[0].set_xlim(start, end)
+        _plan(panels[5], response, start, end)
+    return made
+
+
+def _span(response: Response[UpliftOutcome]) -> tuple[float, float]:
+    """Return the stretch of time worth drawing: all of it, or the uplifts with as much again around them."""
+    start, end = float(response.motion.time[0]), float(response.motion.time[-1])
+    if not response.events:
+        return start, end
+    first, last = response.events[0].time_s, response.events[-1].time_s
+    margin = max(0.5 * (last - first), 1.0)
+    return max(start, first - margin), min(end, last + margin)
+
+
+def _motion(panel: Axes, response: Response[UpliftOutcome]) -> None:
+    """Draw the three components of the ground motion."""
+    motion = response.motion
+    for values, name, style in zip(motion.acceleration, ("along +x", "across", "up"), ("0.2", "0.55", canvas.SECOND), strict=True):
+        if np.any(values):
+            canvas.curve(panel, motion.time, values, color=style, label=name, linewidth=0.7)
+    canvas.label(panel, y="a (m/s²)")
+    canvas.legend(panel)
+    panel.set_title(f"+x = {motion.name or 'along'}: {_size(response)}", fontsize=9, loc="left")
+
+
+def _size(response: Response[UpliftOutcome]) -> str:
+    """Return the block in words."""
+    body = response.body
+    return f"{body.width:g} × {body.depth:g} × {body.height:g} m, {body.omega[2] / 2 / np.pi:.3g} Hz vertical"
+
+
+def _corner(panel: Axes, response: Response[UpliftOutcome], i: int) -> None:
+    """Draw the displacement of one corner, its uplift shaded."""
+    corner = response.outcome.corners[i]
+    canvas.curve(panel, response.time, response[f"uplift_{i + 1}"] * 1e3, color=canvas.ACCENT)
+    panel.axhline(0.0, color=canvas.THRESHOLD, linewidth=0.6)
+    canvas.shade(panel, _in_air(response, i), {"in the air": LIFTED})
+    canvas.label(panel, y=f"$u_{i + 1}$ (mm)")
+    sx, sy = ("+" if sign > 0 else "−" for sign in CORNERS[i])
+    told = f"first at {corner.first_uplift_s:.3f} s, highest {corner.max_uplift_m * 1e3:.3g} mm" if corner.uplifts else "never lifts"
+    panel.set_title(f"corner {i + 1} ({sx}x, {sy}y): {told}", fontsize=8, loc="left", pad=2)
+
+
+def _in_air(response: Response[UpliftOutcome], i: int) -> list[Phase]:
+    """Return the stretches in which a corner is in the air."""
+    stretches: list[Phase] = []
+    start = None
+    for event in response.events:
+        if event.name == f"corner {i + 1} lifts":
+            start = event.time_s
+        elif event.name == f"corner {i + 1} lands" and start is not None:
+            stretches.append(Phase("in the air", start, event.time_s))
+            start = None
+    if start is not None:
+        stretches.append(Phase("in the air", start, float(response.time[-1])))
+    return stretches
+
+
+def _plan(panel: Axes, response: Response[UpliftOutcome], start: float, end: float) -> None:
+    """Draw the base from above; at each corner a time line of when it was in the air."""
+    body, outcome = response.body, response.outcome
+    half_a, half_b = body.width / 2, body.depth / 2
+    panel.grid(False)
+    panel.set_aspect("equal")
+    panel.add_patch(_rectangle((-half_a, -half_b), body.width, body.depth, facecolor="0.96", edgecolor="0.3"))
+    length, tall = 1.1 * body.width, 0.11 * body.depth
+    for i, (sx, sy) in enumerate(CORNERS):
+        corner = outcome.corners[i]
+        x, y = sx * half_a, sy * half_b
+        first = outcome.corner == i + 1
+        panel.plot(
+            x,
+            y,
+            "o",
+            markersize=11 if corner.uplifts else 7,
+            color=canvas.ACCENT if corner.uplifts else "0.7",
+            markeredgecolor="0.1" if first else "none",
+            markeredgewidth=1.8,
+        )
+        panel.annotate(f"{i + 1}", (x - sx * 0.13 * body.width, y - sy * 0.13 * body.depth), ha="center", va="center", fontsize=9)
+        left = x + 0.1 * body.width if sx > 0 else x - 0.1 * body.width - length
+        panel.add_patch(_rectangle((left, y - tall / 2), length, tall, facecolor="white", edgecolor="0.6", linewidth=0.6))
+        for stretch in _in_air(response, i):
+            wide = max((stretch.end_s - stretch.start_s) / (end - start) * length, 0.002 * length)
+            panel.add_patch(
+                _rectangle(
+                    (left + (stretch.start_s - start) / (end - start) * length, y - tall / 2),
+                    wide,
+                    tall,
+                    facecolor=canvas.ACCENT,
+                    linewidth=0,
+                )
+            )
+        told = f"{corner.uplift_duration_s:.2f} s in the air" if corner.uplifts else "never lifts"
+        panel.annotate(told + (", the first" if first else ""), (left, y + tall), fontsize=7, va="bottom")
+    reach = half_a + 1.3 * body.width
+    panel.set_xlim(-reach, reach)
+    panel.set_ylim(-half_b - 0.35 * body.depth, half_b + 0.35 * body.depth)
+    panel.set_title(f"plan: when each corner was in the air, {start:.4g} to {end:.4g} s", fontsize=8, loc="left")
+    canvas.label(panel, x="x (m)", y="y (m)")
+
+
+def _rectangle(corner: tuple[float, float], width: float, height: float, **style: Any) -> Any:
+    """Return a rectangle."""
+    return Rectangle(corner, width, height, **style)

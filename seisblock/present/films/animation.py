@@ -1,0 +1,206 @@
+"""Animations: pictures on one stage, written as .gif, .mp4 or one .html file that needs nothing else."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import shutil
+import subprocess
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from seisblock.errors import OutputError
+from seisblock.present.files import replacing
+
+FRAMES_PER_SECOND = 20
+"""Default rate; a .gif counts in hundredths of a second, so 20, 25 and 50 play at true speed."""
+
+MOST_FRAMES = 1200
+"""A longer answer plays faster than it was, rather than filling the disk."""
+
+Progress = Callable[[int, int], None]
+"""Called with the number of pictures drawn and of all."""
+
+
+@dataclass(frozen=True)
+class Filming:
+    """How an animation is wanted.
+
+    Parameters
+    ----------
+    slow : float
+        How many times slower than life it plays.
+    lang : "en" or "ja"
+    progress : callable
+    """
+
+    slow: float = 1.0
+    lang: str = "en"
+    progress: Progress | None = None
+
+
+REAL_TIME = Filming()
+"""As fast as life, in English."""
+
+SUFFIXES = (".gif", ".mp4", ".html")
+
+
+def stage(figure: Figure, moving: Sequence[Any], draw: Callable[[int], None], count: int) -> Iterator[Image.Image]:
+    """Yield the pictures of a figure of which only some artists move.
+
+    Parameters
+    ----------
+    figure : Figure
+        Everything but `moving` is drawn once.
+    moving : sequence of artists
+        Drawn anew in each picture, in this order; each must belong to an axis or to the figure.
+    draw : callable
+        ``draw(i)`` sets the moving artists to picture i.
+    count : int
+    """
+    canvas = FigureCanvasAgg(figure)
+    for artist in moving:
+        artist.set_animated(True)
+    canvas.draw()
+    empty = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
+    for index in range(count):
+        draw(index)
+        canvas.restore_region(empty)  # type: ignore[no-untyped-call]
+        for artist in moving:
+            artist.draw(canvas.renderer)
+        yield Image.frombuffer("RGBA", canvas.get_width_height(), bytes(canvas.buffer_rgba())).convert("RGB")
+
+
+def frame_times(first: float, last: float, fps: int = FRAMES_PER_SECOND, *, slow: float = 1.0) -> tuple[list[float], float]:
+    """Return the times of the pictures of a stretch, s, and how many times faster than life it plays (0.25: four times slower)."""
+    speed = 1.0 / slow
+    count = max(round((last - first) * fps / speed) + 1, 2)
+    while count > MOST_FRAMES:
+        speed *= 2
+        count = max(round((last - first) * fps / speed) + 1, 2)
+    return [first + (last - first) * i / (count - 1) for i in range(count)], speed
+
+
+def animate(frames: Iterable[Image.Image], path: Path | str, *, fps: int = FRAMES_PER_SECOND) -> None:
+    """Write pictures as an animation, whole or not at all; the suffix decides the format.
+
+    Parameters
+    ----------
+    frames : iterable of RGB images of one size
+    path : path
+        ``.gif`` (plays anywhere), ``.mp4`` (needs ffmpeg), or ``.html`` (one file with its own player).
+    fps : int
+        Pictures per second.
+
+    Raises
+    ------
+    OutputError
+        If the suffix is another, ffmpeg is missing for .mp4, or the file cannot be written.
+    """
+    target = Path(path)
+    writers = {".gif": _write_gif, ".mp4": _write_mp4, ".html": _write_html}
+    writer = writers.get(target.suffix.lower())
+    if writer is None:
+        raise OutputError(f"cannot animate {target}: the name must end in {', '.join(SUFFIXES)}")
+    with replacing(target) as temporary:
+        writer(frames, temporary, fps)
+
+
+def _write_gif(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
+    """Write a GIF that repeats; one palette, from the first, the middle and the last picture, serves all."""
+    pictures = list(frames)
+    width, height = pictures[0].size
+    several = Image.new("RGB", (width, 3 * height))
+    for row, index in enumerate((0, len(pictures) // 2, -1)):
+        several.paste(pictures[index], (0, row * height))
+    palette = several.quantize(128, method=Image.Quantize.MEDIANCUT)
+    mapped = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
+    mapped[0].save(path, format="GIF", save_all=True, append_images=mapped[1:], duration=round(100 / fps) * 10, loop=0, optimize=False)
+
+
+def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
+    """Pipe the pictures through ffmpeg."""
+    program = shutil.which("ffmpeg")
+    if program is None:
+        raise OutputError(f"cannot write {path.suffix}: ffmpeg is not installed; write a .gif or a .html instead")
+    pictures = iter(frames)
+    first = next(pictures)
+    width, height = (size - size % 2 for size in first.size)
+    command = [
+        program,
+        "-y",
+        "-loglevel",
+        "error",
+        "-f",
+        "rawvideo",
+        "-pix_fmt",
+        "rgb24",
+        "-s",
+        f"{width}x{height}",
+        "-r",
+        str(fps),
+        "-i",
+        "-",
+        "-an",
+        "-c:v",
+        "libx264",
+        "-pix_fmt",
+        "yuv420p",
+        "-f",
+        "mp4",
+        str(path),
+    ]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdin is not None and process.stderr is not None
+        try:
+            for picture in (first, *pictures):
+                process.stdin.write(picture.crop((0, 0, width, height)).tobytes())
+            process.stdin.close()
+        except BrokenPipeError:
+            pass
+        said = process.stderr.read().decode(errors="replace").strip()
+        if process.wait() != 0:
+            raise OutputError(f"ffmpeg could not write the animation: {said or 'no reason given'}; write a .gif or a .html instead")
+
+
+def _write_html(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
+    """Write one page that holds the pictures and a player: play, pause, slide, step with the arrow keys."""
+    pictures = []
+    size = (1, 1)
+    for frame in frames:
+        held = io.BytesIO()
+        frame.quantize(64, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(held, format="PNG")
+        pictures.append(base64.b64encode(held.getvalue()).decode("ascii"))
+        size = frame.size
+    page = _PAGE.replace("@WIDTH", str(size[0])).replace("@FPS", str(fps)).replace("@LAST", str(len(pictures) - 1))
+    path.write_text(page.replace("@PICTURES", json.dumps(pictures)), encoding="utf-8")
+
+
+_PAGE = """<!doctype html>
+<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>seisblock</title>
+<style>body{font:14px system-ui,sans-serif;margin:1em auto;padding:0 .8em;max-width:@WIDTHpx}
+img{width:100%}div{display:flex;gap:.6em}input{flex:1}</style>
+<img id="picture" alt="animation">
+<div><button id="play">pause</button><input id="at" type="range" min="0" max="@LAST" value="0"></div>
+<script>
+const pictures = @PICTURES, fps = @FPS;
+const image = document.getElementById("picture"), at = document.getElementById("at"), play = document.getElementById("play");
+let timer = null;
+function show(i) { at.value = i; image.src = "data:image/png;base64," + pictures[i]; }
+function step(by) { show((+at.value + by + pictures.length) % pictures.length); }
+function run(on) {
+  clearInterval(timer); timer = on ? setInterval(() => step(1), 1000 / fps) : null; play.textContent = on ? "pause" : "play";
+}
+play.onclick = () => run(!timer);
+at.oninput = () => { run(false); show(+at.value); };
+document.onkeydown = e => { if (e.key == "ArrowRight") { run(false); step(1); } if (e.key == "ArrowLeft") { run(false); step(-1); } };
+show(0); run(true);
+</script></html>
+"""

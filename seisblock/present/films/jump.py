@@ -1,0 +1,84 @@
+"""The jump as a film: the pavilion on its shaking ground, the path of its feet enlarged, the record below."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.present.figures.jump import COLOURS
+from seisblock.present.films.animation import Filming
+from seisblock.present.films.film import Body, Box, Film, Piece, Strip, Trail, at, ground_shift, rectangle, stretch
+from seisblock.present.films.projector import animate_film
+from seisblock.results import Response
+from seisblock.solvers.jump.solve import JumpOutcome
+from seisblock.typing import FloatArray
+
+PEDESTAL = 0.06
+"""Half width of the stone under each foot, a share of the block's width."""
+
+
+def animate_jump(response: Response[JumpOutcome], path: Path | str, filming: Filming) -> None:
+    """Write the film of a jump, see :func:`seisblock.present.films.projector.animate_film`."""
+    span = stretch(response.phases, COLOURS, float(response.motion.time[0]), float(response.motion.time[-1]))
+    animate_film(lambda times: jump_film(response, times), span, path, filming)
+
+
+def jump_film(response: Response[JumpOutcome], times: FloatArray) -> Film:
+    """Return the film of a jump for the times of its pictures, (n,), s."""
+    block: TwoLayerBlock = response.body
+    motion, drop = response.motion, float(response.options["drop_m"])
+    x, z, turn = (at(times, response.time, response[name]) for name in ("x_G", "y_G", "theta"))
+    body = Body(_pieces(block), x, z, turn)
+    half, below = block.width / 2, -block.centroid_height
+    feet = [body.path(np.array([side * half, below])) for side in (-1.0, 1.0)]
+    trails = tuple(Trail(name, *foot, colour) for name, foot, colour in zip(("left foot", "right foot"), feet, FEET, strict=True))
+    rise = (response["y_G"] - block.centroid_height) * 1e3
+    level = response.outcome.rocking_threshold_m_s2 * 100.0
+    return Film(
+        title=f"{motion.name}  {block.name}: {response.outcome.outcome}",
+        time=times,
+        shift=ground_shift(motion, times),
+        bodies=(body,),
+        floors=tuple(_floors(block, drop, float(np.abs(x).max()))),
+        trails=trails,
+        strips=(
+            Strip("a (gal)", motion.time, motion.horizontal * 100.0, (-level, level), "#737373"),
+            Strip("θ (deg)", response.time, np.degrees(response["theta"])),
+            Strip("rise of G (mm)", response.time, rise),
+        ),
+        phases=response.phases,
+        colours=COLOURS,
+        close=_close(feet, float(x[-1]), drop),
+    )
+
+
+FEET = ("#1f5a8c", "#c0392b")
+"""Colours of the paths of the left and the right foot."""
+
+
+def _pieces(block: TwoLayerBlock) -> tuple[Piece, ...]:
+    """Return both layers about the centroid."""
+    half, down = block.width / 2, block.centroid_height
+    lower = rectangle(-half, half, -down, block.lower_height - down)
+    upper = rectangle(-half, half, block.lower_height - down, block.height - down)
+    return Piece(lower, "#efe9dc"), Piece(upper, "#b5a58a")
+
+
+def _floors(block: TwoLayerBlock, drop: float, reach: float) -> list[FloatArray]:
+    """Return the ground, and when the block stands above it the stones under its feet."""
+    wide, deep = 4.0 * (block.width + reach) + 2.0, block.height
+    ground = rectangle(-wide, wide, -drop - deep, -drop)
+    if drop == 0.0:
+        return [ground]
+    half, stone = block.width / 2, PEDESTAL * block.width
+    return [ground, *(rectangle(side * half - stone, side * half + stone, -drop, 0.0) for side in (-1.0, 1.0))]
+
+
+def _close(feet: list[tuple[FloatArray, FloatArray]], moved: float, drop: float) -> Box:
+    """Return the window about the path of the foot towards which the block goes."""
+    x, z = feet[1] if moved >= 0.0 else feet[0]
+    size = 1.2 * max(float(np.ptp(x)), float(np.ptp(z)), 0.02)
+    middle_x, middle_z = (float(np.min(v) + np.max(v)) / 2 for v in (x, z))
+    return middle_x - size / 2, middle_x + size / 2, middle_z - 0.55 * size, middle_z + 0.45 * size

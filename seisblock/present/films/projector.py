@@ -1,0 +1,49 @@
+"""The projector: from a film to a file, pictures or a page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from seisblock.errors import OutputError
+from seisblock.present.files import write_text
+from seisblock.present.films import animation
+from seisblock.present.films.animation import Filming
+from seisblock.present.films.film import Build
+from seisblock.present.films.frames import film_frames
+from seisblock.present.films.page import film_page
+
+PAGE_RATE, MOST_MOMENTS = 250.0, 12000
+"""Moments a second that a page holds, so that slow motion stays smooth, and at most how many."""
+
+
+def animate_film(build: Build, span: tuple[float, float], path: Path | str, filming: Filming) -> None:
+    """Write a film; the suffix decides the format.
+
+    Parameters
+    ----------
+    build : callable
+        Returns the film for the times of its pictures.
+    span : (float, float), s
+        First and last time shown.
+    path : path
+        ``.gif``, ``.mp4`` (needs ffmpeg), or ``.html`` (one page that draws the film itself, at any size and speed).
+    filming : Filming
+        Speed, language, progress.
+
+    Raises
+    ------
+    OutputError
+        If the suffix is another, ffmpeg is missing for .mp4, or the file cannot be written.
+    """
+    target = Path(path)
+    if target.suffix.lower() not in animation.SUFFIXES:
+        raise OutputError(f"cannot animate {target}: the name must end in {', '.join(animation.SUFFIXES)}")
+    if target.suffix.lower() == ".html":
+        count = int(min(max((span[1] - span[0]) * PAGE_RATE, 2), MOST_MOMENTS)) + 1
+        write_text(target, film_page(build(np.linspace(*span, count)), filming))
+        return
+    times, speed = animation.frame_times(*span, slow=filming.slow)
+    film = build(np.asarray(times))
+    animation.animate(film_frames(film, speed, filming), target)

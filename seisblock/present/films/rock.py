@@ -1,0 +1,96 @@
+"""The block rocking on its shaking ground, with the record running below."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.present.figures.rock import COLOURS, stretch
+from seisblock.present.films.animation import REAL_TIME, Filming
+from seisblock.present.films.film import Body, Film, Piece, Strip, at, ground_shift, rectangle, turned
+from seisblock.present.films.projector import animate_film
+from seisblock.results import Response
+from seisblock.solvers.rock.outcome import RockOutcome
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.typing import FloatArray
+
+
+def animate_rocking(response: Response[RockOutcome], path: Path | str, filming: Filming = REAL_TIME) -> None:
+    """Draw a rocking block, true to scale and, unless told otherwise, in real time.
+
+    Parameters
+    ----------
+    response : Response
+        Of :func:`~seisblock.solvers.rock.solve.solve_rock`.
+    path : path
+        ``.gif``, ``.mp4`` or ``.html``.
+    filming : Filming
+        Speed, language, progress.
+    """
+    animate_film(lambda times: rocking_film(response, times), stretch(response), path, filming)
+
+
+def rocking_film(response: Response[RockOutcome], times: FloatArray) -> Film:
+    """Return the film of a rocking block for the times of its pictures, (n,), s."""
+    block: Block = response.body
+    motion, outcome = response.motion, response.outcome
+    lean = at(times, response.time, response["rotation"])
+    origins = np.array([corners(block, float(theta))[0] for theta in lean])
+    outline = corners(block, 0.0)
+    level = outcome.threshold_m_s2 * 100.0
+    alpha = math.degrees(outcome.slenderness_rad)
+    wide = 4.0 * math.hypot(block.width, block.height)
+    return Film(
+        title=f"{motion.name}  {block.name}: {'overturns' if outcome.overturned else 'stands'}",
+        time=times,
+        shift=ground_shift(motion, times),
+        bodies=(Body((Piece(outline - outline[0]),), origins[:, 0], origins[:, 1], lean),),
+        floors=(rectangle(-wide, wide, -block.height, 0.0),),
+        strips=(
+            Strip("a (gal)", motion.time, motion.horizontal * 100.0, (-level, level), "#737373"),
+            Strip("θ (deg)", response.time, np.degrees(response["rotation"]), (-alpha, alpha)),
+        ),
+        phases=response.phases,
+        colours=COLOURS,
+    )
+
+
+def to_the_end(response: Response[RockOutcome]) -> Response[RockOutcome]:
+    """Return the response with the fall that follows the record, when the block overturns only then."""
+    outcome, motion, options = response.outcome, response.motion, response.options
+    if not (outcome.decided_after_record and outcome.overturning_time_s is not None):
+        return response
+    still = math.ceil((outcome.overturning_time_s - response.time[-1]) / motion.dt) + 2
+    longer = replace(motion, acceleration=np.pad(motion.acceleration, ((0, 0), (0, still))))
+    return solve_rock(
+        longer,
+        response.body,
+        restitution=options["restitution"],
+        linear=options["linear"],
+        vertical=options["vertical"],
+        gravity=options["gravity_m_s2"],
+        initial=(float(response["rotation"][0]), float(response["angular_velocity"][0])),
+    )
+
+
+def corners(block: Block, theta: float) -> FloatArray:
+    """Return the corners of the leaning block, (4, 2), m, from the middle of its base at rest."""
+    half = block.width / 2
+    at_rest = np.array([[-half, 0.0], [half, 0.0], [half, block.height], [-half, block.height]])
+    return _turned(at_rest, block, theta)
+
+
+def centre_of(block: Block, theta: float) -> tuple[float, float]:
+    """Return where the centre of gravity of the leaning block is, m."""
+    x, z = _turned(np.array([[block.centroid_offset, block.centre]]), block, theta)[0]
+    return float(x), float(z)
+
+
+def _turned(points: FloatArray, block: Block, theta: float) -> FloatArray:
+    """Turn points about the corner in contact: the right one when the lean is positive."""
+    pivot = np.array([math.copysign(block.width / 2, theta), 0.0])
+    return turned(points - pivot, theta) + pivot

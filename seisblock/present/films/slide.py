@@ -1,0 +1,79 @@
+"""Sliding as a film: the object on its shaking base, level or sloping, with the record and the slip below."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.present.figures.slide import COLOURS
+from seisblock.present.films.animation import Filming
+from seisblock.present.films.film import Body, Film, Piece, Strip, Trail, at, ground_shift, rectangle, stretch
+from seisblock.present.films.projector import animate_film
+from seisblock.present.text.slide import setting
+from seisblock.results import Response
+from seisblock.solvers.slide.solve import SlideOutcome
+from seisblock.typing import FloatArray
+
+SMALLEST = 0.05
+"""Least width at which the object is drawn, m: the model gives it none, so it is drawn half as wide as it slides far."""
+
+
+def animate_slide(response: Response[SlideOutcome], path: Path | str, filming: Filming) -> None:
+    """Write the film of a slide, see :func:`seisblock.present.films.projector.animate_film`."""
+    span = stretch(response.phases, COLOURS, float(response.motion.time[0]), float(response.motion.time[-1]))
+    animate_film(lambda times: slide_film(response, times), span, path, filming)
+
+
+def slide_film(response: Response[SlideOutcome], times: FloatArray) -> Film:
+    """Return the film of a slide for the times of its pictures, (n,), s."""
+    base: SlidingBase = response.body
+    motion = response.motion
+    slip = at(times, response.time, response["relative_displacement"])
+    x, z, turn = place(base, slip)
+    size = max(0.5 * float(np.ptp(slip)), SMALLEST)
+    block = Piece(rectangle(-size, size, 0.0, 1.2 * size), "#b5a58a")
+    gal = motion.horizontal * 100.0
+    limit = base.mu * float(response.options["gravity_m_s2"]) * 100.0
+    level = not base.slope_deg and not response.options["vertical_scale"]
+    return Film(
+        title=f"{motion.name}  {setting(response)}",
+        time=times,
+        shift=ground_shift(motion, times),
+        bodies=(Body((block,), x, z, turn),),
+        floors=(_floor(base, float(np.abs(slip).max()) + 4.0 * size),),
+        trails=(Trail("object", x, z),),
+        strips=(
+            Strip("a (gal)", motion.time, gal, (-limit, limit) if level else (), "#737373"),
+            Strip("x − z (mm)", response.time, response["relative_displacement"] * 1e3),
+        ),
+        phases=response.phases,
+        colours=COLOURS,
+    )
+
+
+def place(base: SlidingBase, slip: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return where an object is that has slid so far along its base: x, z, m, and its turn, rad, (n,).
+
+    Downhill is +x on a positive slope; beyond the foot of the slope the path is level.
+    """
+    down = math.copysign(1.0, base.slope_deg)
+    angle = abs(base.angle)
+    foot = math.inf if base.slope_length is None else base.slope_length
+    on_slope = np.minimum(down * slip, foot)
+    beyond = down * slip - on_slope
+    x = down * (on_slope * math.cos(angle) + beyond)
+    return x, -on_slope * math.sin(angle), np.where(beyond > 0.0, 0.0, base.angle)
+
+
+def _floor(base: SlidingBase, reach: float) -> FloatArray:
+    """Return the outline of the base, as far as the object gets and further."""
+    down = math.copysign(1.0, base.slope_deg)
+    ends = [-down * 3.0 * reach, *([] if base.slope_length is None else [down * base.slope_length]), down * 3.0 * reach]
+    if base.slope_length is not None:
+        ends[-1] = down * (base.slope_length + 3.0 * reach)
+    x, z, _ = place(base, np.array(ends))
+    deep = float(z.min()) - 2.0 * reach
+    return np.array([*zip(x, z, strict=True), (x[-1], deep), (x[0], deep)])

@@ -1,0 +1,97 @@
+"""How inferred shaking is told: a table of estimates and their contour as columns, or the factors on records."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from rich.text import Text
+
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, table
+from seisblock.records import Record
+from seisblock.studies.inverse.estimate import Interval, ShakingEstimate
+from seisblock.units import GAL, KINE
+
+if TYPE_CHECKING:
+    from seisblock.studies.inverse.factors import ScaleFactors
+
+
+def estimate_tables(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, level: float) -> Iterator[Any]:
+    """Yield one table per group of stones: PGA, PGV, threshold H/B and JMA intensity at each frequency."""
+    speed, unit = (KINE, "kine") if gal else (1.0, "m/s")
+    head = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal)})", "", f"PGV ({unit})", "", "H/B", "JMA intensity")
+    for stones in dict.fromkeys(each.stones for each in estimates):
+        group = [each for each in estimates if each.stones == stones]
+        title = f"{name}, stones {stones}: {group[0].fallen} of {group[0].fallen + group[0].standing} fell"
+        rows = [
+            (
+                "0.5-3" if each.frequency_hz is None else f"{each.frequency_hz:.3g}",
+                acceleration(each.pga_m_s2, gal=gal),
+                _range(each.pga_interval_m_s2, GAL if gal else 1.0),
+                NOTHING if each.pgv_m_s is None else number(each.pgv_m_s / speed, 3),
+                _range(each.pgv_interval_m_s, speed),
+                NOTHING if each.threshold_ratio is None else f"{each.threshold_ratio:.2f}",
+                _intensity(each),
+            )
+            for each in group
+        ]
+        yield table(title, head, rows, caption=f"median and {100 * level:g} % interval; H/B: stones more slender than this fell")
+
+
+def _range(interval: Interval, unit: float) -> str:
+    """Return an interval, or a bound."""
+    low, high = interval
+    if low is None:
+        return NOTHING if high is None else f"< {number(high / unit, 3)}"
+    return f"> {number(low / unit, 3)}" if high is None else f"{number(low / unit, 3)}-{number(high / unit, 3)}"
+
+
+def _intensity(each: ShakingEstimate) -> str:
+    """Return the classes of the JMA intensity's interval and its middle."""
+    low, high = each.jma_classes
+    if low is None or high is None:
+        return f"at most {high}" if high else f"at least {low}"
+    classes = low if low == high else f"{low} to {high}"
+    return f"{classes} ({each.jma_intensity:.1f})"
+
+
+def estimate_columns(line: Sequence[ShakingEstimate]) -> tuple[list[str], list[list[Any]]]:
+    """Return the header and the rows of ``--csv``: the contour, SI."""
+    header = ["frequency_hz", "pga_low_m_s2", "pga_m_s2", "pga_high_m_s2", "pgv_low_m_s", "pgv_m_s", "pgv_high_m_s"]
+    rows = [[e.frequency_hz, *_around(e.pga_m_s2, e.pga_interval_m_s2), *_around(e.pgv_m_s, e.pgv_interval_m_s)] for e in line]
+    return header, rows
+
+
+def _around(middle: float | None, interval: Interval) -> tuple[float | None, float | None, float | None]:
+    """Return lower end, middle and upper end."""
+    return interval[0], middle, interval[1]
+
+
+def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool) -> Iterator[Any]:
+    """Yield the factors of each component as a table, and a sentence where there is none."""
+    shown: set[int] = set()
+    for record, each in found:
+        if id(record) not in shown:
+            shown.add(id(record))
+            yield record_line(record)
+        title = f"{each.component}: {each.observed_m:g} m; as recorded {number(each.displacement_at_1_m)} m"
+        if each.scale_factors:
+            rows = [
+                (f"{f.scale:.4f}", acceleration(f.pga_m_s2, gal=gal), number(f.displacement_m), "leaps across" if f.leaps else "")
+                for f in each.scale_factors
+            ]
+            yield table(title, ("factor", f"PGA ({acceleration_unit(gal=gal)})", "moved (m)", ""), rows)
+        else:
+            most = f"at most {number(each.largest_displacement_m)} m, at factor {each.largest_at_scale:g}"
+            yield Text(f"{title}; no factor up to {each.limit:g} moves it so far ({most})")
+
+
+def factor_columns(found: Sequence[tuple[Record, ScaleFactors]]) -> tuple[list[str], list[list[Any]]]:
+    """Return the header and the rows of ``--csv``: displacement against the factor, per record and component."""
+    header = ["record", "component", "scale", "pga_m_s2", "displacement_m"]
+    rows = [
+        [record.station or record.source, each.component, scale, scale * each.pga_m_s2, value]
+        for record, each in found
+        for scale, value in zip(*each.curve, strict=True)
+    ]
+    return header, rows

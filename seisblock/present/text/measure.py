@@ -1,0 +1,121 @@
+"""What the measures of a record look like: two tables and a sentence, and the histories as columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from rich.console import Group
+from rich.text import Text
+
+from seisblock.measures import RecordMeasures, ground_history
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, seconds, table
+from seisblock.records import Record
+from seisblock.records.process import pick
+from seisblock.units import KINE
+
+
+def measures_report(record: Record, answer: RecordMeasures, *, gal: bool) -> Iterator[Group | Text]:
+    """Yield what is printed for one record: which it is, its peaks, its frequencies and durations, its intensity.
+
+    Parameters
+    ----------
+    record, answer : Record, RecordMeasures
+    gal : bool
+        Accelerations in gal and velocities in kine, else SI.
+    """
+    yield record_line(record)
+    yield _peaks(answer, gal=gal)
+    yield _frequencies_and_durations(answer, gal=gal)
+    yield Text("\n".join(_sentences(answer, gal=gal)))
+
+
+def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
+    """Return the table of peaks and energies."""
+    a = acceleration_unit(gal=gal)
+    v, d, speed, length = ("kine", "cm", KINE, 0.01) if gal else ("m/s", "m", 1.0, 1.0)
+    corner = answer.conventions.velocity_highpass_hz
+    return table(
+        "Peaks and energy",
+        ("", f"PGA ({a})", "at (s)", f"PGV ({v})", f"PGD ({d})", "Arias (m/s)", "5-95 % (s)"),
+        [
+            (
+                m.component,
+                acceleration(m.pga_m_s2, gal=gal),
+                seconds(m.time_of_pga_s),
+                number(m.pgv_m_s / speed),
+                number(m.pgd_m / length),
+                number(m.arias_m_s),
+                seconds(m.significant_duration_s),
+            )
+            for m in answer.components
+        ],
+        caption=f"PGV, PGD: {f'high-pass {corner:g} Hz, ' if corner else 'no high-pass, '}mean velocity removed",
+    )
+
+
+def _frequencies_and_durations(answer: RecordMeasures, *, gal: bool) -> Group:
+    """Return the table of equivalent frequencies and of durations above the threshold."""
+    side = {"both": "|a|", "positive": "a", "negative": "-a"}[answer.conventions.threshold_side]
+    level = acceleration(answer.components[0].duration.threshold_m_s2, gal=gal) if answer.components else NOTHING
+    return table(
+        f"Equivalent frequency (Hz), and time with {side} above {level} {acceleration_unit(gal=gal)}",
+        ("", "PGA/2πPGV", "Fourier", "pulse", "total (s)", "longest (s)", "times"),
+        [
+            (
+                m.component,
+                number(m.equivalent_frequency_hz.pga_pgv),
+                number(m.equivalent_frequency_hz.fourier),
+                number(m.equivalent_frequency_hz.pulse_width) + ("?" if m.pulse_width_ambiguous else ""),
+                seconds(m.duration.total_s),
+                seconds(m.duration.longest_s),
+                str(m.duration.count),
+            )
+            for m in answer.components
+        ],
+        caption=f"Fourier: Parzen window {answer.conventions.fourier_smoothing_hz:g} Hz; pulse: the one with the PGA",
+    )
+
+
+def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
+    """Yield the intensity and the worst direction in words."""
+    if answer.jma_intensity is None:
+        yield "JMA intensity: none (it needs two horizontals and the vertical)"
+    else:
+        yield f"JMA intensity {answer.jma_intensity:.2f}, class {answer.jma_class}"
+    worst = answer.horizontal
+    if worst is not None:
+        towards = "" if worst.azimuth_deg is None else f" towards {worst.azimuth_deg:.0f}° (clockwise from north)"
+        size = f"{acceleration(worst.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)}"
+        yield f"Largest horizontal vector {size} at {seconds(worst.time_s)} s{towards}"
+
+
+def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) -> tuple[list[str], Iterator[list[Any]]]:
+    """Return the heading and the rows of a CSV file: time, then acceleration, velocity and displacement of each component.
+
+    Acceleration is as measured; velocity and displacement stand on the baseline of PGV and PGD. Several records stand one
+    below the other with their index in the first column.
+    """
+    several = len(records) > 1
+    codes = list(dict.fromkeys(m.component for answer in answers for m in answer.components))
+    quantities = ("acceleration_m_s2", "velocity_m_s", "displacement_m")
+    heading = [*(["record_index"] if several else []), "time_s", *(f"{code}_{name}" for code in codes for name in quantities)]
+    return heading, _history_rows(records, answers, codes, several=several)
+
+
+def _history_rows(
+    records: Sequence[Record], answers: Sequence[RecordMeasures], codes: Sequence[str], *, several: bool
+) -> Iterator[list[Any]]:
+    """Yield the rows of :func:`history_table`; a component that a record lacks stays empty."""
+    for index, (record, answer) in enumerate(zip(records, answers, strict=True)):
+        present = {m.component for m in answer.components}
+        columns: list[list[Any]] = [record.time.tolist()]
+        for code in codes:
+            if code not in present:
+                columns += [[""] * record.samples] * 3
+                continue
+            a = pick(record, code).acceleration
+            history = ground_history(a, record.dt, highpass_hz=answer.conventions.velocity_highpass_hz)
+            columns += [a.tolist(), history.velocity.tolist(), history.displacement.tolist()]
+        for row in zip(*columns, strict=True):
+            yield [*([index] if several else []), *row]

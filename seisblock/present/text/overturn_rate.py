@@ -1,0 +1,112 @@
+"""How an overturning rate is told: a table per record, a sentence on dowels, and the curve as columns of frequencies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from rich.text import Text
+
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, table
+from seisblock.records import Record
+from seisblock.studies.cemetery.judgement import CemeteryRate
+from seisblock.studies.cemetery.rate import CurvePoint
+
+CAPTION = "least H/B: of a stone that falls; %: interval of the rate that so few stones leave open (Clopper-Pearson)"
+
+SHOWN_EVERY = 1.0
+"""Step of the curve's rows in the table, m/s^2; the whole curve is in --json and --csv."""
+
+
+def tables(
+    cemetery: Cemetery,
+    groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]],
+    curve: Sequence[CurvePoint],
+    *,
+    gal: bool,
+    confidence: float,
+) -> Iterator[Any]:
+    """Yield what is printed: the results of each record or of bare numbers, else the curve.
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    groups : sequence of (Record or None, results)
+    curve : sequence of CurvePoint
+        Shown where there are no results.
+    gal : bool
+    confidence : float
+        Level of the intervals.
+    """
+    dowelled = int(cemetery.reinforced.sum())
+    title = f"{cemetery.name}: {cemetery.size} stones" + (f", {dowelled} reinforced" if dowelled else "")
+    for record, results in groups:
+        if record is not None:
+            yield record_line(record)
+        yield _rates(title, results, gal=gal, confidence=confidence)
+        yield from (Text(sentence) for sentence in _dowels(results))
+    if not groups:
+        yield _curve(title, curve, gal=gal)
+
+
+def _rates(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence: float) -> Any:
+    """Return the table of rates, one row per shaking."""
+    unit = acceleration_unit(gal=gal)
+    head = ("", f"PGA ({unit})", "f (Hz)", "least H/B", "fallen", "rate", f"{100 * confidence:g} %")
+    rows = [
+        (
+            _name(each),
+            acceleration(each.pga_m_s2, gal=gal),
+            number(each.equivalent_frequency_hz, 3),
+            _ratio(each),
+            f"{each.fallen} of {each.stones}",
+            f"{each.rate:.2f}",
+            "{:.2f}-{:.2f}".format(*each.rate_interval),
+        )
+        for each in results
+    ]
+    return table(title, head, rows, caption=CAPTION)
+
+
+def _name(each: CemeteryRate) -> str:
+    """Return what a row is called."""
+    return f"{each.component} ({each.of})" if each.of else each.component or ""
+
+
+def _ratio(each: CemeteryRate) -> str:
+    """Return the least H/B that falls: that of the criterion, else that of the stoutest stone that fell."""
+    value = each.least_overturned_ratio if each.threshold_ratio is None else each.threshold_ratio
+    return NOTHING if value is None else f"{value:.2f}"
+
+
+def _dowels(results: Sequence[CemeteryRate]) -> Iterator[str]:
+    """Yield what dowels would save, a sentence per shaking."""
+    for each in results:
+        after = each.reinforced
+        if after is None or each.of:
+            continue
+        where = f"{each.component}: " if each.component else f"{number(each.equivalent_frequency_hz, 3)} Hz: "
+        low, high = after.rate_interval
+        yield (
+            f"{where}with {after.reinforced_stones} stones reinforced {after.fallen} of {each.stones} fall, "
+            f"{after.stones_saved} fewer; rate {after.rate:.2f} ({low:.2f}-{high:.2f})"
+        )
+
+
+def _curve(title: str, curve: Sequence[CurvePoint], *, gal: bool) -> Any:
+    """Return the rate against PGA, a column per frequency."""
+    frequencies = list(dict.fromkeys(point.frequency_hz for point in curve))
+    rate = {(point.pga_m_s2, point.frequency_hz): point.rate for point in curve}
+    levels = [pga for pga in dict.fromkeys(point.pga_m_s2 for point in curve) if abs(pga / SHOWN_EVERY - round(pga / SHOWN_EVERY)) < 1e-9]
+    rows = [(acceleration(pga, gal=gal), *(f"{rate[pga, f]:.2f}" for f in frequencies)) for pga in levels]
+    return table(title, (f"PGA ({acceleration_unit(gal=gal)})", *(f"{f:g} Hz" for f in frequencies)), rows, caption="overturning rate")
+
+
+def curve_columns(curve: Sequence[CurvePoint], reinforced: Sequence[CurvePoint] | None) -> tuple[list[str], list[list[float]]]:
+    """Return the header and the rows of ``--csv``: PGA (m/s^2), frequency (Hz), rate, and the rate with more dowels where it is known."""
+    header = ["pga_m_s2", "frequency_hz", "rate"] + (["rate_reinforced"] if reinforced else [])
+    rows = [[p.pga_m_s2, p.frequency_hz, p.rate] for p in curve]
+    if reinforced:
+        rows = [[*row, point.rate] for row, point in zip(rows, reinforced, strict=True)]
+    return header, rows

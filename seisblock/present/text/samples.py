@@ -1,0 +1,100 @@
+"""The bundled files: what each is, on what terms, and copies of them."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.padding import Padding
+from rich.text import Text
+
+from seisblock.errors import OutputError, RecordNotFoundError
+from seisblock.present.files import replacing
+from seisblock.samples import Sample, list_samples, sample_directory
+
+NOTICE, NOTICE_OF_COPIES = "NOTICE", "seisblock-samples-NOTICE.txt"
+"""The file that holds the terms of what was written by others, and its name beside copies, with which it travels."""
+
+
+def chosen(names: Sequence[str]) -> list[Sample]:
+    """Return the samples of these file names, or names up to the first dot; all without a name.
+
+    Raises
+    ------
+    RecordNotFoundError
+        If there is no such sample; the message lists those there are.
+    """
+    every = list_samples()
+    found: dict[str, Sample] = {}
+    for name in names:
+        wanted = name.lower()
+        hits = [s for s in every if s.name.lower() == wanted] or [s for s in every if s.name.lower().split(".")[0] == wanted]
+        if not hits:
+            raise RecordNotFoundError(f"no bundled sample is called {name!r}; there are {', '.join(s.name for s in every)}")
+        found.update({sample.name: sample for sample in hits})
+    return list(found.values()) if names else list(every)
+
+
+def listing(samples: Sequence[Sample]) -> Iterator[Any]:
+    """Yield what is printed: name, kind and peaks; below it the description, the terms and the origin, the same origin once."""
+    told = ""
+    for sample in samples:
+        peaks = ", ".join(f"{code} {value:.0f}" for code, value in sample.pga_gal.items())
+        line = Text(sample.name, style="bold").append(f"  {sample.kind}", style="not bold dim")
+        yield line.append(f"  PGA {peaks} gal" if peaks else "", style="not bold")
+        origin = "origin: as above" if sample.origin == told else f"origin: {sample.origin}"
+        told = sample.origin
+        yield Padding(Text(sample.description), (0, 0, 0, 2))
+        yield Padding(Text(f"licence: {sample.licence}\n{origin}", style="dim"), (0, 0, 1, 2))
+
+
+def entries(samples: Sequence[Sample]) -> list[dict[str, Any]]:
+    """Return the samples for a document."""
+    return [
+        {
+            "name": s.name,
+            "kind": s.kind,
+            "description": s.description,
+            "origin": s.origin,
+            "licence": s.licence,
+            "sha256": s.sha256,
+            "pga_m_s2": {code: round(value / 100.0, 9) for code, value in s.pga_gal.items()},
+            "path": str(sample_directory() / s.name),
+        }
+        for s in samples
+    ]
+
+
+def copy_samples(samples: Sequence[Sample], directory: Path, *, overwrite: bool = False) -> list[Path]:
+    """Copy samples, and the notice of their terms, to a directory; return the files written.
+
+    A file that is there already with the same content stays; another content is refused before anything is written.
+
+    Raises
+    ------
+    OutputError
+        If the directory is a file, or a file of another content is in the way and `overwrite` is not set.
+    """
+    if directory.exists() and not directory.is_dir():
+        raise OutputError(f"cannot copy to {directory}: it is a file; give a directory")
+    names = [*((sample.name, sample.name) for sample in samples), (NOTICE, NOTICE_OF_COPIES)]
+    pairs = [(sample_directory() / name, directory / there) for name, there in names]
+    wanted = [(source, target) for source, target in pairs if not _same(source, target)]
+    blocked = [target.name for _, target in wanted if target.exists()]
+    if blocked and not overwrite:
+        raise OutputError(f"{directory} already holds another {', '.join(blocked)}: choose another directory, or say --overwrite")
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot make the directory {directory}: {error.strerror}") from error
+    for source, target in wanted:
+        with replacing(target) as temporary:
+            temporary.write_bytes(source.read_bytes())
+    return [target for _, target in wanted]
+
+
+def _same(source: Path, target: Path) -> bool:
+    """Whether a file is there with this content."""
+    return target.is_file() and hashlib.sha256(target.read_bytes()).digest() == hashlib.sha256(source.read_bytes()).digest()

@@ -1,0 +1,97 @@
+"""How a parameter study of sliding is told: pivot tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock.present.text.slide import millimetres
+from seisblock.present.text.tables import NOTHING, record_line, table
+from seisblock.records import Record
+from seisblock.studies.sliding import SlidePoint
+
+Points = Sequence[SlidePoint]
+
+
+SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": "μ kinetic", "slope_deg": "θ (deg)", "vertical_scale": "γ"}
+
+
+MOST_ROWS, MOST_COLUMNS = 60, 8
+PLANE = 8
+"""A study of slope and friction with at least so many values of each is drawn as fig. 16."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Which parameter runs along x, which makes the curves, and which are left for titles."""
+
+    x: str
+    curves: tuple[str, ...]
+
+    @classmethod
+    def of(cls, points: Points) -> Layout:
+        """Put the parameter with most values on x; of equals, the one that the paper's figures have there."""
+        kinetic = "kappa" if len({p.kappa for p in points}) <= len({p.mu_kinetic for p in points}) else "mu_kinetic"
+        counts = {name: len({getattr(p, name) for p in points}) for name in ("mu", "slope_deg", "vertical_scale", kinetic)}
+        x = max(counts, key=lambda name: counts[name])
+        return cls(x, tuple(name for name, count in counts.items() if name != x and count > 1))
+
+    def name(self, point: SlidePoint) -> str:
+        """Return the name of the curve on which a point lies."""
+        return ", ".join(f"{SYMBOLS[key].split(' (')[0]} {getattr(point, key):g}" for key in self.curves)
+
+
+def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any]:
+    """Yield, for each record and direction, the largest slip and, with vertical motion, the ratio beta as in [Fujino1978]_ fig. 9."""
+    for record, points in zip(records, studies, strict=True):
+        yield record_line(record)
+        layout = Layout.of(points)
+        for title, part in panels_of(points, layout):
+            yield _pivot(f"{title}: largest slip (mm)", part, layout, lambda point: millimetres(point.max_slip_m))
+            if any(point.beta is not None for point in part):
+                yield _pivot(
+                    f"{title}: beta, largest slip with vertical motion over that without",
+                    part,
+                    layout,
+                    lambda point: NOTHING if point.beta is None else f"{point.beta:.3f}",
+                )
+
+
+def panels_of(points: Points, layout: Layout) -> list[tuple[str, Points]]:
+    """Return the points of each direction; the worst directions of a sweep are one part."""
+    names = list(dict.fromkeys(point.component for point in points))
+    per_direction = len({tuple(getattr(p, key) for key in (layout.x, *layout.curves)) for p in points})
+    if len(points) == per_direction and len(names) > 1:
+        return [("worst direction", points)]
+    return [(name, [point for point in points if point.component == name]) for name in names]
+
+
+def _pivot(title: str, points: Points, layout: Layout, cell: Callable[[SlidePoint], str]) -> Any:
+    """Return one table: x runs down, the curves stand side by side; long ones are thinned."""
+    xs = list(dict.fromkeys(getattr(point, layout.x) for point in points))
+    names = list(dict.fromkeys(layout.name(point) for point in points))
+    values = {(getattr(point, layout.x), layout.name(point)): cell(point) for point in points}
+    rows, columns = _thinned(xs, MOST_ROWS), _thinned(names, MOST_COLUMNS)
+    left_out = len(rows) < len(xs) or len(columns) < len(names)
+    return table(
+        title,
+        (SYMBOLS[layout.x], *(name or "slip" for name in columns)),
+        [[f"{x:g}", *(values.get((x, name), NOTHING) for name in columns)] for x in rows],
+        caption=f"{len(rows)} of {len(xs)} rows, {len(columns)} of {len(names)} columns; --csv and --json hold all" if left_out else "",
+    )
+
+
+def _thinned(values: Sequence[Any], most: int) -> list[Any]:
+    """Return at most so many values, evenly chosen, with the first and the last."""
+    if len(values) <= most:
+        return list(values)
+    return [values[index] for index in np.unique(np.linspace(0, len(values) - 1, most).round().astype(int))]
+
+
+def value_of(point: SlidePoint, ratio: bool) -> float:
+    """Return what is drawn of a point."""
+    value = point.beta if ratio else point.max_slip_m
+    return np.nan if value is None else value

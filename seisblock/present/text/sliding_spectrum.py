@@ -1,0 +1,57 @@
+"""How a sliding spectrum is told: largest slip against friction, as a table and CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.text import Text
+
+from seisblock.present.files import write_table
+from seisblock.present.text.tables import number, record_line, table
+from seisblock.records import Motion
+from seisblock.studies.sliding import SlidePoint
+
+Curves = Sequence[tuple[Motion, Sequence[SlidePoint]]]
+
+
+MOST_ROWS = 25
+
+
+def document(motion: Motion, points: Sequence[SlidePoint]) -> dict[str, Any]:
+    """Return one result of the JSON document."""
+    return {
+        "component": motion.name,
+        "mu": [p.mu for p in points],
+        "max_slip_m": [p.max_slip_m for p in points],
+        "residual_slip_m": [p.residual_slip_m for p in points],
+    }
+
+
+def tables(curves: Curves) -> Iterator[Any]:
+    """Yield, per component, a table of at most 25 frictions."""
+    last = None
+    for motion, points in curves:
+        if motion.record is not None and motion.record is not last:
+            last = motion.record
+            yield record_line(motion.record)
+        chosen = np.unique(np.linspace(0, len(points) - 1, min(len(points), MOST_ROWS)).round().astype(int))
+        rows = [
+            [f"{points[i].mu:.4g}", number(_millimetres(points[i].max_slip_m)), number(_millimetres(points[i].residual_slip_m))]
+            for i in chosen
+        ]
+        yield table(f"{motion.name}: sliding against friction", ["mu", "largest slip (mm)", "residual slip (mm)"], rows)
+        yield Text()
+
+
+def _millimetres(value: float | None) -> float | None:
+    """Return millimetres of metres."""
+    return None if value is None else 1e3 * value
+
+
+def write(path: Path, curves: Curves) -> None:
+    """Write every point as a row of CSV, SI."""
+    rows = ([motion.name, p.mu, p.max_slip_m, p.residual_slip_m] for motion, points in curves for p in points)
+    write_table(path, ["component", "mu", "max_slip_m", "residual_slip_m"], rows)

@@ -1,0 +1,97 @@
+"""How a rocking spectrum is told: a thinned table, and all points as CSV."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.text import Text
+
+from seisblock.present.files import write_table
+from seisblock.present.text.tables import record_line, table
+from seisblock.records import Motion
+from seisblock.studies.rocking.spectra import RockingSpectrum
+from seisblock.typing import IntArray
+
+Spectra = Sequence[tuple[Motion, RockingSpectrum]]
+
+
+MOST_ROWS, MOST_COLUMNS = 12, 9
+FALLS = "falls"
+
+
+def document(motion: Motion, found: RockingSpectrum) -> dict[str, Any]:
+    """Return one result of the JSON document: axes, and matrices with a row per size and a column per slenderness."""
+    return {
+        "component": motion.name,
+        "size_m": found.size_m,
+        "frequency_parameter_rad_s": found.frequency_parameter_rad_s,
+        "slenderness_rad": found.slenderness_rad,
+        "height_over_width": 1 / np.tan(found.slenderness_rad),
+        "max_rotation_ratio": found.max_rotation_ratio,
+        "overturned": found.overturned,
+    }
+
+
+def tables(spectra: Spectra, kind: str) -> Iterator[Any]:
+    """Yield, per component, a table of at most 12 sizes and 9 slendernesses, and the share that falls."""
+    last = None
+    for motion, found in spectra:
+        if motion.record is not None and motion.record is not last:
+            last = motion.record
+            yield record_line(motion.record)
+        rows, columns = _thin(found.size_m.size, MOST_ROWS), _thin(found.slenderness_rad.size, MOST_COLUMNS)
+        what = "overturning" if kind == "overturning" else "largest lean over alpha"
+        heads = [f"{1 / math.tan(found.slenderness_rad[j]):.2f}" for j in columns]
+        cells = [[f"{found.size_m[i]:.3g}", *(_cell(found, i, j, kind) for j in columns)] for i in rows]
+        yield table(f"{motion.name}: {what}; down 2R (m), across H/B", ["2R \\ H/B", *heads], cells)
+        total = found.overturned.size
+        yield Text(f"{motion.name}: {int(found.overturned.sum())} of {total} blocks overturn.")
+        yield Text()
+
+
+def _cell(found: RockingSpectrum, i: int, j: int, kind: str) -> str:
+    """Return one cell of the table."""
+    if found.overturned[i, j]:
+        return FALLS
+    ratio = found.max_rotation_ratio[i, j]
+    return "-" if ratio == 0.0 or kind == "overturning" else f"{ratio:.3f}"
+
+
+def _thin(count: int, most: int) -> IntArray:
+    """Return at most so many indices, evenly, with both ends."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(np.int64))
+
+
+def write(path: Path, spectra: Spectra) -> None:
+    """Write every block as a row of CSV, SI."""
+    header = [
+        "component",
+        "size_m",
+        "frequency_parameter_rad_s",
+        "slenderness_rad",
+        "height_over_width",
+        "max_rotation_ratio",
+        "overturned",
+    ]
+    write_table(
+        path,
+        header,
+        (
+            [
+                motion.name,
+                float(size),
+                float(found.frequency_parameter_rad_s[i]),
+                float(alpha),
+                1 / math.tan(alpha),
+                float(found.max_rotation_ratio[i, j]),
+                bool(found.overturned[i, j]),
+            ]
+            for motion, found in spectra
+            for i, size in enumerate(found.size_m)
+            for j, alpha in enumerate(found.slenderness_rad)
+        ),
+    )

@@ -1,0 +1,113 @@
+"""How harmonic uplift is told: modes, minima and the curve, as tables, document and file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.text import Text
+
+from seisblock.bodies.spring_block import described
+from seisblock.present.document import Answer
+from seisblock.present.files import write_table
+from seisblock.present.text.tables import table
+from seisblock.studies.uplift_regions import UpliftRegion
+
+SYMBOLS = {"alpha": "α", "gamma": "γ", "beta": "β", "damping": "h", "phi": "φ", "rho": "ρ"}
+UNITS = {"phi": "°", "rho": "°"}
+MOST_ROWS = 24
+"""Rows of a curve that a terminal shows unless the frequencies were asked for."""
+
+
+def answer(regions: Sequence[UpliftRegion]) -> Answer:
+    """Return the document's content: one result per combination of parameters."""
+    varied = {name: sorted({region.ratios[name] for region in regions}) for name in SYMBOLS}
+    parameters: dict[str, Any] = {_key(name): values if len(values) > 1 else values[0] for name, values in varied.items()}
+    parameters |= {"corner": regions[0].corner, "block": described(regions[0].body) if len(regions) == 1 else None}
+    return Answer("uplift", parameters, [_result(region) for region in regions], citations=["Okumura1987"])
+
+
+def _key(name: str) -> str:
+    """Return the key of a parameter in the document."""
+    return f"{name}_deg" if name in UNITS else name
+
+
+def _result(region: UpliftRegion) -> dict[str, Any]:
+    """Return one region as a mapping."""
+    modes = region.modes
+    return {
+        **{_key(name): value for name, value in region.ratios.items()},
+        "natural_frequencies_hz": modes.frequencies_hz,
+        "modes": [
+            {"name": name, "frequency_hz": f, "frequency_ratio": float(w) / modes.omega_1, "over_omega_v": float(w) / region.body.omega[2]}
+            for name, f, w in zip(modes.names, modes.frequencies_hz, modes.omega, strict=True)
+        ],
+        "minimum": region.minimum,
+        "minima": region.minima,
+        "curve": [
+            {"frequency_ratio": float(r), "acceleration_ratio": float(a)}
+            for r, a in zip(region.frequency_ratio, region.acceleration_ratio, strict=True)
+        ],
+    }
+
+
+def title(region: UpliftRegion, names: Sequence[str] = tuple(SYMBOLS)) -> str:
+    """Return the parameters of a region in the paper's letters."""
+    return ", ".join(f"{SYMBOLS[name]} = {region.ratios[name]:.4g}{UNITS.get(name, '')}" for name in names)
+
+
+def varied_names(regions: Sequence[UpliftRegion]) -> list[str]:
+    """Return the names of the parameters that differ among regions."""
+    return [name for name in SYMBOLS if len({region.ratios[name] for region in regions}) > 1]
+
+
+def tables(regions: Sequence[UpliftRegion], *, every: bool) -> Iterator[Any]:
+    """Yield the modes, the minima and the curve of each region."""
+    for region in regions:
+        yield Text(title(region), style="bold")
+        wv, w1 = region.body.omega[2], region.modes.omega_1
+        yield table(
+            "natural modes",
+            ["mode", "f (Hz)", "ω/ω_V", "ω/ω_1"],
+            [[name, w / (2 * math.pi), w / wv, w / w1] for name, w in zip(region.modes.names, region.modes.omega.tolist(), strict=True)],
+        )
+        yield table(
+            "least A/g that lifts a corner",
+            ["near the mode", "θ/ω_1", "A/g", "corner"],
+            [[m.mode or "end of the range", m.frequency_ratio, m.acceleration_ratio, _corners(m.corners)] for m in region.minima]
+            or [["end of the range", region.minimum.frequency_ratio, region.minimum.acceleration_ratio, _corners(region.minimum.corners)]],
+        )
+        n = region.frequency_ratio.size
+        step = 1 if every or n <= MOST_ROWS else n // MOST_ROWS
+        shown = range(step - 1, n, step)
+        yield table(
+            "uplift curve",
+            ["θ/ω_1", "A/g"],
+            [[f"{region.frequency_ratio[i]:.4g}", _finite(float(region.acceleration_ratio[i]))] for i in shown],
+            caption="" if step == 1 else f"every {step}th of {n}; all with --csv or --json",
+        )
+
+
+def _finite(value: float) -> Any:
+    """Return a number, or nothing when no amplitude lifts."""
+    return value if math.isfinite(value) else None
+
+
+def _corners(corners: Sequence[int]) -> str:
+    """Return corners as text."""
+    return "any" if len(corners) == 4 else " ".join(str(corner) for corner in corners)
+
+
+def write(path: Path, regions: Sequence[UpliftRegion]) -> None:
+    """Write the curves as CSV, one below the other."""
+    write_table(
+        path,
+        [*(_key(name) for name in SYMBOLS), "frequency_ratio", "acceleration_ratio"],
+        (
+            [*region.ratios.values(), float(r), float(a)]
+            for region in regions
+            for r, a in zip(region.frequency_ratio, region.acceleration_ratio, strict=True)
+        ),
+    )

@@ -1,0 +1,211 @@
+"""K-NET and KiK-net ASCII: obspy decodes, the header's own maximum judges."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Sequence
+from datetime import timedelta
+
+import numpy as np
+
+from seisblock.errors import RecordFormatError
+from seisblock.readers.cells import fail
+from seisblock.readers.header import number, time_in_japan
+from seisblock.readers.naming import code_of
+from seisblock.readers.source import Blob, decode
+from seisblock.records import Component, Record
+from seisblock.typing import FloatArray
+
+FORMAT, KIK_FORMAT = "KNET", "KIKNET"
+TRIGGER_DELAY = timedelta(seconds=15)
+"""The header's record time lies this long after the first sample."""
+
+# as obspy spells them; what is after | may vary
+_LABELS = (
+    "Origin Time",
+    "Lat.",
+    "Long.",
+    "Depth.| (km)",
+    "Mag.",
+    "Station Code",
+    "Station Lat.",
+    "Station Lo|ng.",
+    "Station Height|(m)",
+    "Record Time",
+    "Sampling Freq|(Hz)",
+    "Duration Time|(s)",
+    "Dir.",
+    "Scale Factor",
+    "Max|. Acc. (gal)",
+    "Last Correction",
+    "Memo|.",
+)
+(
+    ORIGIN,
+    EVENT_LAT,
+    EVENT_LON,
+    DEPTH,
+    MAGNITUDE,
+    STATION,
+    LAT,
+    LON,
+    HEIGHT,
+    RECORD_TIME,
+    RATE,
+    DURATION,
+    DIRECTION,
+    SCALE,
+    MAXIMUM,
+    CORRECTION,
+    MEMO,
+) = range(17)
+_CHANNELS = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
+_ORACLE = 0.0011
+"""The header's maximum has three decimals, gal."""
+
+
+def is_knet(head: bytes) -> bool:
+    """Return whether a file's first bytes are those of K-NET or KiK-net ASCII."""
+    return head.startswith(b"Origin Time")
+
+
+def read_knet(blob: Blob) -> Record:
+    """Return the one component in a K-NET or KiK-net ASCII file.
+
+    Notes
+    -----
+    The scale factor of the header is applied, the trigger delay of 15 s is taken off the record time, and the offset of the counts is
+    kept and told: ``metadata["carries_offset"]`` and ``metadata["offset_gal"]``. ``metadata["level"]`` is the sensor of a KiK-net file.
+    The header's ``Max. Acc.`` is compared with the largest deviation from the mean; a difference is put under ``metadata["warnings"]``.
+    """
+    lines = decode(blob).split("\n")
+    values = _header(blob.name, lines)
+    code, level = _direction(blob.name, values[DIRECTION])
+    rate = number(re.sub(r"\s*Hz\s*\Z", "", values[RATE], flags=re.IGNORECASE))
+    start = time_in_japan(values[RECORD_TIME])
+    scale = re.fullmatch(r"([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)", values[SCALE], re.IGNORECASE)
+    if not rate or rate < 0:
+        fail(blob.name, RATE + 1, f"expected a sampling frequency such as 100Hz, found {values[RATE]!r}")
+    if start is None:
+        fail(blob.name, RECORD_TIME + 1, f"expected a time such as 2016/04/16 01:25:15, found {values[RECORD_TIME]!r}")
+    if scale is None or not float(scale[2]):
+        fail(blob.name, SCALE + 1, f"expected a scale factor such as 3920(gal)/6182761, found {values[SCALE]!r}")
+    counts = _counts(blob.name, values, lines)
+    _check_length(blob.name, counts.size, number(values[DURATION]), rate)
+    # one correctly rounded division: counts and factors are whole numbers
+    acceleration = counts * float(scale[1]) / (float(scale[2]) * 100.0)
+    metadata = _metadata(values, code, level, 100.0 * acceleration)
+    return Record(
+        (Component(code, acceleration),),
+        1.0 / rate,
+        station=values[STATION],
+        start=start - TRIGGER_DELAY,
+        source=blob.name,
+        format=KIK_FORMAT if level else FORMAT,
+        metadata=metadata,
+    )
+
+
+def _header(name: str, lines: Sequence[str]) -> list[str]:
+    """Return the 17 values of the header."""
+    values = []
+    for index, label in enumerate(_LABELS):
+        line = lines[index] if index < len(lines) else ""
+        if not line.startswith(label.split("|")[0]):
+            wanted = label.replace("|", "")
+            found = f"found {line.strip()[:40]!r}" if line.strip() else "the file ends"
+            raise RecordFormatError(
+                f"{name}, line {index + 1}: expected {wanted!r}, {found}: a K-NET header has 17 lines, this one is cut or damaged"
+            )
+        values.append(line[18:].strip())
+    return values
+
+
+def _direction(name: str, text: str) -> tuple[str, str]:
+    """Return the component code and, for KiK-net's channel numbers, the level of the sensor."""
+    if text in _CHANNELS:
+        return _CHANNELS[text], "borehole" if text in "123" else "surface"
+    code = code_of(text)
+    if code not in ("NS", "EW", "UD"):
+        fail(name, DIRECTION + 1, f"expected a direction N-S, E-W, U-D or 1 to 6, found {text!r}")
+    return code, ""
+
+
+def _counts(name: str, values: Sequence[str], lines: Sequence[str]) -> FloatArray:
+    """Return the counts as obspy decodes them."""
+    body = lines[len(_LABELS) :]
+    if not any(line.strip() for line in body):
+        raise RecordFormatError(f"{name} ends after its header (line {len(_LABELS)}): there are no samples in it")
+    import obspy  # lazily: it takes longer to import than to read
+
+    text = "\n".join([*_canonical(values), *body])
+    try:
+        counts = np.asarray(obspy.read(io.BytesIO(text.encode("ascii", "replace")), format="KNET")[0].data, dtype=np.float64)
+    except (ValueError, IndexError, TypeError) as error:
+        _name_the_line(name, body)
+        raise RecordFormatError(f"{name}: obspy cannot decode this K-NET file ({error})") from error
+    if not np.isfinite(counts).all():
+        _name_the_line(name, body)
+    return counts
+
+
+def _canonical(values: Sequence[str]) -> list[str]:
+    """Return the header as obspy wants it, so that an empty or oddly spelled field that is not needed raises no IndexError."""
+    tame = list(values)
+    for index in (EVENT_LAT, EVENT_LON, DEPTH, MAGNITUDE, LAT, LON, HEIGHT, DURATION, MAXIMUM):
+        tame[index] = values[index] if number(values[index]) is not None else "nan"
+    for index in (ORIGIN, CORRECTION):
+        tame[index] = values[RECORD_TIME]  # not used: obspy insists on a time
+    tame[STATION] = "STATION"
+    tame[MEMO] = ""
+    return [f"{label.replace('|', ''):<18}{value}" for label, value in zip(_LABELS, tame, strict=True)]
+
+
+def _name_the_line(name: str, body: Sequence[str]) -> None:
+    """Raise the error that names the first line with something else than numbers."""
+    for offset, line in enumerate(body):
+        for cell in line.split():
+            value = number(cell)
+            if value is None or not np.isfinite(value):
+                fail(name, len(_LABELS) + 1 + offset, f"expected counts, found {cell!r}")
+
+
+def _check_length(name: str, count: int, duration: float | None, rate: float) -> None:
+    """Refuse a file that ends before its header says."""
+    promised = round((duration or 0.0) * rate)
+    if count < promised:
+        raise RecordFormatError(
+            f"{name} is cut short: its header promises {promised} samples ({duration:g} s at {rate:g} Hz), it holds {count}: fetch it again"
+        )
+
+
+def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> dict[str, object]:
+    """Return what the header says, the offset, and a warning when the header's maximum is not the file's."""
+    metadata: dict[str, object] = {"unit": "gal", "carries_offset": True, "offset_gal": {code: float(gal.mean())}}
+    if level:
+        metadata["level"] = level
+    labels = {
+        "event_latitude_deg": EVENT_LAT,
+        "event_longitude_deg": EVENT_LON,
+        "event_depth_km": DEPTH,
+        "magnitude": MAGNITUDE,
+        "station_latitude_deg": LAT,
+        "station_longitude_deg": LON,
+        "station_height_m": HEIGHT,
+    }
+    for label, index in labels.items():
+        value = number(values[index])
+        if value is not None and not (index == HEIGHT and value == -9999):
+            metadata[label] = value
+    origin = time_in_japan(values[ORIGIN])
+    if origin is not None:
+        metadata["origin_time"] = origin
+    if values[MEMO]:
+        metadata["memo"] = values[MEMO]
+    peak, told = float(np.abs(gal - gal.mean()).max()), number(values[MAXIMUM])
+    if told is not None:
+        metadata["header_max_gal"] = {code: told}
+        if abs(peak - told) > _ORACLE:
+            metadata["warnings"] = (f"{code}: the header says Max. Acc. {told:g} gal, the samples reach {peak:.3f} gal from their mean",)
+    return metadata

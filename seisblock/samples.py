@@ -1,0 +1,104 @@
+"""Which records come with the package, and where they lie."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from seisblock.errors import RecordNotFoundError
+
+DEFAULT_SAMPLE = "synthetic_jma.csv"
+"""The sample that commands use when no record is named."""
+
+MANIFEST = "MANIFEST.toml"
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One bundled file, as MANIFEST.toml describes it.
+
+    Parameters
+    ----------
+    name : str
+        File name.
+    description, origin, licence : str
+        What it is, where it comes from, on what terms.
+    sha256 : str
+        Digest of its bytes.
+    kind : str
+        ``record``, or ``body`` and ``cemetery`` for tables that are no records.
+    pga_gal : dict of str to float
+        Largest absolute acceleration of each component, for K-NET after its mean is removed, gal; empty when the file is no record.
+    """
+
+    name: str
+    description: str
+    origin: str
+    licence: str
+    sha256: str
+    kind: str
+    pga_gal: dict[str, float]
+
+
+@cache
+def sample_directory() -> Path:
+    """Return the directory of the bundled records: inside the installed package, or beside it in a source tree."""
+    package = Path(__file__).resolve().parent
+    for directory in (package / "sample_records", package.parent / "sample_records"):
+        if (directory / MANIFEST).is_file():
+            return directory
+    raise RecordNotFoundError("the bundled sample records are missing from this installation: install seisblock again")
+
+
+@cache
+def list_samples() -> tuple[Sample, ...]:
+    """Return the bundled samples, in the order of MANIFEST.toml.
+
+    Examples
+    --------
+    >>> "synthetic_jma.csv" in [sample.name for sample in list_samples()]
+    True
+    """
+    document = tomllib.loads((sample_directory() / MANIFEST).read_text(encoding="utf-8"))
+    return tuple(
+        Sample(
+            name=entry["name"],
+            description=entry.get("description", ""),
+            origin=entry.get("origin", ""),
+            licence=entry.get("licence", ""),
+            sha256=entry.get("sha256", ""),
+            kind=entry.get("kind", "record"),
+            pga_gal=dict(entry.get("pga_gal", {})),
+        )
+        for entry in document["sample"]
+    )
+
+
+def sample_path(name: str = DEFAULT_SAMPLE) -> Path:
+    """Return the path of a bundled sample.
+
+    Parameters
+    ----------
+    name : str
+        Its file name, or the name up to the first dot (``synthetic_jma``).
+
+    Raises
+    ------
+    RecordNotFoundError
+        If there is no such sample; the message lists those there are.
+    """
+    found = find_sample(name)
+    if found is None:
+        raise RecordNotFoundError(f"no bundled sample is called {name!r}; there are {', '.join(s.name for s in list_samples())}")
+    return found
+
+
+def find_sample(name: str) -> Path | None:
+    """Return the path of the sample of that file name or stem, or None."""
+    wanted = name.lower()
+    samples = {sample.name.lower(): sample.name for sample in reversed(list_samples())}
+    stems = {spelling.split(".")[0]: full for spelling, full in samples.items()}
+    found = samples.get(wanted) or stems.get(wanted)
+    return None if found is None else sample_directory() / found

@@ -1,0 +1,42 @@
+"""How values show themselves: a door in the ground floor through which the drawing room lends its pictures.
+
+A response, a record or a spectrum knows that it can be seen, not how. What draws stands above them, so it is not imported from here:
+the package's face (``seisblock/__init__.py``) hands over how to fetch it, and it is fetched when something is first shown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+
+class Painter(Protocol):
+    """What the drawing room offers."""
+
+    def plot(self, shown: Any) -> Any:
+        """Return the ``matplotlib.figure.Figure`` of a value."""
+
+    def html(self, shown: Any) -> str:
+        """Return what a notebook shows of a value."""
+
+
+_fetch: Callable[[], Painter] | None = None
+
+
+def lend(fetch: Callable[[], Painter]) -> None:
+    """Say how the painter is fetched, when something is first shown."""
+    global _fetch
+    _fetch = fetch
+
+
+def painter() -> Painter:
+    """Return the painter that was lent.
+
+    Raises
+    ------
+    RuntimeError
+        If this part of the package is used without its face.
+    """
+    if _fetch is None:
+        raise RuntimeError("nothing draws here: import seisblock, which brings the drawing room along")
+    return _fetch()

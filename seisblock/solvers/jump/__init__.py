@@ -1,0 +1,1 @@
+"""The two-layer block: rocking, impact, jump, landing, rocking-sliding."""

@@ -1,0 +1,271 @@
+"""One chain of the jump: what was followed, and the column of [Sugimoto2017]_ table 1 that it fills."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.dynamics import Change, Instant, Trajectory
+from seisblock.records import Motion
+from seisblock.results import Event, Phase
+from seisblock.solvers.jump import flight as flying
+from seisblock.solvers.jump import rocking
+from seisblock.solvers.jump.impact import Launch
+from seisblock.typing import FloatArray
+
+NO_JUMP = "rocked without jumping"
+JUMPED = "jumped"
+OVERTURNED_ROCKING = "overturned while rocking"
+OVERTURNED_LANDED = "overturned after landing"
+ENDED_ROCKING = "record ended while rocking"
+ENDED_FLYING = "record ended in flight"
+ENDED_LANDED = "record ended after landing"
+
+REST, ROCKING, FLIGHT, LANDED = "rest", "rocking", "flight", "rocking-sliding"
+"""Names of the phases."""
+
+
+@dataclass(frozen=True)
+class Chain:
+    """One chain of motion, a column of [Sugimoto2017]_ table 1.
+
+    Times in s from the record's first sample; None where the chain did not get so far. Displacements of the
+    centroid relative to the ground, m, positive towards the component's positive direction.
+
+    Parameters
+    ----------
+    outcome : str
+    direction : "+" or "-"
+        Sign of the ground acceleration that starts it, and of the jump.
+    rocking_start_s, impact_s, landing_s, end_s : float
+    rocking_duration_s, jump_duration_s, rock_slide_duration_s : float
+    max_rotation_rad : float
+        Largest tilt while rocking, a magnitude.
+    impact_velocity_rad_s : float
+        Angular velocity at the impact, a magnitude.
+    max_rise_m : float
+        Largest rise of the centroid in flight above its height at rest.
+    jump_displacement_m, rock_slide_displacement_m, total_displacement_m : float
+    time_above_threshold_s : float
+        How long the ground acceleration stays above the rocking threshold from the start of the rocking.
+    foot_rise_m : float
+        Largest height in flight of the lower of the two lower corners above the floor.
+    landing_corner : "leading" or "trailing"
+        Leading: on the side towards which the block jumps.
+    slid : bool
+        Whether the landed foot slipped ([Sugimoto2017]_ eq. (14)).
+    """
+
+    outcome: str
+    direction: str
+    rocking_start_s: float
+    impact_s: float | None = None
+    landing_s: float | None = None
+    end_s: float | None = None
+    rocking_duration_s: float | None = None
+    jump_duration_s: float | None = None
+    rock_slide_duration_s: float | None = None
+    max_rotation_rad: float = 0.0
+    impact_velocity_rad_s: float | None = None
+    max_rise_m: float | None = None
+    jump_displacement_m: float | None = None
+    rock_slide_displacement_m: float | None = None
+    total_displacement_m: float | None = None
+    time_above_threshold_s: float = 0.0
+    foot_rise_m: float | None = None
+    landing_corner: str | None = None
+    slid: bool | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """A chain as the engine followed it, in the frame in which it goes forward.
+
+    Parameters
+    ----------
+    sign : float
+        +1 when that frame is the component's own, -1 when it is its mirror image.
+    rocked : Trajectory
+        From the onset to the impact.
+    launch : Launch or None
+        Velocities after the impact.
+    flown : Trajectory or None
+        From the impact to the end, when the block jumps.
+    """
+
+    motion: Motion
+    block: TwoLayerBlock
+    gravity: float
+    drop: float
+    start: Instant
+    sign: float
+    rocked: Trajectory
+    launch: Launch | None
+    flown: Trajectory | None
+
+    @property
+    def onset_s(self) -> float:
+        """Start of the rocking, s from the record's first sample."""
+        return self.motion.start_s + self.start.sample * self.motion.dt + self.start.tau
+
+    @property
+    def impact_s(self) -> float:
+        """End of the rocking."""
+        return self.motion.start_s + self.rocked.end_time
+
+    @property
+    def hit(self) -> bool:
+        """Whether the rocking ended in an impact."""
+        return self.rocked.final_mode == rocking.IMPACT
+
+    @property
+    def touch(self) -> Change | None:
+        """The first landing."""
+        return next((change for change in self.flown.changes if change.source == flying.FLIGHT), None) if self.flown else None
+
+    @property
+    def end(self) -> Instant:
+        """Where the chain ended."""
+        return self.flown.end if self.flown else self.rocked.end
+
+    @property
+    def finished(self) -> bool:
+        """Whether it came to its own end before the record did."""
+        last = self.flown or self.rocked
+        return last.final_mode < 0
+
+
+def chain_of(followed: Followed) -> Chain:
+    """Return the numbers of a chain ([Sugimoto2017]_ table 1)."""
+    onset, impact = followed.onset_s, followed.impact_s
+    found: dict[str, Any] = {
+        "direction": "+" if followed.sign > 0 else "-",
+        "rocking_start_s": onset,
+        "max_rotation_rad": float(followed.rocked.extrema[0, 0]),
+        "time_above_threshold_s": _time_above_threshold(followed),
+    }
+    if followed.hit:
+        found |= {
+            "impact_s": impact,
+            "rocking_duration_s": impact - onset,
+            "impact_velocity_rad_s": abs(float(followed.rocked.final[rocking.OMEGA])),
+        }
+    if followed.flown is None:
+        outcome = {rocking.IMPACT: NO_JUMP, rocking.OVERTURNED: OVERTURNED_ROCKING}.get(followed.rocked.final_mode, ENDED_ROCKING)
+        if outcome == NO_JUMP:
+            found["total_displacement_m"] = 0.0
+        if followed.finished:
+            found["end_s"] = impact
+        return Chain(outcome, **found)
+    return Chain(_outcome_of_flight(followed), **found, **_flight_numbers(followed))
+
+
+def _outcome_of_flight(followed: Followed) -> str:
+    """Return in words how a chain that jumped ended."""
+    assert followed.flown is not None
+    ended = ENDED_FLYING if followed.flown.final_mode == flying.FLIGHT else ENDED_LANDED
+    return {flying.END: JUMPED, flying.OVERTURNED: OVERTURNED_LANDED}.get(followed.flown.final_mode, ended)
+
+
+def _flight_numbers(followed: Followed) -> dict[str, Any]:
+    """Return the entries of a chain from the impact on."""
+    assert followed.flown is not None and followed.launch is not None
+    flown, go = followed.flown, followed.launch
+    found: dict[str, Any] = {
+        "max_rise_m": go.vertical**2 / (2 * followed.gravity),
+        "foot_rise_m": _foot_rise(followed.block, go, followed.gravity),
+    }
+    touch = followed.touch
+    if touch is None:
+        return found
+    landing = followed.motion.start_s + touch.time
+    jumped = followed.sign * float(touch.before[flying.X])
+    found |= {
+        "landing_s": landing,
+        "jump_duration_s": landing - followed.impact_s,
+        "jump_displacement_m": jumped,
+        "landing_corner": "leading" if touch.guard == flying.RIGHT else "trailing",
+        "slid": any(c.target > 0 and flying.kind_of(c.target) in (flying.BACK, flying.FORTH) for c in flown.changes),
+    }
+    if followed.finished:
+        end = followed.motion.start_s + flown.end_time
+        x, _ = flying.centroid(followed.block, followed.drop, np.array([flown.changes[-1].source]), flown.final[np.newaxis])
+        total = followed.sign * float(x[0])
+        found |= {
+            "end_s": end,
+            "rock_slide_duration_s": end - landing,
+            "rock_slide_displacement_m": total - jumped,
+            "total_displacement_m": total,
+        }
+    return found
+
+
+def _foot_rise(block: TwoLayerBlock, go: Launch, gravity: float) -> float:
+    """Return the largest height of the lower lower corner in flight, m, from where its vertical velocity vanishes."""
+    y, half, spin = block.centroid_height, block.width / 2, abs(go.spin)
+    low, high = 0.0, go.vertical / gravity
+    for _ in range(60):
+        t = 0.5 * (low + high)
+        rate = go.vertical - gravity * t - spin * (half * math.cos(spin * t) - y * math.sin(spin * t))
+        low, high = (t, high) if rate > 0.0 else (low, t)
+    return go.vertical * low - gravity * low**2 / 2 + y * (1 - math.cos(spin * low)) - half * math.sin(spin * low)
+
+
+def _time_above_threshold(followed: Followed) -> float:
+    """Return how long the acceleration stays above the rocking threshold from the onset on, s."""
+    motion, start = followed.motion, followed.start
+    threshold = followed.block.rocking_threshold(followed.gravity)
+    ahead = followed.sign * motion.horizontal[start.sample + 1 :]
+    below = np.flatnonzero(ahead <= threshold)
+    if not below.size:
+        return motion.dt * ahead.size - start.tau
+    i = start.sample + int(below[0])
+    a0, a1 = followed.sign * motion.horizontal[i], followed.sign * motion.horizontal[i + 1]
+    fraction = (a0 - threshold) / (a0 - a1) if a0 > threshold else 1.0
+    return max((i - start.sample + float(fraction)) * motion.dt - start.tau, 0.0)
+
+
+def phases_and_events(followed: Followed) -> tuple[tuple[Phase, ...], tuple[Event, ...]]:
+    """Return the phases and events of a chain, tilts in the house sign (positive when leaning to +x) ([Sugimoto2017]_)."""
+    tilt = -followed.sign
+    onset, impact = followed.onset_s, followed.impact_s
+    rest, last = np.zeros(1), tilt * followed.rocked.final[:1]
+    phases = [Phase(ROCKING, onset, impact)]
+    events = [Event("rocking starts", onset, rest, rest)]
+    if followed.rocked.final_mode < 0:
+        events.append(Event("impact" if followed.hit else "overturned", impact, last, last))
+    if followed.flown is not None:
+        end = followed.motion.start_s + followed.flown.end_time
+        touch = followed.touch
+        landing = followed.motion.start_s + touch.time if touch else end
+        phases.append(Phase(FLIGHT, impact, landing))
+        if touch is not None:
+            phases.append(Phase(LANDED, landing, end))
+            events.append(Event("landing", landing, tilt * touch.before[:1], tilt * touch.after[:1]))
+        if followed.finished:
+            final = tilt * followed.flown.final[:1]
+            events.append(Event("end" if followed.flown.final_mode == flying.END else "overturned", end, final, final))
+    return tuple(phases), tuple(events)
+
+
+def curves(followed: Followed) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return time (s), tilt (rad), displacement and rise of the centroid (m), each (m,), in the component's frame ([Sugimoto2017]_)."""
+    block, t0 = followed.block, followed.motion.start_s
+    times, states, _ = followed.rocked.table()
+    time = np.concatenate([[followed.onset_s], times + t0])
+    theta = np.concatenate([[0.0], states[:, rocking.THETA]])
+    lean = block.slenderness - theta
+    x = block.radius * np.sin(lean) - block.width / 2
+    rise = block.radius * np.cos(lean) - block.centroid_height
+    if followed.flown is not None:
+        times, states, modes = followed.flown.table()
+        # the end's second limit names no corner: it is the first one over again
+        modes = np.where(modes < 0, np.roll(modes, 1), modes)
+        xs, rises = flying.centroid(block, followed.drop, modes, states)
+        time, theta = np.concatenate([time, times + t0]), np.concatenate([theta, states[:, flying.THETA]])
+        x, rise = np.concatenate([x, xs]), np.concatenate([rise, rises])
+    return time, -followed.sign * theta, followed.sign * x, rise

@@ -1,0 +1,1 @@
+"""Rocking and overturning of one rigid block."""

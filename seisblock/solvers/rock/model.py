@@ -1,0 +1,206 @@
+"""Rocking of a rigid block about its two lower corners, as modes, guards and power series for the engine.
+
+Assumptions
+    Plane motion; rigid block and rigid ground; pure rotation about the corner in contact (friction as large as needed, no loss of
+    contact); at an impact the angular velocity is multiplied by the restitution.
+Sign
+    theta is positive when the block leans to +x, about its right corner; it then has s = +1, else s = -1.
+Equation
+    With psi = s alpha - theta, ground acceleration a (along +x) and a_v (up), and m R/I_O of the corner in contact
+    ([Housner1963]_, with the vertical motion added to gravity)::
+
+        theta'' = -(m R/I_O) [(g + a_v) sin(psi) + a cos(psi)]
+
+    The linear (slender) option puts psi for sin(psi) and 1 for cos(psi) ([Zhang2001]_ eqs. (4), (5)).
+Rest
+    The block stays while abs(a) < (g + a_v) tan(alpha) (alpha for tan(alpha) in the linear option). After an impact it comes to rest
+    when the acceleration would bring it back within ``REST_HOP`` = 1e-8 s, the accuracy claimed of all times: the impacts that are
+    left out would crowd into the next 1e-8/(1 - e) s, and no lean among them exceeds theta''/8 * (1e-8 s)^2, below 1e-15 rad.
+Beyond alpha
+    A block that has passed alpha may come back; overturning is theta = pi/2.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from seisblock._jit import kernel
+from seisblock.bodies.block import LEFT, RIGHT, Block, Restitution, restitutions
+from seisblock.dynamics import Model
+from seisblock.dynamics.hybrid import CONSTANT, RESET, SERIES, SKIP
+from seisblock.typing import FloatArray
+
+REST, TO_RIGHT, TO_LEFT, BEYOND_RIGHT, BEYOND_LEFT = range(5)  # odd: about the right corner; above TO_LEFT: beyond alpha
+OVERTURNED = -1
+THETA, OMEGA = range(2)
+SINE, COSINE = range(2, 4)
+DOWN, UP_AND_OVER = range(2)
+ALONG, UPWARD = 0, 2
+GRAVITY, DT, IS_LINEAR, ALPHA_RIGHT, ALPHA_LEFT, HOLD_RIGHT, HOLD_LEFT, LEVER_RIGHT, LEVER_LEFT, ONTO_RIGHT, ONTO_LEFT = range(11)
+
+REST_HOP = 1e-8
+"""A hop shorter than this, s, is the end of rocking."""
+
+SMALL, NEARLY_SMALL = 3e-17, 1e-12
+"""A series ends where a term falls below the first share of the state and the term before it was below the second."""
+
+MODES = ("rest", "rocks to +x", "rocks to -x", "beyond +alpha", "beyond -alpha", "overturned")
+
+HALF_PI = math.pi / 2
+
+
+def parameters(block: Block, dt: float, gravity: float, restitution: Restitution, linear: bool) -> FloatArray:
+    """Return the parameters of the model, in the order of the named integers above ([Housner1963]_)."""
+    alpha = block.slendernesses
+    hold = alpha if linear else (math.tan(alpha[RIGHT]), math.tan(alpha[LEFT]))
+    onto = restitutions(block, restitution)
+    return np.array([gravity, dt, float(linear), *alpha, *hold, *block.lever_ratios, *onto])
+
+
+@kernel(SERIES)
+def series(mode, y, f, p, order, c, g):
+    """Write the lean, the angular velocity and the slacks of one mode as power series ([Housner1963]_)."""
+    weight = p[GRAVITY] + f[UPWARD, 0]
+    weight_rate = f[UPWARD, 1]
+    push = f[ALONG, 0]
+    push_rate = f[ALONG, 1]
+    if mode == REST:
+        g[0, 0] = weight * p[HOLD_RIGHT] + push
+        g[0, 1] = weight_rate * p[HOLD_RIGHT] + push_rate
+        g[1, 0] = weight * p[HOLD_LEFT] - push
+        g[1, 1] = weight_rate * p[HOLD_LEFT] - push_rate
+        return CONSTANT
+    if mode % 2 == TO_RIGHT:
+        s, alpha, lever, hold = 1.0, p[ALPHA_RIGHT], p[LEVER_RIGHT], p[HOLD_RIGHT]
+    else:
+        s, alpha, lever, hold = -1.0, p[ALPHA_LEFT], p[LEVER_LEFT], p[HOLD_LEFT]
+    theta = y[THETA]
+    omega = y[OMEGA]
+    dt = p[DT]
+    c[THETA, 0] = theta
+    c[OMEGA, 0] = omega
+    c[THETA, 1] = omega
+    linear = p[IS_LINEAR] != 0.0
+    if linear:
+        c[SINE, 0] = s * alpha - theta
+        c[COSINE, 0] = 1.0
+    else:
+        c[SINE, 0] = math.sin(s * alpha - theta)
+        c[COSINE, 0] = math.cos(s * alpha - theta)
+    rate = -lever * (weight * c[SINE, 0] + push * c[COSINE, 0])
+    if theta == 0.0 and omega == 0.0:
+        # rocking begins exactly at the threshold: what is left of the moment there is round-off unless it starts the lean
+        rate = -lever * c[COSINE, 0] * (weight * s * hold + push)
+        if rate * s < 0.0:
+            rate = 0.0
+    c[OMEGA, 1] = rate
+    power = dt
+    term = abs(rate) * dt
+    size = abs(omega) + term
+    degree = order
+    share = 1.0
+    for k in range(1, order):
+        next_share = 1.0 / (k + 1)
+        c[THETA, k + 1] = c[OMEGA, k] * next_share
+        if linear:
+            c[SINE, k] = -c[THETA, k]
+            c[COSINE, k] = 0.0
+        else:
+            sine = omega * c[COSINE, k - 1]
+            cosine = omega * c[SINE, k - 1]
+            for j in range(1, k):
+                sine += c[OMEGA, j] * c[COSINE, k - 1 - j]
+                cosine += c[OMEGA, j] * c[SINE, k - 1 - j]
+            c[SINE, k] = -sine * share
+            c[COSINE, k] = cosine * share
+        moment = weight * c[SINE, k] + weight_rate * c[SINE, k - 1] + push * c[COSINE, k] + push_rate * c[COSINE, k - 1]
+        c[OMEGA, k + 1] = -lever * moment * next_share
+        share = next_share
+        power *= dt
+        before = term
+        term = abs(c[OMEGA, k + 1]) * power
+        size += term
+        if term <= SMALL * size and before <= NEARLY_SMALL * size:
+            degree = k
+            break
+    down = 0.0
+    over = alpha
+    if mode > TO_LEFT:
+        down = alpha
+        over = HALF_PI
+    for k in range(degree + 1):
+        lean = s * c[THETA, k]
+        g[DOWN, k] = lean
+        g[UP_AND_OVER, k] = -lean
+    g[DOWN, 0] -= down
+    g[UP_AND_OVER, 0] += over
+    return degree
+
+
+@kernel(RESET)
+def reset(mode, guard, y, f, p):
+    """Start, impact, passing alpha either way, overturning ([Housner1963]_)."""
+    if mode == REST:
+        return TO_RIGHT if guard == 0 else TO_LEFT
+    if mode > TO_LEFT:
+        s, alpha = (1.0, p[ALPHA_RIGHT]) if mode == BEYOND_RIGHT else (-1.0, p[ALPHA_LEFT])
+        if guard == UP_AND_OVER:
+            y[THETA] = s * HALF_PI
+            return OVERTURNED
+        y[THETA] = s * alpha
+        return TO_RIGHT if mode == BEYOND_RIGHT else TO_LEFT
+    if guard == UP_AND_OVER:
+        y[THETA] = p[ALPHA_RIGHT] if mode == TO_RIGHT else -p[ALPHA_LEFT]
+        return BEYOND_RIGHT if mode == TO_RIGHT else BEYOND_LEFT
+    # impact: the corner changes, the angular velocity keeps its sign
+    y[THETA] = 0.0
+    weight = p[GRAVITY] + f[UPWARD, 0]
+    if mode == TO_LEFT:
+        y[OMEGA] *= p[ONTO_RIGHT]
+        slack = weight * p[HOLD_RIGHT] + f[ALONG, 0]
+        back = p[LEVER_RIGHT] * slack * (1.0 if p[IS_LINEAR] != 0.0 else math.cos(p[ALPHA_RIGHT]))
+        following = TO_RIGHT
+    else:
+        y[OMEGA] *= p[ONTO_LEFT]
+        slack = weight * p[HOLD_LEFT] - f[ALONG, 0]
+        back = p[LEVER_LEFT] * slack * (1.0 if p[IS_LINEAR] != 0.0 else math.cos(p[ALPHA_LEFT]))
+        following = TO_LEFT
+    if 2.0 * abs(y[OMEGA]) <= REST_HOP * back:
+        y[OMEGA] = 0.0
+        return REST
+    return following
+
+
+@kernel(SKIP)
+def skip(mode, acceleration, gains, sample, p):
+    """While at rest, pass over the samples that cannot start rocking ([Housner1963]_)."""
+    if mode != REST:
+        return sample
+    along = gains[ALONG]
+    up = gains[UPWARD]
+    last = acceleration.shape[1] - 1
+    right = p[HOLD_RIGHT]
+    left = p[HOLD_LEFT]
+    k = sample
+    if up == 0.0:
+        low = -p[GRAVITY] * right
+        high = p[GRAVITY] * left
+        while k <= last and low < along * acceleration[ALONG, k] < high:
+            k += 1
+    else:
+        while k <= last:
+            weight = p[GRAVITY] + up * acceleration[UPWARD, k]
+            push = along * acceleration[ALONG, k]
+            if not (-weight * right < push < weight * left):
+                break
+            k += 1
+    return max(k - 1, sample)
+
+
+ROCKING = Model(
+    "rocking block", series, reset, ("rotation", "angular velocity"), ("down", "up and over"), MODES, scratch=2, tracked=1, skip=skip
+)
+
+__all__ = ["BEYOND_LEFT", "BEYOND_RIGHT", "DOWN", "OVERTURNED", "REST", "ROCKING", "TO_LEFT", "TO_RIGHT", "UP_AND_OVER", "parameters"]

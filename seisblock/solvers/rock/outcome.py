@@ -1,0 +1,183 @@
+"""What a rocking trajectory means: the outcome, the phases and the events, in the user's terms."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from seisblock.bodies.block import Block, Restitution, restitutions
+from seisblock.dynamics import Change, Trajectory
+from seisblock.records import Motion
+from seisblock.results import Phase
+from seisblock.solvers.rock import model
+from seisblock.solvers.rock.aftermath import Fate
+from seisblock.solvers.rock.forces import demand
+from seisblock.typing import FloatArray
+
+STANDING = Fate(False, 0, (0.0, 0.0))
+"""Nothing happens after the record."""
+
+
+@dataclass(frozen=True)
+class RockOutcome:
+    """What became of the block; times in s from the record's first sample, None where there was no such event.
+
+    Parameters
+    ----------
+    rocks : bool
+        Whether it ever left the rest.
+    rocking_start_s : float or None
+        When it first did.
+    max_rotation_rad, max_rotation_ratio : float
+        Largest lean, absolute and over alpha of the corner concerned; also after the record's end, pi/2 when it overturns.
+    max_rotation_s : float or None
+        When; None when that is after the record's end.
+    impacts : int
+        Impacts during the record, down to hops of 1e-8 s.
+    overturned : bool
+        During the record or, by its energy, afterwards.
+    overturning_time_s : float or None
+        When the lean is pi/2, exact also after the record's end.
+    alpha_passed_s : float or None
+        When alpha is passed for good.
+    overturned_towards : str
+        ``+x``, ``-x``, or empty.
+    decided_after_record : bool
+        Whether the record ended while the block was rocking, so that energy decided.
+    slenderness_rad, frequency_parameter_rad_s, restitution : float
+        alpha, p and e of the side to which the block falls more easily.
+    threshold_m_s2 : float
+        Horizontal ground acceleration above which rocking starts without vertical motion.
+    max_friction_demand, max_friction_demand_s : float or None
+        Largest abs(H/N) before alpha is passed for good, and when: below it the block would slip. None when contact is lost.
+    contact_lost, contact_lost_s : bool, float or None
+        Whether, and when first, N <= 0: it would jump.
+    verdict_flips_within_2_percent : bool or None
+        Whether some factor within 0.98 ... 1.02 on the record changes the verdict; None when not looked for.
+    """
+
+    rocks: bool
+    rocking_start_s: float | None
+    max_rotation_rad: float
+    max_rotation_ratio: float
+    max_rotation_s: float | None
+    impacts: int
+    overturned: bool
+    overturning_time_s: float | None
+    alpha_passed_s: float | None
+    overturned_towards: str
+    decided_after_record: bool
+    slenderness_rad: float
+    frequency_parameter_rad_s: float
+    restitution: float
+    threshold_m_s2: float
+    max_friction_demand: float | None
+    max_friction_demand_s: float | None
+    contact_lost: bool
+    contact_lost_s: float | None
+    verdict_flips_within_2_percent: bool | None = None
+
+
+def lean_ratio(block: Block, largest: tuple[float, float]) -> float:
+    """Return the larger lean over alpha of its corner, from the largest leans to +x and to -x ([Housner1963]_)."""
+    return max(lean / alpha for lean, alpha in zip(largest, block.slendernesses, strict=True))
+
+
+def gather(
+    block: Block,
+    motion: Motion,
+    trajectory: Trajectory,
+    after: Fate | None,
+    *,
+    gains: FloatArray,
+    gravity: float,
+    restitution: Restitution,
+    linear: bool,
+) -> RockOutcome:
+    """Gather the outcome from the trajectory and what follows it ([Housner1963]_)."""
+    changes = trajectory.changes
+    starts = [c.time for c in changes if c.source == model.REST]
+    impacts = sum(c.source in (model.TO_RIGHT, model.TO_LEFT) and c.guard == model.DOWN for c in changes)
+    passed = [c.time for c in changes if c.target in (model.BEYOND_RIGHT, model.BEYOND_LEFT)]
+    late = after or STANDING
+    overturned = trajectory.final_mode == model.OVERTURNED or late.overturns
+    overturning = trajectory.end_time + (late.overturns_s or 0.0)
+    falls = None
+    if overturned:
+        falls = passed[-1] if passed else 0.0
+        if late.overturns and trajectory.final_mode in (model.TO_RIGHT, model.TO_LEFT):
+            falls = trajectory.end_time + (late.passes_alpha_s or 0.0)
+    high, high_s, low, low_s = trajectory.extrema[model.THETA]
+    largest = (max(high, late.largest[0]), max(-low, late.largest[1]))
+    lean = max(largest)
+    when = high_s if lean == high else low_s if lean == -low else None
+    need = demand(block, motion, trajectory, gravity=gravity, linear=linear, gains=gains, until_s=math.inf if falls is None else falls)
+    moved = bool(starts) or not (trajectory.final_mode == model.REST and not changes)
+    side = 0 if block.slendernesses[0] <= block.slendernesses[1] else 1
+    hold = (block.slendernesses if linear else tuple(math.tan(alpha) for alpha in block.slendernesses))[side]
+
+    def at(moment: float | None) -> float | None:
+        return None if moment is None else float(motion.start_s + moment)
+
+    towards = ""
+    if overturned:
+        towards = "+x" if (late.towards if after else trajectory.final[model.THETA]) > 0 else "-x"
+    return RockOutcome(
+        rocks=moved,
+        rocking_start_s=at(starts[0] if starts else 0.0) if moved else None,
+        max_rotation_rad=float(lean),
+        max_rotation_ratio=float(lean_ratio(block, largest)),
+        max_rotation_s=at(when) if moved else None,
+        impacts=impacts,
+        overturned=overturned,
+        overturning_time_s=at(overturning) if overturned else None,
+        alpha_passed_s=at(falls),
+        overturned_towards=towards,
+        decided_after_record=after is not None,
+        slenderness_rad=block.slenderness,
+        frequency_parameter_rad_s=block.frequency_parameter(gravity),
+        restitution=restitutions(block, restitution)[1 - side],
+        threshold_m_s2=gravity * hold,
+        max_friction_demand=need.friction if math.isfinite(need.friction) else None,
+        max_friction_demand_s=at(need.friction_s),
+        contact_lost=need.contact_lost_s is not None,
+        contact_lost_s=at(need.contact_lost_s),
+    )
+
+
+def event_name(change: Change) -> str:
+    """Return what happened ([Housner1963]_)."""
+    if change.source == model.REST:
+        return "rocking starts"
+    if change.target == model.OVERTURNED:
+        return "overturns"
+    if change.target in (model.BEYOND_RIGHT, model.BEYOND_LEFT):
+        return "passes alpha"
+    if change.source in (model.BEYOND_RIGHT, model.BEYOND_LEFT):
+        return "comes back over alpha"
+    return "comes to rest" if change.target == model.REST else "impact"
+
+
+def phases(trajectory: Trajectory, start_s: float) -> tuple[Phase, ...]:
+    """Return the stretches of one mode each ([Housner1963]_)."""
+    changes = trajectory.changes
+    if not changes:
+        return (Phase(model.MODES[trajectory.final_mode], start_s, start_s + trajectory.end_time),)
+    edges = [0.0, *(c.time for c in changes), trajectory.end_time]
+    modes = [changes[0].source, *(c.target for c in changes)]
+    return tuple(
+        Phase(model.MODES[mode], start_s + first, start_s + last)
+        for mode, first, last in zip(modes, edges, edges[1:], strict=False)
+        if mode != model.OVERTURNED
+    )
+
+
+def warnings(block: Block, outcome: RockOutcome, gravity: float) -> tuple[str, ...]:
+    """Return what the user should know before believing the numbers ([Housner1963]_)."""
+    found = []
+    if outcome.threshold_m_s2 > gravity:
+        found.append(f"{block.name}: wider than tall; it rocks only above {outcome.threshold_m_s2 / gravity:.2f} g and will rather slide")
+    if outcome.contact_lost:
+        when = f"{outcome.contact_lost_s:.3f} s"
+        found.append(f"{block.name}: contact with the ground is lost at {when}; pure rocking is the wrong model from there")
+    return tuple(found)

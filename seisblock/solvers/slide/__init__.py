@@ -1,0 +1,1 @@
+"""Coulomb sliding on a level or sloping base."""

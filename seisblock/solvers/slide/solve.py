@@ -1,0 +1,290 @@
+"""Sliding of an object on a level or sloping base that an earthquake shakes ([Fujino1978]_); the model is in ``slide_model``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.bodies.sliding_base import SlidingBase, sliding_base
+from seisblock.dynamics import Change, Trajectory, follow
+from seisblock.errors import ComponentError, ParameterError
+from seisblock.records.motion import Motion
+from seisblock.results import Channel, Event, Phase, Response, Status
+from seisblock.solvers.slide.model import BACKWARD, CONTACT, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, parameters
+from seisblock.solvers.slide.rest import slip_at_rest
+from seisblock.typing import FloatArray, IntArray
+from seisblock.units import STANDARD_GRAVITY
+
+SLIDING = ("slip forward", "slip backward")
+"""Names of the phases in which the object slides; forward is the component's positive direction, downhill on a positive slope."""
+
+
+@dataclass(frozen=True)
+class SlideOutcome:
+    """How an object slid; displacements are relative to the base, along it, positive in the component's positive direction.
+
+    Parameters
+    ----------
+    slips : bool
+        Whether the object moved relative to the base at all.
+    slip_start_s, slip_end_s : float or None, s
+        Start of the first and end of the last slip; the end is None while it still slides at the record's end.
+    max_slip_m, max_slip_time_s : float, m and s
+        Largest absolute displacement up to the record's last sample, and its time.
+    residual_slip_m : float, m
+        Displacement at the record's last sample, signed.
+    final_slip_m : float or None, m
+        Displacement once the object has come to rest on ground that stopped shaking with the last sample; None when it never stops.
+    slip_count : int
+        Stretches of sliding in one direction, as [Fujino1978]_ counts them: a slip lasts until the relative velocity changes its sign.
+    reversals : int
+        Slips that follow another one without a rest between.
+    path_m : float, m
+        Length of the path slid, up to the record's last sample.
+    fell_off_slope : bool
+        Whether the object passed the foot of the slope.
+    lifted_off : bool
+        Whether it lost contact with the base.
+    slides_at_end : bool
+        Whether it still moves at the record's last sample.
+    """
+
+    slips: bool
+    slip_start_s: float | None
+    slip_end_s: float | None
+    max_slip_m: float
+    max_slip_time_s: float
+    residual_slip_m: float
+    final_slip_m: float | None
+    slip_count: int
+    reversals: int
+    path_m: float
+    fell_off_slope: bool
+    lifted_off: bool
+    slides_at_end: bool
+
+
+def solve_slide(
+    motion: Motion,
+    mu: float,
+    *,
+    mu_kinetic: float | None = None,
+    kappa: float | None = None,
+    vertical_scale: float = 0.0,
+    slope_deg: float = 0.0,
+    slope_length: float | None = None,
+    one_way: bool = False,
+    gravity: float = STANDARD_GRAVITY,
+) -> Response[SlideOutcome]:
+    """Follow an object that slides on a shaken base, exactly for the piecewise linear record.
+
+    Rigid object and base, Coulomb friction, no rocking. [Fujino1978]_ eqs. (1)-(13), corrected; equality sticks, and static friction is
+    tested whenever the relative velocity is zero. Where the base falls away faster than the object (normal force zero) it flies,
+    and lands plastically: our extension, flagged in the outcome.
+
+    Parameters
+    ----------
+    motion : Motion
+        Its horizontal row acts along the slope's direction, its vertical one times `vertical_scale`.
+    mu : float
+        Static friction coefficient, positive.
+    mu_kinetic : float or None
+        Kinetic friction coefficient, 0 to `mu`; None: `kappa` times `mu`.
+    kappa : float or None
+        Kinetic over static friction, in (0, 1]; None: 1.
+    vertical_scale : float
+        Factor on the vertical ground acceleration, the paper's gamma; 0 leaves it out.
+    slope_deg : float, degrees
+        Angle of the base, -90 to 90 exclusive; positive falls towards the component's positive direction.
+    slope_length : float or None, m
+        Distance along the slope from the object to the foot, with level ground beyond; None is a slope without end.
+    one_way : bool
+        Whether the object slides in the positive direction only ([Newmark1965]_).
+    gravity : float, m/s^2
+
+    Returns
+    -------
+    Response of SlideOutcome
+        Channels ``ground_acceleration`` (along the base), ``lower_limit`` and ``upper_limit`` (between which static friction holds),
+        ``relative_acceleration``, ``relative_velocity``, ``relative_displacement`` of the object, and ``ground_velocity``; SI.
+
+    Raises
+    ------
+    ParameterError
+        If a number lies outside its range, or the slope is steeper than static friction holds.
+    ComponentError
+        If the vertical motion is asked of a record without one.
+
+    Notes
+    -----
+    Relative to the base, u'' = g sin th - a -/+ mu_k N with N = g cos th + b per unit mass while it slides forward/backward; a and b
+    are the ground's acceleration along and normal to the base.
+
+    References
+    ----------
+    [Fujino1978]_, [Newmark1965]_
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = np.concatenate([np.full(101, 4.0), np.zeros(200)])
+    >>> response = solve_slide(Motion.from_arrays(pulse, 0.01), 0.2)
+    >>> round(response.outcome.residual_slip_m, 4)
+    -2.0997
+    """
+    base = sliding_base(mu, mu_kinetic=mu_kinetic, kappa=kappa, slope_deg=slope_deg, slope_length=slope_length, one_way=one_way)
+    gains = check(motion, vertical_scale, gravity)
+    p = parameters(base, gravity)
+    trajectory = follow(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
+    time, states, modes = trajectory.table()
+    outcome = _outcome(trajectory, motion, states, p)
+    options = {
+        "mu": base.mu,
+        "mu_kinetic": base.mu_kinetic,
+        "kappa": base.mu_kinetic / base.mu,
+        "vertical_scale": vertical_scale,
+        "slope_deg": base.slope_deg,
+        "slope_length_m": base.slope_length,
+        "one_way": one_way,
+        "gravity_m_s2": gravity,
+    }
+    return Response(
+        "slide",
+        outcome,
+        motion,
+        base,
+        motion.start_s + time,
+        _channels(motion, base, vertical_scale, gravity, time, states, modes),
+        _phases(trajectory, motion),
+        _events(trajectory.changes, motion.start_s),
+        options,
+        Status(trajectory.status),
+        tuple(_warnings(outcome, motion)),
+        ("Fujino1978", "Newmark1965") if one_way else ("Fujino1978",),
+    )
+
+
+def check(motion: Motion, vertical_scale: float, gravity: float) -> tuple[float, float, float]:
+    """Return the factors on the motion's three rows, or refuse what cannot act ([Fujino1978]_)."""
+    if not (math.isfinite(gravity) and gravity > 0.0):
+        raise ParameterError(f"gravity must be positive, found {gravity:g} m/s^2")
+    if not math.isfinite(vertical_scale):
+        raise ParameterError(f"the factor on the vertical motion must be a finite number, found {vertical_scale}")
+    if vertical_scale != 0.0 and motion.record is not None and motion.record.vertical is None:
+        raise ComponentError(
+            f"{motion.record.source or 'record'}: no vertical component; it has {', '.join(motion.record.codes)}: "
+            "leave the vertical motion out, or give a record that has one"
+        )
+    return 1.0, 0.0, vertical_scale
+
+
+def _outcome(trajectory: Trajectory, motion: Motion, states: FloatArray, p: tuple[float, ...]) -> SlideOutcome:
+    """Return the numbers of a trajectory."""
+    changes = trajectory.changes
+    highest, highest_time, lowest, lowest_time = (float(value) for value in trajectory.extrema[0])
+    slip, at = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
+    begins = [c for c in changes if c.guard != FOOT and _slides(c.target)]
+    moving = trajectory.final_mode % LEVEL != STICK
+    rest = slip_at_rest(trajectory.final.tolist(), trajectory.final_mode, p)
+    return SlideOutcome(
+        slips=bool(changes),
+        slip_start_s=motion.start_s + changes[0].time if changes else None,
+        slip_end_s=motion.start_s + changes[-1].time if changes and not moving else None,
+        max_slip_m=slip,
+        max_slip_time_s=motion.start_s + at,
+        residual_slip_m=float(trajectory.final[SLIP]),
+        final_slip_m=rest if math.isfinite(rest) else None,
+        slip_count=len(begins),
+        reversals=sum(_slides(c.source) for c in begins),
+        path_m=float(np.abs(np.diff(states[:, SLIP])).sum()),
+        fell_off_slope=any(_left_slope(c) for c in changes),
+        lifted_off=any(c.guard == CONTACT for c in changes),
+        slides_at_end=moving,
+    )
+
+
+def _slides(mode: int) -> bool:
+    """Whether the object slides, in contact, in a mode."""
+    return mode % LEVEL in (FORWARD, BACKWARD)
+
+
+def _left_slope(change: Change) -> bool:
+    """Whether the object is beyond the foot of the slope after an event, and was not before."""
+    return change.source < LEVEL <= change.target
+
+
+def _warnings(outcome: SlideOutcome, motion: Motion) -> list[str]:
+    """Return what a user should know before believing the numbers."""
+    name = motion.name or "motion"
+    told = []
+    if outcome.lifted_off:
+        told.append(f"{name}: the base falls away from the object, which flies and lands plastically; the paper is silent on this")
+    if outcome.final_slip_m is None:
+        told.append(f"{name}: kinetic friction does not hold on this slope: once in motion it slides for ever")
+    elif outcome.slides_at_end:
+        told.append(
+            f"{name}: still sliding at the record's end; max and residual slip stand for the record, "
+            f"on ground at rest it would stop at {outcome.final_slip_m:.4g} m"
+        )
+    return told
+
+
+def _phases(trajectory: Trajectory, motion: Motion) -> tuple[Phase, ...]:
+    """Return the stretches of stick, slip and flight; passing the foot does not end a slip."""
+    names = SLIDE.modes
+    bounds = [(0.0, names[STICK])]
+    for change in trajectory.changes:
+        if names[change.target] != bounds[-1][1] or change.guard != FOOT:
+            bounds.append((change.time, names[change.target]))
+    ends = [start for start, _ in bounds[1:]] + [trajectory.end_time]
+    return tuple(Phase(name, motion.start_s + start, motion.start_s + end) for (start, name), end in zip(bounds, ends, strict=True))
+
+
+def _events(changes: tuple[Change, ...], start_s: float) -> tuple[Event, ...]:
+    """Return the events with their names."""
+    return tuple(Event(_event_name(change), start_s + change.time, change.before, change.after) for change in changes)
+
+
+def _event_name(change: Change) -> str:
+    """Say what an event was."""
+    before, after = change.source % LEVEL, change.target % LEVEL
+    if change.guard == CONTACT:
+        return "lift-off"
+    if change.guard == FOOT:
+        return "foot passed downhill" if change.target > LEVEL else "foot passed uphill"
+    if before == FLIGHT:
+        return "landing"
+    if before == STICK:
+        return "slip start"
+    return "stop" if after == STICK else "reversal"
+
+
+def _channels(
+    motion: Motion, base: SlidingBase, vertical_scale: float, gravity: float, time: FloatArray, states: FloatArray, modes: IntArray
+) -> tuple[Channel, ...]:
+    """Return the curves on the trajectory's own time axis, both limits at each event."""
+    level = modes >= LEVEL
+    sine = np.where(level, 0.0, math.sin(base.angle))
+    cosine = np.where(level, 1.0, math.cos(base.angle))
+    grid = motion.dt * np.arange(motion.samples)
+    horizontal = np.interp(time, grid, motion.horizontal)
+    vertical = vertical_scale * np.interp(time, grid, motion.vertical) if vertical_scale else np.zeros_like(time)
+    along = horizontal * cosine - vertical * sine
+    normal = (gravity + vertical) * cosine + horizontal * sine
+    pull = gravity * sine
+    phase = modes % LEVEL
+    friction = np.select([phase == FORWARD, phase == BACKWARD], [-base.mu_kinetic * normal, base.mu_kinetic * normal], 0.0)
+    acceleration = np.where(phase == STICK, 0.0, pull - along + friction)
+    velocity = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(time) * (along[1:] + along[:-1]))])
+    unit, speed = "m/s^2", "m/s"
+    return (
+        Channel("ground_acceleration", unit, along, "z''"),
+        Channel("lower_limit", unit, pull - base.mu * normal, ""),
+        Channel("upper_limit", unit, pull + base.mu * normal, ""),
+        Channel("relative_acceleration", unit, acceleration, "x'' - z''"),
+        Channel("relative_velocity", speed, states[:, SPEED], "x' - z'"),
+        Channel("relative_displacement", "m", states[:, SLIP], "x - z"),
+        Channel("ground_velocity", speed, velocity, "z'"),
+    )

@@ -1,0 +1,1 @@
+"""A pile of stones in three dimensions, by discrete elements."""

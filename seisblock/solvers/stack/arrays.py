@@ -1,0 +1,275 @@
+"""From a pile of stones to the arrays of its kernels: bodies, boxes, joints with their points, corners, edges, memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import Joint
+from seisblock.errors import ParameterError
+from seisblock.solvers.stack.contact import SLOT
+from seisblock.solvers.stack.frames import AT, BODY, BOX, INERT, INERTIA, INVERSE, MASS, Q, R, X
+from seisblock.solvers.stack.step import ALL_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH, SIGMA
+from seisblock.typing import FloatArray, IntArray
+
+GROUND_HALF = 50.0
+"""Half size, m, of the box that is the ground."""
+
+MOST_CORNERS = 16
+_SIGNS = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], dtype=np.float64)
+_RINGS = [(i, (i + 1) % 4) for i in range(4)]
+
+
+@dataclass(frozen=True, eq=False)
+class PileArrays:
+    """A pile in arrays, at rest before it has sunk into its springs.
+
+    Parameters
+    ----------
+    body : Pile
+    points : int
+        Contact points along each side of a joint.
+    bodies : (m + 1, 31) array
+        State; the ground last.
+    inert : (m, 19) array
+        Masses, inertia matrices and their inverses.
+    boxes, owner : (b + 1, 6), (b + 1,) arrays
+        Half sizes and places of the boxes, and the bodies they belong to; the ground last.
+    joints, constants, grids : arrays
+        See ``stack_step``.
+    pairs, pair_constants : (p, 2), (p, 5) arrays
+    corners, counts, edges : arrays
+        Corners of each box, how many, and the pairs of corners that make its edges.
+    members : tuple of tuples of int
+        Stones of each body.
+    """
+
+    body: Pile
+    points: int
+    bodies: FloatArray
+    inert: FloatArray
+    boxes: FloatArray
+    owner: IntArray
+    joints: IntArray
+    constants: FloatArray
+    grids: FloatArray
+    pairs: IntArray
+    pair_constants: FloatArray
+    corners: FloatArray
+    counts: IntArray
+    edges: IntArray
+    members: tuple[tuple[int, ...], ...]
+
+    def kernel_constants(self) -> tuple[Any, ...]:
+        """Return what does not change, in the order of ``stack_step.PILE``."""
+        return (
+            self.joints,
+            self.constants,
+            self.grids,
+            self.pairs,
+            self.pair_constants,
+            self.corners,
+            self.counts,
+            self.edges,
+            self.boxes,
+            self.owner,
+            self.inert,
+        )
+
+    def memory(self) -> tuple[Any, ...]:
+        """Return empty memory, in the order of ``stack_step.MEMORY``."""
+        n, p, bodies = self.joints.shape[0], self.pairs.shape[0], self.bodies.shape[0]
+        return (
+            np.zeros((n, self.grids.shape[1], 4, 2)),
+            np.zeros((p, 2, MOST_CORNERS, SLOT)),
+            np.zeros((p, 2, 2 * ALL_EDGES, SLOT)),
+            np.zeros(p, dtype=np.int64),
+            np.zeros((bodies, bodies)),
+            np.zeros((self.boxes.shape[0], BOX)),
+            np.zeros((SCRATCH, 18)),
+        )
+
+
+def pile_arrays(body: Pile, contact: PileContact, points: int) -> PileArrays:
+    """Return the arrays of a pile ([Furukawa2009]_ section 3(1)).
+
+    Parameters
+    ----------
+    body : Pile
+    contact : PileContact
+    points : int
+        Contact points along each side of a joint: 2 stand at its corners, 3 or more at the centres of so many segments, as 5 do in
+        [Furukawa2009]_, whose pivots so lie at 0.8 of the half width.
+
+    Raises
+    ------
+    ParameterError
+        If `points` is less than 2.
+    """
+    if points < 2:
+        raise ParameterError(f"a joint needs at least 2 points along each side, found {points}")
+    members = tuple(body.bodies())
+    centres = np.array(body.centres())
+    bodies, inert, owner = _bodies(body, members, centres)
+    joints = [joint for joint in body.joints() if joint.lower < 0 or owner[joint.upper] != owner[joint.lower]]
+    joints = [joint for joint in joints if owner[joint.upper] != len(members) or (joint.lower >= 0 and owner[joint.lower] != len(members))]
+    boxes = np.zeros((len(body.stones) + 1, BOX))
+    for i, stone in enumerate(body.stones):
+        boxes[i, :3] = 0.5 * np.array(stone.size)
+        boxes[i, AT:] = centres[i] - bodies[owner[i], X : X + 3]
+    boxes[-1] = (GROUND_HALF, GROUND_HALF, GROUND_HALF, 0.0, 0.0, -GROUND_HALF)
+    pairs = np.array([(i, j) for i in range(len(boxes)) for j in range(i + 1, len(boxes)) if owner[i] != owner[j]], dtype=np.int64)
+    integers, constants, grids, worn = _joint_arrays(body, contact, points, joints, boxes, owner, inert, pairs)
+    corners, counts, edges = _hulls(boxes, worn)
+    return PileArrays(
+        body,
+        points,
+        bodies,
+        inert,
+        boxes,
+        owner,
+        integers,
+        constants,
+        grids,
+        pairs,
+        _pair_constants(body, contact, points, pairs, boxes, owner, inert, integers, constants),
+        corners,
+        counts,
+        edges,
+        members,
+    )
+
+
+def _bodies(body: Pile, members: tuple[tuple[int, ...], ...], centres: FloatArray) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Return state and inertia of the bodies, and the body of each box; fixed stones belong to the ground."""
+    bodies = np.zeros((len(members) + 1, BODY))
+    bodies[:, Q] = 1.0
+    bodies[:, R : R + 9] = np.eye(3).ravel()
+    inert = np.zeros((len(members), INERT))
+    owner = np.full(len(body.stones) + 1, len(members), dtype=np.int64)
+    for b, group in enumerate(members):
+        masses = np.array([body.stones[i].mass for i in group])
+        middle = masses @ centres[list(group)] / masses.sum()
+        tensor = np.zeros((3, 3))
+        for i, mass in zip(group, masses, strict=True):
+            size = np.array(body.stones[i].size)
+            arm = centres[i] - middle
+            tensor += mass * (np.diag((size @ size - size**2) / 12.0) + (arm @ arm) * np.eye(3) - np.outer(arm, arm))
+            owner[i] = b
+        bodies[b, X : X + 3] = middle
+        inert[b, MASS] = masses.sum()
+        inert[b, INERTIA:INVERSE] = tensor.ravel()
+        inert[b, INVERSE:] = np.linalg.inv(tensor).ravel()
+    return bodies, inert, owner
+
+
+def _joint_arrays(
+    body: Pile,
+    contact: PileContact,
+    points: int,
+    joints: list[Joint],
+    boxes: FloatArray,
+    owner: IntArray,
+    inert: FloatArray,
+    pairs: IntArray,
+) -> tuple[IntArray, FloatArray, FloatArray, dict[tuple[int, int], float]]:
+    """Return integers, constants and points of the joints, and how far the faces that carry points are worn."""
+    half_orbits = (points + 1) // 2
+    integers = np.zeros((len(joints), 4), dtype=np.int64)
+    constants = np.zeros((len(joints), JOINT))
+    grids = np.zeros((len(joints), half_orbits**2, 4, 3))
+    worn: dict[tuple[int, int], float] = {}
+    number = {tuple(pair): p for p, pair in enumerate(pairs.tolist())}
+    for j, joint in enumerate(joints):
+        upper, lower = joint.upper, joint.lower if joint.lower >= 0 else len(boxes) - 1
+        upper_is_smaller = boxes[upper, 0] * boxes[upper, 1] <= boxes[lower, 0] * boxes[lower, 1]
+        carrier, partner = (upper, lower) if upper_is_smaller else (lower, upper)
+        sigma = -1.0 if upper_is_smaller else 1.0
+        integers[j, [CARRIER, PARTNER, ORBITS]] = carrier, partner, half_orbits**2
+        integers[j, PAIR] = number[min(carrier, partner), max(carrier, partner)]
+        stone = body.stones[upper]
+        sides = (joint.x[1] - joint.x[0], joint.y[1] - joint.y[0])
+        above = stone.height if lower == len(boxes) - 1 else stone.height + body.stones[lower].height
+        mass = inert[owner[upper], MASS] if owner[upper] < len(inert) else inert[owner[lower], MASS]
+        law = contact.of_joint(float(mass), sides[0] * sides[1], 0.5 * above, points**2)
+        constants[j, [SIGMA, LEVEL]] = sigma, sigma * boxes[carrier, 2]
+        constants[j, POINT:] = (*law, body.mu if stone.mu is None else stone.mu)
+        place = np.array(body.centres()[carrier])
+        grids[j] = _orbits(points, joint.x, joint.y, place)
+        if points > 2:
+            worn[carrier, 1 if sigma > 0.0 else 0] = 1.0 / points
+    return integers, constants, grids, worn
+
+
+def _orbits(points: int, x: tuple[float, float], y: tuple[float, float], place: FloatArray) -> FloatArray:
+    """Return the points of a joint on the carrier's face, (orbits, 4, 3): x, y, and 1 where there is a point, mirror images together."""
+    ends = 1.0 if points == 2 else 1.0 - 1.0 / points
+    ticks = np.linspace(-ends, ends, points)[(points // 2) :] if points > 1 else np.zeros(1)
+    middle = (0.5 * (x[0] + x[1]) - place[0], 0.5 * (y[0] + y[1]) - place[1])
+    half = (0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0]))
+    grid = np.zeros((ticks.size**2, 4, 3))
+    for o, (u, v) in enumerate((u, v) for u in ticks for v in ticks):
+        u, v = (0.0 if abs(w) < 1e-12 else w for w in (u, v))
+        for q, (su, sv) in enumerate(((1, 1), (-1, 1), (1, -1), (-1, -1))):
+            real = (u > 0.0 or su > 0) and (v > 0.0 or sv > 0)
+            grid[o, q] = middle[0] + su * u * half[0], middle[1] + sv * v * half[1], float(real)
+    return grid
+
+
+def _pair_constants(
+    body: Pile,
+    contact: PileContact,
+    points: int,
+    pairs: IntArray,
+    boxes: FloatArray,
+    owner: IntArray,
+    inert: FloatArray,
+    joints: IntArray,
+    constants: FloatArray,
+) -> FloatArray:
+    """Return the five constants of one corner of each pair.
+
+    Four corners resist turning as much as a whole joint does, whose points stand at a third of their square distance: no stiffer, so
+    that the step of the joints serves them too.
+    """
+    made = np.zeros((pairs.shape[0], 5))
+    heights = [stone.height for stone in body.stones]
+    for p, (a, b) in enumerate(pairs.tolist()):
+        mass = min(inert[owner[i], MASS] for i in (a, b) if owner[i] < len(inert))
+        sizes = [(4.0 * boxes[i, 0] * boxes[i, 1], i) for i in (a, b) if i < len(heights)]
+        long = 0.5 * sum(heights[i] for _, i in sizes)
+        made[p, :4] = np.array(contact.of_joint(float(mass), min(sizes)[0], long, points**2)) * points**2 / 12.0
+        made[p, 4] = body.mu
+    for j in range(joints.shape[0]):
+        made[joints[j, PAIR]] = [*constants[j, POINT : POINT + 4] * points**2 / 12.0, constants[j, POINT + 4]]
+    return made
+
+
+def _hulls(boxes: FloatArray, worn: dict[tuple[int, int], float]) -> tuple[FloatArray, IntArray, IntArray]:
+    """Return corners and edges of the boxes.
+
+    A face whose points stand inside its border is worn: its corners are the outermost points, and a bevel of 45 degrees leads to the sides.
+    """
+    corners = np.zeros((len(boxes), MOST_CORNERS, 3))
+    counts = np.zeros(len(boxes), dtype=np.int64)
+    edges = np.zeros((len(boxes), ALL_EDGES, 2), dtype=np.int64)
+    for i, (hx, hy, hz) in enumerate(boxes[:-1, :3].tolist()):
+        found: list[tuple[float, float, float]] = []
+        posts = []
+        for side, up in enumerate((-1.0, 1.0)):
+            inset = worn.get((i, side), 0.0)
+            found += [(sx * hx * (1.0 - inset), sy * hy * (1.0 - inset), up * hz) for sx, sy in _SIGNS]
+            posts.append([4 * side + c for c in range(4)])
+        for side, up in enumerate((-1.0, 1.0)):
+            if (i, side) in worn:
+                bevel = min(worn[i, side] * min(hx, hy), 0.5 * hz)
+                posts[side] = [len(found) + c for c in range(4)]
+                found += [(sx * hx, sy * hy, up * (hz - bevel)) for sx, sy in _SIGNS]
+        corners[i, : len(found)] = found
+        counts[i] = len(found)
+        edges[i] = [*_RINGS, *[(4 + a, 4 + b) for a, b in _RINGS], *zip(*posts, strict=True)]
+    return corners, counts, edges

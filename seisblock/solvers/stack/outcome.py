@@ -1,0 +1,249 @@
+"""What became of each stone: standing, slid, turned, fallen; and whether the run's books balance."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.bodies.pile.stone import GROUND
+from seisblock.errors import SolverError
+from seisblock.results import Channel
+from seisblock.solvers.stack.arrays import PileArrays
+from seisblock.solvers.stack.frames import AT, MASS, V
+from seisblock.solvers.stack.run import CREATED, FALL_TIME, FALL_X, FALL_Y, IMPULSE, LEAST_COSINE, LOST, WORK
+from seisblock.typing import FloatArray
+
+SLID = 1e-3
+"""A stone that ends this far from its place, m, has slid."""
+
+TURNED = 0.01
+"""A stone that ends turned by this much about the vertical, rad, has turned."""
+
+CREATED_AT_MOST = 1e-3
+"""Energy that a run may create, over the weight of the pile times its height: more means that the step is too coarse."""
+
+
+@dataclass(frozen=True)
+class StoneFate:
+    """What became of one stone; displacements and turns are relative to the stone it stood on, or the ground, in m and rad.
+
+    Parameters
+    ----------
+    name, state : str
+        State: ``standing``, ``slid``, ``turned`` or ``fallen``.
+    max_tilt_rad, residual_tilt_rad : float
+    residual_slip_m, residual_slip_x_m, residual_slip_y_m : float
+        Where the centre of its lower face ends, in the axes of what it stood on; the first is the distance.
+    residual_turn_rad : float
+        About the vertical, positive counter-clockwise seen from above.
+    fell_at_s : float or None
+    fell_towards_deg : float or None
+        Direction of the fall from +x, counter-clockwise seen from above.
+    fell_onto : str or None
+        The ground, or the stone on which it came to lie.
+    """
+
+    name: str
+    state: str
+    max_tilt_rad: float
+    residual_tilt_rad: float
+    residual_slip_m: float
+    residual_slip_x_m: float
+    residual_slip_y_m: float
+    residual_turn_rad: float
+    fell_at_s: float | None
+    fell_towards_deg: float | None
+    fell_onto: str | None
+
+
+@dataclass(frozen=True)
+class StackOutcome:
+    """What the shaking did to a pile.
+
+    Parameters
+    ----------
+    overturned : tuple of str
+        Names of the stones that fell, from below upwards.
+    overturned_any : bool
+    time_s : float or None
+        When the first of them fell.
+    max_tilt_rad, residual_slip_m : dict
+        By name of the stone.
+    stones : tuple of StoneFate
+    ground_work_j, lost_j, created_j : float
+        Work of the shaking; what friction and dashpots took; what the stepping created, which should be zero.
+    momentum_error : float
+        Momentum less impulse, over weight times duration.
+    step_s : float
+    """
+
+    overturned: tuple[str, ...]
+    overturned_any: bool
+    time_s: float | None
+    max_tilt_rad: dict[str, float]
+    residual_slip_m: dict[str, float]
+    stones: tuple[StoneFate, ...]
+    ground_work_j: float
+    lost_j: float
+    created_j: float
+    momentum_error: float
+    step_s: float
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """Where the stones were: times, centres, quaternions, (rows,), (rows, stones, 3), (rows, stones, 4)."""
+
+    time: FloatArray
+    centres: FloatArray
+    quaternions: FloatArray
+
+
+def stone_track(pile: PileArrays, rows: FloatArray) -> Track:
+    """Return the way of each stone from the rows that were kept (for [Furukawa2009]_); stones of a body move together, fixed ones stay."""
+    stones = len(pile.body.stones)
+    centres = np.empty((len(rows), stones, 3))
+    quaternions = np.zeros((len(rows), stones, 4))
+    quaternions[:, :, 0] = 1.0
+    for i in range(stones):
+        b = int(pile.owner[i])
+        if b == len(pile.members):
+            centres[:, i] = pile.boxes[i, AT:]
+            continue
+        state = rows[:, 1 + 7 * b : 8 + 7 * b]
+        quaternions[:, i] = state[:, 3:]
+        centres[:, i] = state[:, :3] + rotated(state[:, 3:], pile.boxes[i, AT:])
+    return Track(rows[:, 0], centres, quaternions)
+
+
+def rotated(q: FloatArray, v: FloatArray) -> FloatArray:
+    """Return vectors (..., 3) turned by quaternions (..., 4) (for [Furukawa2009]_)."""
+    w, u = q[..., :1], q[..., 1:]
+    return v + 2.0 * np.cross(u, np.cross(u, v) + w * v)
+
+
+def _inverse(q: FloatArray) -> FloatArray:
+    """Return the inverse turns."""
+    return q * np.array([1.0, -1.0, -1.0, -1.0])
+
+
+def _under(pile: PileArrays, i: int) -> int:
+    """Return the stone that stone `i` stands on, -1 for the ground."""
+    on = pile.body.stones[i].on
+    return -1 if on == GROUND else pile.body.names.index(on)
+
+
+def _slip(pile: PileArrays, track: Track, i: int) -> FloatArray:
+    """Return how the centre of a stone's lower face has moved over what it stood on, (rows, 3), m."""
+    foot = track.centres[:, i] + rotated(track.quaternions[:, i], np.array([0.0, 0.0, -pile.boxes[i, 2]]))
+    below = _under(pile, i)
+    if below >= 0:
+        foot = rotated(_inverse(track.quaternions[:, below]), foot - track.centres[:, below])
+    return foot - foot[0]
+
+
+def _tilt(track: Track, i: int) -> FloatArray:
+    """Return the angle between a stone's axis and the vertical, (rows,), rad."""
+    q = track.quaternions[:, i]
+    return 2.0 * np.arctan2(np.hypot(q[:, 1], q[:, 2]), np.hypot(q[:, 0], q[:, 3]))
+
+
+def _turn(track: Track, i: int) -> FloatArray:
+    """Return a stone's turn about the vertical, (rows,), rad."""
+    q = track.quaternions[:, i]
+    return 2.0 * np.arctan2(q[:, 3], q[:, 0]) * np.where(np.hypot(q[:, 0], q[:, 3]) > 0.0, 1.0, np.nan)
+
+
+def channels(pile: PileArrays, track: Track) -> tuple[Channel, ...]:
+    """Return tilt, slip, centre and quaternion of every stone (for [Furukawa2009]_)."""
+    made = []
+    for i, name in enumerate(pile.body.names):
+        slip = _slip(pile, track, i)
+        made += [
+            Channel(f"{name}_tilt", "rad", _tilt(track, i), "θ"),
+            Channel(f"{name}_slip", "m", np.hypot(slip[:, 0], slip[:, 1]), "s"),
+            *(Channel(f"{name}_{axis}", "m", track.centres[:, i, k], axis) for k, axis in enumerate("xyz")),
+            *(Channel(f"{name}_q{axis}", "1", track.quaternions[:, i, k], f"q{axis}") for k, axis in enumerate("wxyz")),
+        ]
+    return tuple(made)
+
+
+def stack_outcome(
+    pile: PileArrays,
+    track: Track,
+    fates: FloatArray,
+    last_touch: FloatArray,
+    books: FloatArray,
+    bodies: FloatArray,
+    *,
+    start: float,
+    ended: float,
+    gravity: float,
+    step: float,
+) -> StackOutcome:
+    """Return the outcome of a run (for [Furukawa2009]_).
+
+    Raises
+    ------
+    SolverError
+        If the run created energy.
+    """
+    masses = pile.inert[:, MASS]
+    tall = max(centre[2] + 0.5 * stone.height for centre, stone in zip(pile.body.centres(), pile.body.stones, strict=True))
+    scale = float(masses.sum()) * gravity * tall
+    if books[CREATED] > CREATED_AT_MOST * scale:
+        raise SolverError(
+            f"the steps of {step:.3g} s are too coarse for the pile {pile.body.name}: they created {books[CREATED]:.3g} J of energy; "
+            f"give a smaller --step"
+        )
+    momentum = masses @ bodies[:-1, V : V + 3] - books[IMPULSE : IMPULSE + 3]
+    stones = tuple(_fate(pile, track, i, fates, last_touch, start, ended) for i in range(len(pile.body.stones)))
+    fallen = [stone for stone in stones if stone.state == "fallen"]
+    return StackOutcome(
+        overturned=tuple(stone.name for stone in fallen),
+        overturned_any=bool(fallen),
+        time_s=min((stone.fell_at_s for stone in fallen if stone.fell_at_s is not None), default=None),
+        max_tilt_rad={stone.name: stone.max_tilt_rad for stone in stones},
+        residual_slip_m={stone.name: stone.residual_slip_m for stone in stones},
+        stones=stones,
+        ground_work_j=float(books[WORK]),
+        lost_j=float(books[LOST]),
+        created_j=float(books[CREATED]),
+        momentum_error=float(np.linalg.norm(momentum) / (masses.sum() * gravity * max(ended, step))),
+        step_s=step,
+    )
+
+
+def _fate(pile: PileArrays, track: Track, i: int, fates: FloatArray, last_touch: FloatArray, start: float, ended: float) -> StoneFate:
+    """Return what became of one stone."""
+    slip, turn = _slip(pile, track, i)[-1], _turn(track, i)
+    b = int(pile.owner[i])
+    turned = float(turn[-1] - turn[0])
+    if b == len(pile.members):
+        return StoneFate(pile.body.names[i], "standing", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None, None, None)
+    fell = fates[b, FALL_TIME] >= 0.0
+    distance = float(math.hypot(slip[0], slip[1]))
+    state = "fallen" if fell else "slid" if distance > SLID else "turned" if abs(turned) > TURNED else "standing"
+    return StoneFate(
+        name=pile.body.names[i],
+        state=state,
+        max_tilt_rad=float(math.acos(min(1.0, max(-1.0, fates[b, LEAST_COSINE])))),
+        residual_tilt_rad=float(_tilt(track, i)[-1]),
+        residual_slip_m=distance,
+        residual_slip_x_m=float(slip[0]),
+        residual_slip_y_m=float(slip[1]),
+        residual_turn_rad=float(math.remainder(turned, 2.0 * math.pi)),
+        fell_at_s=float(start + fates[b, FALL_TIME]) if fell else None,
+        fell_towards_deg=float(math.degrees(math.atan2(fates[b, FALL_Y], fates[b, FALL_X]))) if fell else None,
+        fell_onto=_lies_on(pile, i, b, last_touch, ended) if fell else None,
+    )
+
+
+def _lies_on(pile: PileArrays, i: int, b: int, last_touch: FloatArray, ended: float) -> str | None:
+    """Return what a fallen stone touches at the end: the ground before any stone, nothing while it flies."""
+    recent = [other for other in range(last_touch.shape[0]) if other != b and last_touch[b, other] >= ended - 0.2]
+    if len(pile.members) in recent:
+        return GROUND
+    return pile.body.names[pile.members[recent[0]][-1]] if recent else None

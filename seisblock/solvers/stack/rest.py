@@ -1,0 +1,145 @@
+"""A pile at rest: how far its stones sink into their springs, and which step its stiffest contact admits."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.linalg import eigh
+
+from seisblock.errors import BodyError, ParameterError
+from seisblock.solvers.stack.arrays import PileArrays
+from seisblock.solvers.stack.frames import INERTIA, INVERSE, MASS, Q, R, X
+from seisblock.solvers.stack.step import CARRIER, PARTNER, POINT, SIGMA
+from seisblock.typing import FloatArray
+
+STABLE = 4.0
+"""Leapfrog with lagged dashpots is stable while the largest eigenvalue of dt^2 M^-1 K + 2 dt M^-1 C is below this."""
+
+SAFETY = 0.7
+"""Part of the stable limit that is used."""
+
+_AXES = np.eye(3)
+
+
+def point_rows(pile: PileArrays) -> tuple[FloatArray, FloatArray]:
+    """Return how each contact point of the joints is displaced by the bodies' small motions ([Furukawa2009]_).
+
+    Returns
+    -------
+    rows : (points, 3, 6 m) array
+        Displacement of the upper side against the lower one along x, y and z, per unit of each body's displacement (3) and rotation (3).
+    index : (points, 3) array
+        Joint, orbit and image of each point.
+    """
+    m = pile.inert.shape[0]
+    rows, index = [], []
+    for j, (joint, k) in enumerate(zip(pile.joints, pile.constants, strict=True)):
+        for o, q in zip(*np.nonzero(pile.grids[j, :, :, 2] > 0.0), strict=True):
+            carrier, partner = (int(pile.owner[joint[i]]) for i in (CARRIER, PARTNER))
+            box = pile.boxes[joint[CARRIER]]
+            place = pile.bodies[carrier, X : X + 3] + box[3:] + [*pile.grids[j, o, q, :2], k[SIGMA] * box[2]]
+            row = np.zeros((3, 6 * (m + 1)))
+            # seen from the lower stone the upper one moves: the carrier is the upper one where sigma is -1
+            for body, sign in ((carrier, -k[SIGMA]), (partner, k[SIGMA])):
+                arm = place - pile.bodies[body, X : X + 3]
+                row[:, 6 * body : 6 * body + 3] += sign * _AXES
+                row[:, 6 * body + 3 : 6 * body + 6] += sign * np.cross(_AXES, arm).T
+            rows.append(row[:, : 6 * m])
+            index.append((j, o, q))
+    return np.array(rows), np.array(index)
+
+
+def stable_step(pile: PileArrays) -> float:
+    """Return the largest stable step, s, from the linear pile with every point in touch and nothing sliding.
+
+    The step follows from M^-1 (dt^2 K + 2 dt C) having no eigenvalue above 4; the spring and dashpot of a single point are those of
+    [Furukawa2009]_ table 2 or of the stones themselves.
+    """
+    rows, index = point_rows(pile)
+    k = pile.constants[index[:, 0]][:, POINT : POINT + 4]
+    stiffness = np.einsum("pdi,pd,pdj->ij", rows, k[:, [2, 2, 0]], rows)
+    damping = np.einsum("pdi,pd,pdj->ij", rows, k[:, [3, 3, 1]], rows)
+    mass = _mass_matrix(pile)
+
+    def largest(step: float) -> float:
+        values = eigh(step**2 * stiffness + 2.0 * step * damping, mass, eigvals_only=True, subset_by_index=[len(mass) - 1, len(mass) - 1])
+        return float(values[0])
+
+    low, high = 0.0, 1.0
+    while high - low > 1e-4 * high:
+        middle = 0.5 * (low + high) if low > 0.0 else 0.1 * high
+        low, high = (middle, high) if largest(middle) < STABLE else (low, middle)
+    return low
+
+
+def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
+    """Return how many steps a sampling interval takes ([Furukawa2009]_).
+
+    Raises
+    ------
+    ParameterError
+        If the step asked for is too coarse for the stiffest contact: the answer would be wrong.
+    """
+    limit = stable_step(pile)
+    if step is not None and not 0.0 < step <= limit:
+        raise ParameterError(
+            f"a step of {step:g} s is too coarse for the stiffest contact of the pile {pile.body.name}, stable up to {limit:.3g} s: "
+            f"leave it out, or give at most {SAFETY * limit:.2g} s"
+        )
+    return max(1, math.ceil(dt / (SAFETY * limit if step is None else step) * (1.0 - 1e-12)))
+
+
+def _mass_matrix(pile: PileArrays) -> FloatArray:
+    """Return the mass matrix of the free bodies, (6 m, 6 m)."""
+    m = pile.inert.shape[0]
+    mass = np.zeros((6 * m, 6 * m))
+    for b in range(m):
+        mass[6 * b : 6 * b + 3, 6 * b : 6 * b + 3] = pile.inert[b, MASS] * _AXES
+        mass[6 * b + 3 : 6 * b + 6, 6 * b + 3 : 6 * b + 6] = pile.inert[b, INERTIA:INVERSE].reshape(3, 3)
+    return mass
+
+
+def sink(pile: PileArrays, gravity: float, bodies: FloatArray, stretches: FloatArray) -> None:
+    """Lower the bodies into their springs until these carry them ([Furukawa2009]_); points that would have to pull let go.
+
+    Raises
+    ------
+    BodyError
+        If no set of pressing points carries the pile.
+    """
+    rows, index = point_rows(pile)
+    k = pile.constants[index[:, 0]][:, POINT : POINT + 4]
+    m = pile.inert.shape[0]
+    load = np.zeros(6 * m)
+    load[2::6] = -pile.inert[:, MASS] * gravity
+    pressing = np.ones(len(rows), dtype=bool)
+    for _ in range(len(rows)):
+        weights = k[:, [2, 2, 0]] * pressing[:, None]
+        stiffness = np.einsum("pdi,pd,pdj->ij", rows, weights, rows)
+        try:
+            u = np.linalg.solve(stiffness, load)
+        except np.linalg.LinAlgError:
+            break
+        moved = rows @ u
+        still = moved[:, 2] < 0.0
+        if (still == pressing).all():
+            _displace(pile, u, moved, index, bodies, stretches)
+            return
+        pressing = still
+    raise BodyError(f"the pile {pile.body.name} does not come to rest on its joints: its load lies too close to an edge")
+
+
+def _displace(pile: PileArrays, u: FloatArray, moved: FloatArray, index: FloatArray, bodies: FloatArray, stretches: FloatArray) -> None:
+    """Write small displacements into the bodies, and the stretch of the shear springs that goes with them."""
+    for b in range(pile.inert.shape[0]):
+        bodies[b, X : X + 3] += u[6 * b : 6 * b + 3]
+        turned = 0.5 * u[6 * b + 3 : 6 * b + 6]
+        bodies[b, Q : Q + 4] = np.array([1.0, *turned]) / math.sqrt(1.0 + turned @ turned)
+        w, v = bodies[b, Q], bodies[b, Q + 1 : Q + 4]
+        cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+        bodies[b, R : R + 9] = (np.eye(3) + 2.0 * w * cross + 2.0 * cross @ cross).ravel()
+    for (j, o, q), shift in zip(index.tolist(), moved, strict=True):
+        # the stretch is the carrier's motion against its partner
+        if shift[2] < 0.0:
+            stretches[j, o, q] = -pile.constants[j, SIGMA] * shift[:2]

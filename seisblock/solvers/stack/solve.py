@@ -1,0 +1,177 @@
+"""A pile of stones on a shaking base: three-dimensional distinct elements ([Furukawa2009]_ section 3)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict
+
+import numpy as np
+
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.errors import ParameterError, SolverError
+from seisblock.records.motion import ACROSS, UP, Motion
+from seisblock.results import Event, Phase, Response, Status
+from seisblock.solvers.stack.arrays import PileArrays, pile_arrays
+from seisblock.solvers.stack.frames import Q, X, orient
+from seisblock.solvers.stack.outcome import StackOutcome, channels, stack_outcome, stone_track
+from seisblock.solvers.stack.rest import sink, steps_per_sample
+from seisblock.solvers.stack.run import BOOKS, FALL_TIME, FATE, FLOOR, LEAN, LEAST_COSINE, run
+from seisblock.typing import FloatArray
+from seisblock.units import STANDARD_GRAVITY
+
+FALLEN_TILT = math.radians(60.0)
+"""A stone that leans more than this, and more than its own critical angle, has fallen."""
+
+FALLEN_DROP = 0.5
+"""A stone whose centre has sunk by this part of its smallest size has fallen."""
+
+AFTERWARDS = 10.0
+"""Seconds that the ground may stand still after the record, until every stone is still."""
+
+MOVED = 1e-5
+LONGEST_GAP = 0.1
+
+
+def solve_stack(
+    body: Pile,
+    motion: Motion,
+    *,
+    points: int = 5,
+    contact: PileContact | None = None,
+    vertical: bool = True,
+    across: bool = True,
+    gravity: float = STANDARD_GRAVITY,
+    step: float | None = None,
+    stop_at_fall: bool = False,
+    tilts: Mapping[str, float] | None = None,
+) -> Response[StackOutcome]:
+    """Follow a pile of stones through a ground motion ([Furukawa2009]_ section 3(1)).
+
+    Every stone is rigid, with quaternions for its turns; stones press on each other through springs, dashpots and Coulomb sliders at n x n
+    points of each joint, and at corners and edges once they have tilted or moved off it. Valid for any tilt and any fall.
+
+    Parameters
+    ----------
+    body : Pile
+    motion : Motion
+        Ground acceleration; +x is its first row.
+    points : int
+        Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
+    contact : PileContact
+        Default: [Furukawa2009]_ table 2.
+    vertical, across : bool
+        Whether the motion's vertical and transverse rows act.
+    gravity : float, m/s^2
+    step : float, s
+        Fixed step; default: 0.7 of the stable step of the stiffest contact.
+    stop_at_fall : bool
+        Whether to end at the first fall.
+    tilts : mapping of str to float, rad
+        Stones let go from a lean about y, turned about the point on which they then stand.
+
+    Returns
+    -------
+    Response
+        Channels ``NAME_tilt``, ``NAME_slip``, centre ``NAME_x`` ... relative to the ground, quaternion ``NAME_qw`` ...;
+        rows where something moved.
+
+    Raises
+    ------
+    BodyError
+        If the pile cannot rest on its joints.
+    ParameterError
+        If `step` is too coarse to be stable, or an option is out of range.
+    SolverError
+        If the run created energy or left the finite numbers.
+    """
+    contact = PileContact() if contact is None else contact
+    if not (gravity > 0.0 and math.isfinite(gravity)):
+        raise ParameterError(f"gravity must be positive, found {gravity} m/s^2")
+    pile = pile_arrays(body, contact, points)
+    steps = steps_per_sample(pile, motion.dt, step)
+    quiet = math.ceil(AFTERWARDS / motion.dt)
+    shaking = np.zeros((3, motion.samples + quiet))
+    shaking[:, : motion.samples] = motion.acceleration
+    shaking[[ACROSS, UP]] *= np.array([[across], [vertical]])
+    bodies, memory = pile.bodies.copy(), pile.memory()
+    sink(pile, gravity, bodies, memory[0])
+    fates = _fates(pile, bodies)
+    for name, angle in (tilts or {}).items():
+        _lean(pile, bodies, name, angle)
+    rows = np.zeros((shaking.shape[1], 1 + 7 * len(pile.members)))
+    last_touch = np.full((len(bodies), len(bodies)), -1.0)
+    books, info = np.zeros(BOOKS), np.zeros(2, dtype=np.int64)
+    gap = max(1, round(LONGEST_GAP / motion.dt))
+    settings = np.array([gravity, motion.dt, steps, stop_at_fall, MOVED, gap, motion.samples - 1], dtype=np.float64)
+    status = Status(run(shaking, settings, bodies, pile.kernel_constants(), memory, fates, rows, last_touch, books, info))
+    if status == Status.NOT_FINITE:
+        raise SolverError(f"the pile {body.name} left the finite numbers at {info[1] * motion.dt:.3f} s: give a smaller --step")
+    ended = float(info[1]) * motion.dt
+    track = stone_track(pile, rows[: info[0]])
+    outcome = stack_outcome(
+        pile, track, fates, last_touch, books, bodies, start=motion.start_s, ended=ended, gravity=gravity, step=motion.dt / steps
+    )
+    return Response(
+        model="stack",
+        outcome=outcome,
+        motion=motion,
+        body=body,
+        time=motion.start_s + track.time,
+        channels=channels(pile, track),
+        phases=_phases(outcome, motion.start_s, motion.start_s + ended),
+        events=_events(outcome),
+        options={
+            "points": points,
+            "mu": body.mu,
+            "vertical": vertical,
+            "across": across,
+            "gravity_m_s2": gravity,
+            "step_s": motion.dt / steps,
+            "contact": asdict(contact),
+        },
+        status=status,
+        citations=("Furukawa2009",),
+    )
+
+
+def _fates(pile: PileArrays, bodies: FloatArray) -> FloatArray:
+    """Return the rows in which the kernel notes the fate of each body."""
+    fates = np.zeros((len(pile.members), FATE))
+    fates[:, LEAST_COSINE] = 1.0
+    fates[:, FALL_TIME] = -1.0
+    for b, group in enumerate(pile.members):
+        boxes = pile.boxes[list(group), :3]
+        foot, rise = boxes[0, :2].max(), bodies[b, X + 2] - (pile.boxes[group[0], 5] + bodies[b, X + 2] - boxes[0, 2])
+        fates[b, LEAN] = math.cos(max(FALLEN_TILT, math.atan2(foot, rise) + 0.1))
+        fates[b, FLOOR] = bodies[b, X + 2] - FALLEN_DROP * 2.0 * boxes.min()
+    return fates
+
+
+def _lean(pile: PileArrays, bodies: FloatArray, name: str, angle: float) -> None:
+    """Lean a body about y, over the outermost point of its lower joint."""
+    if name not in pile.body.names or pile.owner[pile.body.names.index(name)] == len(pile.members):
+        raise ParameterError(f"no free stone is called {name!r}; there are {', '.join(pile.body.names)}")
+    b = int(pile.owner[pile.body.names.index(name)])
+    box = pile.boxes[pile.members[b][0]]
+    inset = 0.0 if pile.points == 2 else 1.0 / pile.points
+    pivot = np.array([math.copysign(box[0] * (1.0 - inset), angle), 0.0, -box[2]]) + box[3:]
+    turned = np.array([math.cos(angle), math.sin(angle)])
+    moved = np.array([turned[0] * pivot[0] + turned[1] * pivot[2], 0.0, -turned[1] * pivot[0] + turned[0] * pivot[2]])
+    bodies[b, X : X + 3] += pivot - moved
+    bodies[b, Q : Q + 4] = (math.cos(0.5 * angle), 0.0, math.sin(0.5 * angle), 0.0)
+    orient(bodies[b])
+
+
+def _events(outcome: StackOutcome) -> tuple[Event, ...]:
+    """Return the falls, in the order of time."""
+    falls = sorted((stone.fell_at_s, stone.name) for stone in outcome.stones if stone.fell_at_s is not None)
+    return tuple(Event(f"{name} falls", at, np.zeros(0), np.zeros(0)) for at, name in falls)
+
+
+def _phases(outcome: StackOutcome, start: float, end: float) -> tuple[Phase, ...]:
+    """Return the stretch before and the stretch after the first fall."""
+    if outcome.time_s is None:
+        return (Phase("standing", start, end),)
+    return (Phase("standing", start, outcome.time_s), Phase("fallen", outcome.time_s, end))

@@ -1,0 +1,237 @@
+"""One step of a pile: every contact force, then every stone on by one step.
+
+Positions and axes stand at the step, velocities and angular momenta half a step before (leapfrog); dashpots feel those. Each contact
+adds one force and its opposite, so momentum is kept exactly. In the ground's axes each stone also feels -(a_ground + g).
+"""
+
+from __future__ import annotations
+
+from seisblock._jit import kernel, types
+from seisblock.solvers.stack.contact import ALIVE, BLOCK, ENERGY, INTEGERS, MATRIX, OUTSIDE, SUM, TABLE, TOUCHING, VECTOR, press_joint
+from seisblock.solvers.stack.frames import AT, MASS, F, L, Q, R, T, V, W, X, act, orient, relative, spin, turn
+from seisblock.solvers.stack.solid import boxes_meet, press_corners, press_edges
+
+_t = types()
+VOLUME = _t.Array(_t.float64, 4, "C")
+GRID = _t.Array(_t.float64, 5, "C")
+TABLES = _t.Array(_t.int64, 3, "C")
+
+PILE = _t.Tuple((TABLE, MATRIX, VOLUME, TABLE, MATRIX, BLOCK, INTEGERS, TABLES, MATRIX, INTEGERS, MATRIX))
+"""What does not change: joints, their constants, their points, pairs of boxes, their constants per corner, corners of the boxes, how many,
+edges of the boxes, boxes, owners of the boxes, inertia of the bodies."""
+
+MEMORY = _t.Tuple((VOLUME, VOLUME, VOLUME, INTEGERS, MATRIX, MATRIX, MATRIX))
+"""What contacts remember: stretches at the points of joints, slots of corners and of edges of each pair in both roles; which pairs their
+joint takes care of; which bodies have touched since it was last cleared; bounds of the boxes; scratch."""
+
+CARRIER, PARTNER, ORBITS, PAIR = range(4)
+"""A joint's integers: its boxes, the number of its orbits of points, and the pair of boxes it belongs to."""
+
+SIGMA, LEVEL, POINT = 0, 1, 2
+JOINT = 7
+"""A joint's constants: which face of the carrier (-1 lower, +1 upper), z of that face, and the five of one point."""
+
+COSINE = 0.7071067811865476
+"""Two stones whose upward axes are within 45 degrees meet at their joint's points; beyond, at corners and edges."""
+
+APPROACH = 0.4
+"""The joint acts while the carrier's centre is above the partner's face by this part of its half height."""
+
+ON_FACE = 4
+ALL_EDGES = 12
+SCRATCH = 13
+"""Rows of scratch."""
+
+MARGIN = 0.01
+"""How much, m, the bounds of boxes are widened for what they may move until they are looked at again."""
+
+SLOW_SPIN = 1e-6
+"""Square of the spin, rad^2/s^2, below which a body's axes count as still during a step."""
+
+
+@kernel(_t.int64(_t.float64, VECTOR, VECTOR, VECTOR))
+def _seated(sigma, rel, carrier, partner):
+    """Whether two boxes still face each other with the faces of their joint: 1 or 0."""
+    above = -sigma * rel[11]
+    return 1 if rel[8] > COSINE and above > partner[2] + APPROACH * carrier[2] else 0
+
+
+@kernel(_t.void(MATRIX))
+def _forget(slots):
+    """Let the contacts of a pair in one role die."""
+    for i in range(slots.shape[0]):
+        slots[i, ALIVE] = 0.0
+
+
+@kernel(_t.void(INTEGERS, MATRIX, _t.int64, _t.int64, VECTOR), inline=True)
+def _mark(owner, touched, c, p, total):
+    """Note that two bodies touch."""
+    if total[TOUCHING] > 0.0:
+        touched[owner[c], owner[p]] = 1.0
+        touched[owner[p], owner[c]] = 1.0
+
+
+@kernel(_t.float64(_t.int64, _t.int64, _t.int64, _t.int64, _t.int64, _t.int64, MATRIX, _t.float64, PILE, MEMORY))
+def _meet(pair, role, n_corners, first_edge, n_edges, check, bodies, dt, pile, memory):
+    """Add the forces of one box's corners and edges on the other; return the energy in their springs, or -1 if the boxes are apart."""
+    _, _, _, pairs, constants, corners, _, edges, boxes, owner, _ = pile
+    _, corner_slots, edge_slots, _, touched, _, work = memory
+    c, p = pairs[pair, role], pairs[pair, 1 - role]
+    rel, total, arms, scratch = work[0], work[1], work[2:4], work[8:13]
+    relative(c, p, bodies, boxes, owner, arms, rel)
+    if check == 1 and not boxes_meet(rel, boxes[c], boxes[p]):
+        return -1.0
+    for i in range(SUM):
+        total[i] = 0.0
+    if n_corners > 0:
+        press_corners(n_corners, rel, corners[c], boxes[p], constants[pair], dt, corner_slots[pair, role], scratch[0], scratch[1], total)
+    if n_edges > 0:
+        press_edges(
+            n_edges,
+            rel,
+            corners[c],
+            edges[c, first_edge:],
+            boxes[p],
+            constants[pair],
+            dt,
+            edge_slots[pair, role, 2 * first_edge :],
+            scratch,
+            total,
+        )
+    _mark(owner, touched, c, p, total)
+    act(bodies[owner[c]], bodies[owner[p]], arms, total)
+    return total[ENERGY]
+
+
+@kernel(_t.float64(_t.int64, MATRIX, _t.float64, PILE, MEMORY), inline=True)
+def _press_joint(j, bodies, dt, pile, memory):
+    """Add the forces of a joint, and of what hangs over its border; return the energy in its springs."""
+    joints, constants, points, pairs, _, _, counts, _, boxes, owner, _ = pile
+    stretches, corner_slots, edge_slots, handled, touched, _, work = memory
+    c, p, pair = joints[j, CARRIER], joints[j, PARTNER], joints[j, PAIR]
+    k = constants[j]
+    rel, total, arms, four = work[0], work[1], work[2:4], work[4:8]
+    relative(c, p, bodies, boxes, owner, arms, rel)
+    seated = _seated(k[SIGMA], rel, boxes[c], boxes[p])
+    for i in range(SUM):
+        total[i] = 0.0
+    press_joint(joints[j, ORBITS], rel, points[j], k[SIGMA], boxes[p], k[LEVEL], k[POINT:], seated, dt, stretches[j], four, total)
+    _mark(owner, touched, c, p, total)
+    act(bodies[owner[c]], bodies[owner[p]], arms, total)
+    energy = total[ENERGY]
+    role = 0 if pairs[pair, 0] == c else 1
+    if seated == 1 and total[OUTSIDE] > 0.0:
+        energy += _meet(pair, role, 0, ON_FACE if k[SIGMA] > 0.0 else 0, ON_FACE, 0, bodies, dt, pile, memory)
+        energy += _meet(pair, 1 - role, counts[p], 0, 0, 0, bodies, dt, pile, memory)
+        handled[pair] = 2
+    else:
+        if handled[pair] == 2 and seated == 1:
+            for side in range(2):
+                _forget(corner_slots[pair, side])
+                _forget(edge_slots[pair, side])
+        handled[pair] = seated
+    return energy
+
+
+@kernel(_t.void(MATRIX, MATRIX, INTEGERS, MATRIX))
+def _bound(bodies, boxes, owner, bounds):
+    """Write the centres of the boxes and how far they reach along the ground's axes."""
+    for i in range(boxes.shape[0]):
+        b = bodies[owner[i]]
+        box = boxes[i]
+        for k in range(3):
+            r = R + 3 * k
+            bounds[i, k] = b[X + k] + b[r] * box[AT] + b[r + 1] * box[AT + 1] + b[r + 2] * box[AT + 2]
+            bounds[i, 3 + k] = abs(b[r]) * box[0] + abs(b[r + 1]) * box[1] + abs(b[r + 2]) * box[2] + MARGIN
+
+
+@kernel(_t.boolean(_t.int64, _t.int64, MATRIX), inline=True)
+def _near(i, j, bounds):
+    """Whether the bounds of two boxes overlap."""
+    return (
+        abs(bounds[i, 2] - bounds[j, 2]) <= bounds[i, 5] + bounds[j, 5]
+        and abs(bounds[i, 0] - bounds[j, 0]) <= bounds[i, 3] + bounds[j, 3]
+        and abs(bounds[i, 1] - bounds[j, 1]) <= bounds[i, 4] + bounds[j, 4]
+    )
+
+
+@kernel(_t.float64(MATRIX, _t.float64, _t.boolean, PILE, MEMORY), inline=True)
+def press_all(bodies, dt, look, pile, memory):
+    """Add every contact force to the bodies ([Furukawa2009]_); return the energy in the springs, J.
+
+    Which boxes are near each other is found anew when asked to `look`, with a margin for what they may move until the next time.
+    """
+    joints, _, _, pairs, _, _, counts, _, boxes, owner, _ = pile
+    _, corner_slots, edge_slots, handled, _, bounds, _ = memory
+    energy = 0.0
+    for j in range(joints.shape[0]):
+        energy += _press_joint(j, bodies, dt, pile, memory)
+    if look:
+        _bound(bodies, boxes, owner, bounds)
+    for pair in range(pairs.shape[0]):
+        if handled[pair] > 0:
+            continue
+        i, j = pairs[pair, 0], pairs[pair, 1]
+        stored = -1.0
+        if _near(i, j, bounds):
+            stored = _meet(pair, 0, counts[i], 0, ALL_EDGES, 1, bodies, dt, pile, memory)
+        if stored >= 0.0:
+            energy += stored + _meet(pair, 1, counts[j], 0, 0, 0, bodies, dt, pile, memory)
+            handled[pair] = -1
+        elif handled[pair] == -1:
+            handled[pair] = 0
+            for side in range(2):
+                _forget(corner_slots[pair, side])
+                _forget(edge_slots[pair, side])
+    return energy
+
+
+@kernel(_t.void(_t.int64, MATRIX, MATRIX, _t.float64, _t.float64, _t.float64, _t.float64))
+def kick(n, bodies, inert, a0, a1, a2, dt):
+    """Change the velocities by the forces, in axes that accelerate by (a0, a1, a2), gravity among it, over `dt` ([Furukawa2009]_)."""
+    for i in range(n):
+        b = bodies[i]
+        m = inert[i, MASS]
+        b[V] += dt * (b[F] / m - a0)
+        b[V + 1] += dt * (b[F + 1] / m - a1)
+        b[V + 2] += dt * (b[F + 2] / m - a2)
+        for k in range(3):
+            b[L + k] += dt * b[T + k]
+        spin(b, inert[i])
+
+
+@kernel(_t.void(_t.int64, MATRIX, MATRIX, _t.float64))
+def drift(n, bodies, inert, dt):
+    """Move and turn the bodies over `dt` ([Furukawa2009]_), and clear the forces; spins stay those of the half step, as velocities do."""
+    for i in range(n):
+        b = bodies[i]
+        for k in range(3):
+            b[X + k] += dt * b[V + k]
+        if b[W] ** 2 + b[W + 1] ** 2 + b[W + 2] ** 2 > SLOW_SPIN:
+            # the spin halfway, so that a free body keeps its energy
+            w, x, y, z = b[Q], b[Q + 1], b[Q + 2], b[Q + 3]
+            turn(b, 0.5 * dt)
+            orient(b)
+            spin(b, inert[i])
+            b[Q] = w
+            b[Q + 1] = x
+            b[Q + 2] = y
+            b[Q + 3] = z
+        turn(b, dt)
+        orient(b)
+    for i in range(n + 1):
+        for k in range(F, T + 3):
+            bodies[i, k] = 0.0
+
+
+@kernel(_t.float64(_t.int64, MATRIX, MATRIX, _t.float64))
+def energy_of(n, bodies, inert, gravity):
+    """Return the kinetic and potential energy of the stones, J ([Furukawa2009]_)."""
+    energy = 0.0
+    for i in range(n):
+        b = bodies[i]
+        m = inert[i, MASS]
+        energy += m * gravity * b[X + 2]
+        energy += 0.5 * m * (b[V] ** 2 + b[V + 1] ** 2 + b[V + 2] ** 2)
+        energy += 0.5 * (b[L] * b[W] + b[L + 1] * b[W + 1] + b[L + 2] * b[W + 2])
+    return energy

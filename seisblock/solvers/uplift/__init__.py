@@ -1,0 +1,1 @@
+"""A block on corner springs: modes, harmonic uplift, response to a record."""

@@ -1,0 +1,1 @@
+"""Which share of a cemetery falls."""

@@ -1,0 +1,238 @@
+"""Which share of a cemetery falls: a criterion applied to every stone, and an interval for what so few stones can tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
+from seisblock.criteria.gravestones import outside_fit
+from seisblock.errors import ParameterError
+from seisblock.studies.cemetery.limits import Limits, fitted_limits
+from seisblock.typing import ArrayLike, BoolArray
+from seisblock.units import GAL
+
+CONFIDENCE = 0.95
+"""Default level of the interval of a rate."""
+
+FREQUENCIES = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
+"""Frequencies of the curves of [Furukawa2009]_ figs. 16, 17, Hz."""
+
+CURVE_PGA = tuple(round(0.5 * i, 1) for i in range(1, 37))
+"""Accelerations of the curves, m/s^2: 50 to 1800 gal as in [Furukawa2009]_ figs. 16, 17."""
+
+MOST_STEPS = 200
+"""Steps to a threshold H/B; a rigid block under a fast pulse needs some fifty."""
+
+IMPLAUSIBLE_PGA = 20.0 * GAL
+"""A PGA below this, m/s^2, was probably given in another unit than gal: not even H/B = 40 would fall."""
+
+
+@dataclass(frozen=True)
+class Rate:
+    """The share of stones that overturn.
+
+    Parameters
+    ----------
+    rate : float
+        Fallen over all.
+    rate_interval : two floats
+        Clopper-Pearson interval for a cemetery of which these stones are a random sample; it holds what so few stones leave open,
+        not what the criterion does.
+    fallen, stones : int
+    confidence : float
+        Level of the interval.
+    """
+
+    rate: float
+    rate_interval: tuple[float, float]
+    fallen: int
+    stones: int
+    confidence: float = CONFIDENCE
+
+
+@dataclass(frozen=True)
+class CurvePoint:
+    """A point of a rate curve; the fields are the keys of the JSON document."""
+
+    pga_m_s2: float
+    frequency_hz: float
+    rate: float
+
+
+def overturning_rate(
+    cemetery: Cemetery, pga: float, frequency: float, *, limits: Limits = fitted_limits, confidence: float = CONFIDENCE
+) -> Rate:
+    """Return the share of stones that a criterion lets fall, by default those whose H/B exceeds (9) or (10) ([Furukawa2009]_ section 4(2)).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+        :meth:`Cemetery.dowelled` gives the one whose stones are all reinforced.
+    pga : float, m/s^2
+        Peak ground acceleration, positive.
+    frequency : float, Hz
+        Frequency of a sine, or equivalent frequency of a record.
+    limits : callable
+        The criterion, see :mod:`seisblock.studies.cemetery.limits`.
+    confidence : float
+        Level of the interval, between 0 and 1.
+
+    Returns
+    -------
+    Rate
+
+    Raises
+    ------
+    ParameterError
+        If the PGA is not positive, the frequency negative, or the level outside (0, 1).
+
+    References
+    ----------
+    [Furukawa2009]_
+
+    Examples
+    --------
+    >>> from seisblock.bodies.cemetery.table import read_cemetery
+    >>> overturning_rate(read_cemetery("aoyama.csv"), 7.25, 2.75).fallen
+    35
+    """
+    return rate_of(overturns(cemetery, pga, frequency, limits=limits), confidence)
+
+
+def overturns(cemetery: Cemetery, pga: float, frequency: float, *, limits: Limits = fitted_limits) -> BoolArray:
+    """Return which stones fall, (size,): those whose limit a PGA (m/s^2) exceeds ([Furukawa2009]_ eqs. (9), (10))."""
+    if not (np.isfinite(pga) and pga > 0.0):
+        raise ParameterError(f"the peak ground acceleration must be positive, found {pga} m/s^2")
+    falls: BoolArray = pga > limits(cemetery, frequency)
+    return falls
+
+
+def threshold_ratio(pga: float, frequency: float, *, reinforced: bool = False, limits: Limits = fitted_limits) -> float:
+    """Return the least H/B that a criterion lets fall, that of an 8-sun stone where size matters ([Furukawa2009]_ eqs. (7)-(10)).
+
+    Parameters
+    ----------
+    pga, frequency : float, m/s^2 and Hz
+    reinforced : bool
+        Whether the stone has a dowel.
+    limits : callable
+        The criterion.
+    """
+    ratio = 1.0
+    for _ in range(MOST_STEPS):  # limits fall with H/B, by (7) exactly as 1/(H/B): the first step is the last one
+        before = ratio
+        ratio *= float(limits(Cemetery((Stone(ratio, reinforced=reinforced),)), frequency)[0]) / pga
+        if abs(ratio - before) <= 1e-14 * ratio:
+            break
+    return ratio
+
+
+def rate_of(falls: BoolArray, confidence: float = CONFIDENCE) -> Rate:
+    """Return the rate and its interval from who fell.
+
+    Parameters
+    ----------
+    falls : (n,) array of bool
+        At least one stone.
+    confidence : float
+        Level of the interval, between 0 and 1.
+    """
+    fallen, stones = int(np.count_nonzero(falls)), int(falls.size)
+    return Rate(fallen / stones, clopper_pearson(fallen, stones, confidence), fallen, stones, confidence)
+
+
+def clopper_pearson(fallen: int, stones: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
+    """Return the exact binomial interval of a rate.
+
+    Parameters
+    ----------
+    fallen, stones : int
+        0 <= fallen <= stones, at least one stone.
+    confidence : float
+        Level, between 0 and 1.
+
+    Raises
+    ------
+    ParameterError
+        If the counts or the level make no sense.
+
+    Examples
+    --------
+    >>> low, high = clopper_pearson(35, 100)
+    >>> round(low, 4), round(high, 4)
+    (0.2573, 0.4518)
+    """
+    from scipy.special import betaincinv
+
+    if not (0 <= fallen <= stones and stones > 0):
+        raise ParameterError(f"a rate needs 0 <= fallen <= stones and at least one stone, found {fallen} of {stones}")
+    if not 0.0 < confidence < 1.0:
+        raise ParameterError(f"the confidence must lie between 0 and 1, found {confidence}")
+    tail = (1.0 - confidence) / 2.0
+    low = float(betaincinv(fallen, stones - fallen + 1, tail)) if fallen else 0.0
+    high = float(betaincinv(fallen + 1, stones - fallen, 1.0 - tail)) if fallen < stones else 1.0
+    return low, high
+
+
+def rate_curve(
+    cemetery: Cemetery,
+    pga: ArrayLike = CURVE_PGA,
+    frequencies: Sequence[float] = FREQUENCIES,
+    *,
+    limits: Limits = fitted_limits,
+) -> tuple[CurvePoint, ...]:
+    """Return the rate against PGA for each frequency ([Furukawa2009]_ figs. 16, 17).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    pga : (n,) array, m/s^2
+    frequencies : sequence of float, Hz
+    limits : callable
+        The criterion.
+
+    Returns
+    -------
+    tuple of CurvePoint
+        Frequency by frequency, PGA in the order given.
+    """
+    grid = np.atleast_1d(np.asarray(pga, dtype=np.float64))
+    points = []
+    for frequency in frequencies:
+        rates = np.searchsorted(np.sort(limits(cemetery, frequency)), grid, side="left") / cemetery.size
+        points += [CurvePoint(float(a), float(frequency), float(rate)) for a, rate in zip(grid, rates, strict=True)]
+    return tuple(points)
+
+
+def stones_saved(cemetery: Cemetery, pga: float, frequency: float, *, most_fragile: int | None = None) -> int:
+    """Return how many stones stay up because all, or the most slender, get a dowel ([Furukawa2009]_ eqs. (9), (10)).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+        Stones that have a dowel keep it.
+    pga, frequency : float, m/s^2 and Hz
+        The shaking.
+    most_fragile : int or None
+        How many stones are reinforced, the most slender first; None for all.
+    """
+    after = cemetery.dowelled(most_fragile)
+    return overturning_rate(cemetery, pga, frequency).fallen - overturning_rate(after, pga, frequency).fallen
+
+
+def remarks(cemetery: Cemetery, pga: float, frequency: float, *, fitted: bool = True) -> tuple[str, ...]:
+    """Return what the user should know before believing a rate at this shaking, a sentence each ([Furukawa2009]_ section 3(3)).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+    pga, frequency : float, m/s^2 and Hz
+    fitted : bool
+        Whether the range of the fit matters.
+    """
+    if pga < IMPLAUSIBLE_PGA:
+        return (f"a PGA of {pga / GAL:.3g} gal overturns nothing: was m/s^2 given where gal is meant?",)
+    return outside_fit(pga, frequency, cemetery.ratios) if fitted else ()

@@ -1,0 +1,1 @@
+"""Shaking read back from what it did."""

@@ -1,0 +1,215 @@
+"""How strong a candidate record must have been: every factor on it at which an object moves as far as was observed.
+
+Displacements are not monotone in amplitude, and those of a block that jumps are not even continuous: a scan finds every change of
+sign, bisection the factor, and a factor at which the displacement leaps across the observed one is marked. What happens between two
+steps of the scan and back can be missed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.solvers.jump.solve import solve_jump
+from seisblock.solvers.slide.solve import solve_slide
+from seisblock.studies.runs import Progress, in_threads
+
+LIMIT = 3.0
+"""Default largest factor."""
+
+STEPS = 300
+"""Default number of steps of the scan."""
+
+SHARP = 1e-10
+"""Factors are located to this."""
+
+LEAP = 1e-3
+"""A displacement that misses the observed one by more than this share at the factor found leaps across it."""
+
+
+@dataclass(frozen=True)
+class ScaleFactor:
+    """One factor that gives the observed displacement.
+
+    Parameters
+    ----------
+    scale : float
+        Factor on the record.
+    pga_m_s2 : float
+        Of the component so scaled.
+    displacement_m : float
+        Absolute displacement at this factor.
+    leaps : bool
+        The displacement leaps across the observed one here: it is met by no factor.
+    """
+
+    scale: float
+    pga_m_s2: float
+    displacement_m: float
+    leaps: bool
+
+
+@dataclass(frozen=True)
+class ScaleFactors:
+    """Every factor up to a limit; the fields are the keys of one result of ``seisblock infer --json``.
+
+    Parameters
+    ----------
+    component : str
+    observed_m : float
+    pga_m_s2 : float
+        Of the component as it is.
+    scale_factors : tuple of ScaleFactor
+        In rising order; empty when the object never moves so far.
+    displacement_at_1_m : float
+        Under the record as it is.
+    largest_displacement_m, largest_at_scale : float
+        Largest displacement of the scan, and its factor.
+    limit : float
+        Largest factor of the scan.
+    curve : two tuples of float
+        Factors of the scan, and the displacement at each, m.
+    """
+
+    component: str
+    observed_m: float
+    pga_m_s2: float
+    scale_factors: tuple[ScaleFactor, ...]
+    displacement_at_1_m: float
+    largest_displacement_m: float
+    largest_at_scale: float
+    limit: float
+    curve: tuple[tuple[float, ...], tuple[float, ...]]
+
+
+def scale_factors(
+    displacement: Callable[[float], float],
+    observed: float,
+    motion: Motion,
+    *,
+    limit: float = LIMIT,
+    steps: int = STEPS,
+    progress: Progress | None = None,
+) -> ScaleFactors:
+    """Return every factor on a motion at which an object is displaced as observed.
+
+    Parameters
+    ----------
+    displacement : callable
+        From a factor to the absolute displacement, m; zero at factor zero.
+    observed : float, m
+        Positive.
+    motion : Motion
+        For its name and its peak.
+    limit : float
+        Largest factor, positive.
+    steps : int
+        Of the scan, at least 1.
+    progress : callable
+        Told the number of runs done and the number in all.
+
+    Raises
+    ------
+    ParameterError
+        If the observed displacement or the limit is not positive.
+
+    Examples
+    --------
+    >>> motion = Motion.from_arrays([0.0, 2.0, 0.0], 0.1)
+    >>> found = scale_factors(lambda s: s * (2.0 - s) if s < 2.0 else 0.0, 0.75, motion)
+    >>> [round(f.scale, 6) for f in found.scale_factors]
+    [0.5, 1.5]
+    """
+    for name, value in (("observed displacement", observed), ("largest factor", limit)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise ParameterError(f"the {name} must be positive, found {value}")
+    if steps < 1:
+        raise ParameterError(f"the scan needs at least one step, found {steps}")
+    grid = [limit * i / steps for i in range(steps + 1)]
+    values = [0.0, *in_threads(displacement, grid[1:], progress=progress)]
+    peak = float(np.abs(motion.horizontal).max())
+    found = []
+    for i in range(1, len(grid)):
+        if (values[i - 1] < observed) != (values[i] < observed):
+            factor = _bisected(displacement, observed, grid[i - 1], grid[i], values[i] < observed)
+            moved = displacement(factor)
+            found.append(ScaleFactor(factor, factor * peak, moved, abs(moved - observed) > LEAP * observed))
+    top = int(np.argmax(values))
+    curve = tuple(grid), tuple(values)
+    return ScaleFactors(motion.name, observed, peak, tuple(found), displacement(1.0), values[top], grid[top], limit, curve)
+
+
+def _bisected(displacement: Callable[[float], float], observed: float, low: float, high: float, short_above: bool) -> float:
+    """Return the factor between two at which the displacement crosses the observed one."""
+    while high - low > SHARP * max(high, 1.0):
+        middle = 0.5 * (low + high)
+        if (displacement(middle) < observed) == short_above:
+            high = middle
+        else:
+            low = middle
+    return high if not short_above else low
+
+
+def scaled(motion: Motion, factor: float) -> Motion:
+    """Return a motion multiplied by a factor; it no longer belongs to its record."""
+    return Motion(motion.acceleration * factor, motion.dt, motion.name, motion.start_s)
+
+
+def jumped(
+    motion: Motion, block: TwoLayerBlock, contact: Contact, *, flight_only: bool = False, repeat: bool = False, **options: Any
+) -> Callable[[float], float]:
+    """Return how far a two-layer block is displaced, m, against the factor on a motion ([Sugimoto2017]_ table 1).
+
+    Parameters
+    ----------
+    motion, block, contact
+        As in :func:`seisblock.solvers.jump.solve.solve_jump`.
+    flight_only : bool
+        Count the jump alone, not the rocking-sliding after it.
+    repeat : bool
+        Add up every chain of the record, else the first one counts. A block that topples counts as not displaced.
+    options
+        Its ``drop``, ``spin``, ``direction`` and ``gravity``.
+    """
+    key = "jump_displacement_m" if flight_only else "total_displacement_m"
+
+    def displacement(factor: float) -> float:
+        found = solve_jump(scaled(motion, factor), block, contact, repeat=repeat, **options)
+        return abs(sum(getattr(chain, key) or 0.0 for chain in found.outcome.chains))
+
+    return displacement
+
+
+def slid(motion: Motion, mu: float, *, largest: bool = False, **options: Any) -> Callable[[float], float]:
+    """Return how far an object slides on a level base, m, against the factor on a motion ([Fujino1978]_).
+
+    Parameters
+    ----------
+    motion, mu
+        As in :func:`seisblock.solvers.slide.solve.solve_slide`.
+    largest : bool
+        The largest slip counts, not the one left when the record ends.
+    options
+        Its ``mu_kinetic``, ``vertical_scale`` and ``gravity``.
+
+    Raises
+    ------
+    ParameterError
+        If a coefficient lies outside its range.
+    ComponentError
+        If the vertical motion is asked of a record without one.
+    """
+    solve_slide(motion, mu, **options)  # what cannot be solved is refused here, where the record is still known
+
+    def displacement(factor: float) -> float:
+        outcome = solve_slide(scaled(motion, factor), mu, **options).outcome
+        return outcome.max_slip_m if largest else abs(outcome.residual_slip_m)
+
+    return displacement

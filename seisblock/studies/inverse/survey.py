@@ -1,0 +1,220 @@
+"""Shaking read back from fallen stones: the likelihood of a survey over PGA and equivalent frequency.
+
+A stone falls when ln PGA + e + s exceeds the logarithm of its limit by [Furukawa2009]_ eq. (9), or (10) with a dowel. The error e is common
+to a cemetery (the criterion, the ground, the record): normal, 0.3 in ln PGA, about what the surveyed rates of table 6 differ by
+from the curves. The error s is each stone's own (its setting): normal, 0.1, a choice. The prior is flat in ln PGA.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.errors import BodyError, ParameterError
+from seisblock.studies.cemetery.limits import Limits, fitted_limits
+from seisblock.typing import FloatArray, IntArray
+
+COMMON_ERROR = 0.3
+"""Default standard deviation of what is common to a cemetery, in ln PGA ([Furukawa2009]_ table 6)."""
+
+STONE_ERROR = 0.1
+"""Default standard deviation of what is each stone's own, in ln PGA."""
+
+LEAST_ERROR = 0.01
+"""Neither error may be smaller: the likelihood would be a step."""
+
+REACH = 7.0
+"""The grid of ln PGA reaches so many standard deviations beyond the limits of all stones."""
+
+POINTS_PER_ERROR = 16
+"""Points of the grid per standard deviation; the integrals of smooth functions are then good to 1e-10."""
+
+
+@dataclass(frozen=True, eq=False)
+class Survey:
+    """How many of which stones fell.
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+        The stones: those judged one by one, or the population of which others were counted.
+    fallen, standing : (rows,) array of int
+        Stones of each row of the cemetery that fell and that stand; zero where only a rate is known.
+    counted : two ints or None
+        Fallen and all of a count of stones as these are; None where the stones themselves are marked.
+    """
+
+    cemetery: Cemetery
+    fallen: IntArray
+    standing: IntArray
+    counted: tuple[int, int] | None = None
+
+    @property
+    def fell(self) -> int:
+        """Number of fallen stones."""
+        return self.counted[0] if self.counted else int(np.sum(self.fallen))
+
+    @property
+    def judged(self) -> int:
+        """Number of stones of which it is known."""
+        return self.counted[1] if self.counted else self.fell + int(np.sum(self.standing))
+
+
+def marked_survey(cemetery: Cemetery) -> Survey:
+    """Return the survey of a cemetery whose stones are marked fallen or standing; those that are not marked are left out.
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+
+    Raises
+    ------
+    BodyError
+        If no stone is marked.
+    """
+    if not cemetery.surveyed:
+        raise BodyError(
+            f"{cemetery.source or cemetery.name}: no stone is marked fallen or standing; "
+            "add a column fallen (0 or 1), or give a rate such as 35/100"
+        )
+    known = cemetery.only(lambda stone: stone.fallen is not None)
+    counts = np.array([stone.count for stone in known.stones], dtype=np.int64)
+    fell = np.array([bool(stone.fallen) for stone in known.stones])
+    return Survey(known, np.where(fell, counts, 0), np.where(fell, 0, counts))
+
+
+def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
+    """Return a survey that counted how many of so many stones fell, in a place whose stones are proportioned as these.
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+        The proportions of the stones.
+    fallen, stones : int
+        How many fell, of how many that were looked at.
+
+    Raises
+    ------
+    ParameterError
+        If the counts make no sense.
+    """
+    if not (0 <= fallen <= stones and stones > 0):
+        raise ParameterError(f"a rate needs 0 <= fallen <= stones and at least one stone, found {fallen}/{stones}")
+    nobody = np.zeros(len(cemetery.stones), dtype=np.int64)
+    return Survey(cemetery, nobody, nobody, (fallen, stones))
+
+
+def parse_rate(text: str) -> tuple[int, int]:
+    """Return the counts of a rate such as ``35/100``.
+
+    Raises
+    ------
+    ParameterError
+        If it is not two whole numbers: how many were counted decides how far a rate can be trusted.
+
+    Examples
+    --------
+    >>> parse_rate("35/100")
+    (35, 100)
+    """
+    match = re.fullmatch(r"\s*(\d+)\s*/\s*(\d+)\s*", text)
+    if match is None:
+        raise ParameterError(f"the rate {text!r} is not FALLEN/STONES: write both numbers, for example 35/100")
+    return int(match[1]), int(match[2])
+
+
+def log_likelihood(survey: Survey, log_pga: FloatArray, frequency: float, stone_error: float, limits: Limits = fitted_limits) -> FloatArray:
+    """Return the logarithm of the survey's likelihood without the common error, (n,), up to a constant ([Furukawa2009]_ eqs. (9), (10)).
+
+    Parameters
+    ----------
+    survey : Survey
+    log_pga : (n,) array
+        ln of PGA in m/s^2, the common error added.
+    frequency : float, Hz
+        Equivalent frequency.
+    stone_error : float
+        Standard deviation of each stone's own error, in ln PGA.
+    limits : callable
+        The criterion.
+    """
+    from scipy.special import log_ndtr, logsumexp
+
+    rows = survey.cemetery.rows()
+    x = (log_pga[:, None] - np.log(limits(rows, frequency))[None, :]) / stone_error
+    falls, stands = log_ndtr(x), log_ndtr(-x)
+    if survey.counted is None:
+        total: FloatArray = falls @ survey.fallen.astype(np.float64) + stands @ survey.standing.astype(np.float64)
+        return total
+    weights = np.array([stone.count for stone in survey.cemetery.stones]) / survey.cemetery.size
+    fallen, stones = survey.counted
+    log_rate, log_rest = (logsumexp(each, axis=1, b=weights) for each in (falls, stands))
+    counted: FloatArray = fallen * log_rate + (stones - fallen) * log_rest
+    return counted
+
+
+@dataclass(frozen=True, eq=False)
+class Likelihood:
+    """The likelihood over ln PGA at one frequency, the common error integrated out.
+
+    Parameters
+    ----------
+    frequency : float, Hz
+    log_pga : (n,) array
+        Evenly spaced, ln of m/s^2.
+    value : (n,) array
+        Up to a constant factor; where none or all fell it is the probability of that.
+    """
+
+    frequency: float
+    log_pga: FloatArray
+    value: FloatArray
+
+    def interpolated(self, log_pga: FloatArray) -> FloatArray:
+        """Return the likelihood elsewhere; beyond its ends it stays as it is there."""
+        return np.interp(log_pga, self.log_pga, self.value)
+
+
+def likelihood(
+    survey: Survey,
+    frequency: float,
+    *,
+    common_error: float = COMMON_ERROR,
+    stone_error: float = STONE_ERROR,
+    limits: Limits = fitted_limits,
+) -> Likelihood:
+    """Return the likelihood of a survey at one equivalent frequency ([Furukawa2009]_ eqs. (9), (10), table 6).
+
+    Parameters
+    ----------
+    survey : Survey
+    frequency : float, Hz
+        Zero or more.
+    common_error, stone_error : float
+        Standard deviations in ln PGA, at least 0.01.
+    limits : callable
+        The criterion.
+
+    Raises
+    ------
+    ParameterError
+        If an error is smaller than 0.01.
+    """
+    for name, error in (("common", common_error), ("stone", stone_error)):
+        if not (math.isfinite(error) and error >= LEAST_ERROR):
+            raise ParameterError(f"the {name} error, in ln PGA, must be at least {LEAST_ERROR}, found {error}")
+    centres = np.log(limits(survey.cemetery.rows(), frequency))
+    spread, step = math.hypot(common_error, stone_error), min(common_error, stone_error) / POINTS_PER_ERROR
+    reach = math.ceil(REACH * spread / step)
+    steps = np.arange(-reach, math.ceil(float(np.ptp(centres)) / step) + reach + 1, dtype=np.float64)
+    grid: FloatArray = float(centres.min()) + step * steps
+    bare = log_likelihood(survey, grid, frequency, stone_error, limits)
+    half = math.ceil(REACH * common_error / step)
+    kernel = np.exp(-0.5 * (step * np.arange(-half, half + 1) / common_error) ** 2)
+    padded = np.pad(np.exp(bare - bare.max()), half, mode="edge")
+    value: FloatArray = np.convolve(padded, kernel / kernel.sum(), mode="valid")
+    return Likelihood(frequency, grid, value)

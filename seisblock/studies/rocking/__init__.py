@@ -1,0 +1,1 @@
+"""Many runs of one rocking block: margins, probabilities, spectra."""

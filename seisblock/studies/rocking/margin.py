@@ -1,0 +1,138 @@
+"""How close it was: the factors on a record at which the verdict changes.
+
+Overturning is not monotone in amplitude: above a window in which a block overturns there may be another in which it stands. So the whole
+range is scanned, and each change of verdict is bisected. A window narrower than the step of the scan can be missed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.results import Response
+from seisblock.solvers.rock.outcome import RockOutcome
+from seisblock.solvers.rock.solve import check_options, rock_verdict
+from seisblock.studies.runs import Progress, in_threads
+from seisblock.units import STANDARD_GRAVITY
+
+LIMIT = 3.0
+"""Default largest factor of the scan."""
+
+STEP = 0.002
+"""Default step of the scan, in the factor."""
+
+SHARP = 1e-6
+"""A change of verdict is located to this, in the factor."""
+
+NEAR = 0.02
+"""A verdict that changes within this share of the record's amplitude is fragile."""
+
+NEAR_STEPS = 41
+
+
+@dataclass(frozen=True)
+class Window:
+    """A range of factors with one verdict."""
+
+    first: float
+    last: float
+    overturned: bool
+
+
+@dataclass(frozen=True)
+class Margin:
+    """The verdict against the factor on the record.
+
+    Parameters
+    ----------
+    overturned : bool
+        Verdict at factor 1.
+    windows : tuple of Window
+        From 0 to the limit, alternately safe and unsafe.
+    flips : tuple of float
+        The factors between them, in rising order.
+    nearest_flip : float or None
+        The one nearest to 1, by ratio; None when the verdict never changes.
+    step, limit : float
+        Of the scan.
+    """
+
+    overturned: bool
+    windows: tuple[Window, ...]
+    flips: tuple[float, ...]
+    nearest_flip: float | None
+    step: float
+    limit: float
+
+
+def find_margin(
+    motion: Motion, block: Block, *, limit: float = LIMIT, step: float = STEP, progress: Progress | None = None, **options: Any
+) -> Margin:
+    """Return every factor up to a limit at which a rocking block's verdict changes.
+
+    Parameters
+    ----------
+    motion, block : Motion, Block
+    limit, step : float
+        Largest factor, and distance of the factors looked at; changes are then bisected to 1e-6.
+    progress : callable
+        Told the number of runs done and the number in all.
+    options
+        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
+
+    Raises
+    ------
+    ParameterError
+        If limit or step are not positive, the step exceeds the limit, or an option is out of range.
+    """
+    if not (0.0 < step <= limit < float("inf")):
+        raise ParameterError(f"the scan needs 0 < step <= limit, found step {step} and limit {limit}")
+    check_options(options.get("restitution"), options.get("gravity", STANDARD_GRAVITY))
+
+    def overturns(factor: float) -> bool:
+        return rock_verdict(motion, block, scale=factor, **options).overturned
+
+    grid = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
+    factors = [float(factor) for factor in grid[grid <= limit]]
+    verdicts = list(in_threads(overturns, factors, progress=progress))
+    changes = [i for i in range(1, len(factors)) if verdicts[i] != verdicts[i - 1]]
+    flips = tuple(in_threads(lambda i: _bisected(overturns, factors[i - 1], factors[i], verdicts[i]), changes))
+    edges = (0.0, *flips, limit)
+    windows = tuple(Window(low, high, bool(i % 2)) for i, (low, high) in enumerate(pairwise(edges)))
+    nearest = min(flips, key=lambda flip: abs(np.log(flip))) if flips else None
+    at_one = verdicts[factors.index(1.0)] if limit >= 1.0 else overturns(1.0)
+    return Margin(at_one, windows, flips, nearest, step, limit)
+
+
+def _bisected(overturns: Any, low: float, high: float, above: bool) -> float:
+    """Return the factor between two at which the verdict changes to `above`."""
+    while high - low > SHARP:
+        middle = 0.5 * (low + high)
+        if overturns(middle) == above:
+            high = middle
+        else:
+            low = middle
+    return 0.5 * (low + high)
+
+
+def flagged(response: Response[RockOutcome]) -> Response[RockOutcome]:
+    """Return a response that knows, and warns, whether a change of the record by less than 2 % changes its verdict."""
+    options = {key: response.options[key] for key in ("restitution", "linear", "vertical")}
+    flips = flips_nearby(response.motion, response.body, gravity=response.options["gravity_m_s2"], **options)
+    warnings = response.warnings
+    if flips:
+        warnings = (*warnings, f"{response.motion.name or 'x'}: a change of the record by less than 2 % changes the verdict")
+    return replace(response, outcome=replace(response.outcome, verdict_flips_within_2_percent=flips), warnings=warnings)
+
+
+def flips_nearby(motion: Motion, block: Block, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Any) -> bool:
+    """Return whether some factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
+    factors = [float(factor) for factor in np.linspace(1.0 - share, 1.0 + share, steps)]
+    verdicts = set(in_threads(lambda factor: rock_verdict(motion, block, scale=factor, **options).overturned, factors))
+    return len(verdicts) > 1

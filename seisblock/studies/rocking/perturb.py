@@ -1,0 +1,140 @@
+"""How sure it is: the same run many times with small changes of what is never known exactly."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.block import Block, Restitution, resized, restitutions
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.records.motion import ACROSS, ALONG
+from seisblock.solvers.rock.solve import check_options, rock_verdict
+from seisblock.studies.runs import Progress, in_threads
+from seisblock.units import STANDARD_GRAVITY
+
+CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Half widths of the uniform changes: shares of the value, and degrees for the azimuth.
+
+    Parameters
+    ----------
+    size, slenderness, restitution, amplitude : float
+        Shares, in [0, 1).
+    azimuth_deg : float
+        Degrees; without effect where the record's second horizontal is unknown.
+    """
+
+    size: float = 0.05
+    slenderness: float = 0.05
+    restitution: float = 0.05
+    amplitude: float = 0.05
+    azimuth_deg: float = 5.0
+
+    def __post_init__(self) -> None:
+        for key in ("size", "slenderness", "restitution", "amplitude"):
+            if not 0.0 <= getattr(self, key) < 1.0:
+                raise ParameterError(f"the spread of the {key} is a share in [0, 1), found {getattr(self, key)}")
+        if not 0.0 <= self.azimuth_deg <= 180.0:
+            raise ParameterError(f"the spread of the azimuth lies between 0 and 180 degrees, found {self.azimuth_deg}")
+
+
+@dataclass(frozen=True)
+class Perturbation:
+    """How often the block overturned.
+
+    Parameters
+    ----------
+    runs, overturned : int
+    probability : float
+        Their ratio.
+    probability_interval : (float, float)
+        Wilson's interval at 95 %.
+    spread : Spread
+    seed : int
+    """
+
+    runs: int
+    overturned: int
+    probability: float
+    probability_interval: tuple[float, float]
+    spread: Spread
+    seed: int
+
+
+def perturb(
+    motion: Motion,
+    block: Block,
+    runs: int,
+    *,
+    spread: Spread = Spread(),
+    seed: int = 0,
+    restitution: Restitution = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Perturbation:
+    """Return how often a block overturns when size, slenderness, restitution, amplitude and azimuth change a little.
+
+    Parameters
+    ----------
+    motion, block : Motion, Block
+    runs : int
+        How many, at least 1.
+    spread : Spread
+        Half widths of the changes, each uniform and independent of the others.
+    seed : int
+        The same seed gives the same runs.
+    restitution : float, or a pair
+        Its middle value; that of each changed block's angular momentum when left out. Never above 1.
+    progress : callable
+        Told the number of runs done and the number in all.
+    options
+        ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
+
+    Raises
+    ------
+    ParameterError
+        If there are no runs, or an option is out of range.
+    """
+    if runs < 1:
+        raise ParameterError(f"a perturbation needs at least 1 run, found {runs}")
+    check_options(restitution, options.get("gravity", STANDARD_GRAVITY))
+    draws = np.random.default_rng(seed).uniform(-1.0, 1.0, (runs, 5))
+
+    def once(draw: Any) -> bool:
+        size, slenderness, bounce, amplitude, turn = (float(value) for value in draw)
+        changed = resized(block, size=1.0 + spread.size * size, slenderness=1.0 + spread.slenderness * slenderness)
+        right, left = (min(middle * (1.0 + spread.restitution * bounce), 1.0) for middle in restitutions(changed, restitution))
+        towards, factor = turned(motion, spread.azimuth_deg * turn), 1.0 + spread.amplitude * amplitude
+        return rock_verdict(towards, changed, scale=factor, restitution=(right, left), **options).overturned
+
+    count = sum(in_threads(once, list(draws), progress=progress))
+    return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)
+
+
+def turned(motion: Motion, degrees: float) -> Motion:
+    """Return a motion whose +x is turned clockwise, seen from above, when both horizontals are known; else the motion itself."""
+    if degrees == 0.0 or not motion.acceleration[ACROSS].any():
+        return motion
+    cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    rows = motion.acceleration.copy()
+    rows[ALONG] = cosine * motion.acceleration[ALONG] - sine * motion.acceleration[ACROSS]
+    rows[ACROSS] = sine * motion.acceleration[ALONG] + cosine * motion.acceleration[ACROSS]
+    return replace(motion, acceleration=rows)
+
+
+def wilson_interval(count: int, runs: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
+    """Return Wilson's score interval of a share."""
+    from scipy.special import ndtri
+
+    z = float(ndtri(0.5 + confidence / 2))
+    share = count / runs
+    middle = (share + z * z / (2 * runs)) / (1 + z * z / runs)
+    half = z / (1 + z * z / runs) * math.sqrt(share * (1 - share) / runs + z * z / (4 * runs * runs))
+    return max(middle - half, 0.0) if count else 0.0, min(middle + half, 1.0) if count < runs else 1.0

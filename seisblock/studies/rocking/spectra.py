@@ -1,0 +1,117 @@
+"""Rocking and overturning spectra: one record, and rectangular blocks of all sizes and slendernesses."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.solvers.rock.solve import check_options, rock_verdict
+from seisblock.studies.runs import Progress, in_threads
+from seisblock.typing import ArrayLike, BoolArray, FloatArray
+from seisblock.units import STANDARD_GRAVITY
+
+
+@dataclass(frozen=True, eq=False)
+class RockingSpectrum:
+    """The largest lean over a grid of rectangular blocks.
+
+    Parameters
+    ----------
+    size_m : (n,) array, m
+        2R, the diagonal of the block.
+    frequency_parameter_rad_s : (n,) array, rad/s
+        p = sqrt(3 g/(4 R)) of the same blocks.
+    slenderness_rad : (m,) array, rad
+        alpha = atan(B/H).
+    max_rotation_ratio : (n, m) array
+        Largest lean over alpha; pi/2 over alpha where the block overturns.
+    overturned : (n, m) array of bool
+    """
+
+    size_m: FloatArray
+    frequency_parameter_rad_s: FloatArray
+    slenderness_rad: FloatArray
+    max_rotation_ratio: FloatArray
+    overturned: BoolArray
+
+
+def rocking_spectrum(
+    motion: Motion,
+    sizes: ArrayLike,
+    slendernesses: ArrayLike,
+    *,
+    gravity: float = STANDARD_GRAVITY,
+    progress: Progress | None = None,
+    **options: Any,
+) -> RockingSpectrum:
+    """Return the rocking spectrum of a motion: peak lean over alpha against 2R and alpha ([Housner1963]_, [Zhang2001]_).
+
+    Parameters
+    ----------
+    motion : Motion
+    sizes : (n,) array, m
+        2R, positive.
+    slendernesses : (m,) array, rad
+        alpha, between 0 and pi/2.
+    gravity : float, m/s^2
+    progress : callable
+        Told the number of runs done and the number in all.
+    options
+        ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
+
+    Raises
+    ------
+    ParameterError
+        If a size, a slenderness or an option is out of range, or there is none.
+    """
+    check_options(options.get("restitution"), gravity)
+    diagonal = _grid(sizes, "size 2R", "m", math.inf)
+    alpha = _grid(slendernesses, "slenderness", "rad", math.pi / 2)
+
+    def run(index: int) -> tuple[bool, float]:
+        d, a = float(diagonal[index // alpha.size]), float(alpha[index % alpha.size])
+        verdict = rock_verdict(motion, Block(d * math.sin(a), d * math.cos(a)), gravity=gravity, **options)
+        return verdict.overturned, verdict.max_rotation_ratio
+
+    overturned = np.zeros((diagonal.size, alpha.size), dtype=np.bool_)
+    ratio = np.zeros((diagonal.size, alpha.size))
+    for index, answer in enumerate(in_threads(run, range(diagonal.size * alpha.size), progress=progress)):
+        overturned.flat[index], ratio.flat[index] = answer
+    return RockingSpectrum(diagonal, np.sqrt(1.5 * gravity / diagonal), alpha, ratio, overturned)
+
+
+def size_of(frequency_parameter: ArrayLike, gravity: float = STANDARD_GRAVITY) -> FloatArray:
+    """Return 2R, m, of rectangular blocks with these p, rad/s: 3 g/(2 p^2) ([Housner1963]_)."""
+    return 1.5 * gravity / _grid(frequency_parameter, "frequency parameter", "rad/s", math.inf) ** 2
+
+
+def slenderness_of(height_over_width: ArrayLike) -> FloatArray:
+    """Return alpha = atan(B/H), rad, of blocks with these H/B ([Furukawa2009]_ section 2)."""
+    return np.arctan(1.0 / _grid(height_over_width, "height over width", "1", math.inf))
+
+
+def default_sizes(steps: int) -> FloatArray:
+    """Return 2R from 0.2 to 8 m, evenly in their logarithm: from a vase to a shrine's pavilion."""
+    return np.geomspace(0.2, 8.0, steps)
+
+
+def default_slendernesses(steps: int) -> FloatArray:
+    """Return alpha of H/B from 10 to 1.5, evenly in alpha, rad."""
+    return np.linspace(math.atan(1 / 10), math.atan(1 / 1.5), steps)
+
+
+def _grid(values: ArrayLike, what: str, unit: str, limit: float) -> FloatArray:
+    """Return a grid of positive numbers below a limit, or refuse it."""
+    array = np.atleast_1d(np.asarray(values, dtype=np.float64))
+    good = np.isfinite(array) & (array > 0.0) & (array < limit)
+    if array.size == 0 or not good.all():
+        bound = "" if limit == math.inf else f" and below {limit:.4g}"
+        found = "none" if array.size == 0 else str(array[~good][0])
+        raise ParameterError(f"each {what} must be positive{bound}, in {unit}; found {found}")
+    return array
