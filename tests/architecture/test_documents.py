@@ -1,0 +1,76 @@
+"""What the documents for developers say is so: versions agree, floors are the contract's, files that they name exist."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import seisblock
+from seisblock.cli import COMMANDS
+
+ROOT = Path(seisblock.__file__).parents[1]
+PAGES = [ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PLACEHOLDERS = ("NAME", "Key")
+
+
+def test_versions_agree():
+    """The package, the citation and the newest entry of the changelog are of one version."""
+    citation = re.search(r"^version: (.+)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.M)[1]
+    newest = re.search(r"^## ([\d.]+)", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)[1]
+    assert seisblock.__version__ == citation == newest
+
+
+def test_every_version_of_the_changelog_is_dated():
+    """Each heading has a date, or says that it is not released."""
+    headings = re.findall(r"^## (.+)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)
+    assert headings
+    assert [h for h in headings if not re.fullmatch(r"\d+\.\d+\.\d+ \((\d{4}-\d\d-\d\d|unreleased)\)", h)] == []
+
+
+def test_the_floors_are_the_contract():
+    """The table of floors in the architecture page is the layers contract, from the top down."""
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    rows = [re.findall(r"`(\w+)`", line.split("|")[1]) for line in text.splitlines() if re.match(r"\| (`|ground)", line)]
+    contract = next(c for c in PROJECT["tool"]["importlinter"]["contracts"] if c["name"] == "data moves one way")
+    layers = [{name.strip() for name in layer.split("|")} for layer in contract["layers"]]
+    drawn = [set(row) for row in rows if row]
+    assert drawn == layers[: len(drawn)]
+    ground = next(line for line in text.splitlines() if line.startswith("| ground floor"))
+    assert set(re.findall(r"`(\w+)`", ground.split("|")[2])) == set().union(*layers[len(drawn) :])
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_files_that_are_named_exist(page):
+    """Every path in a page leads to a file or folder of the repository."""
+    named = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|\w+\.(?:py|md|toml|pyi|cff))`", page.read_text(encoding="utf-8")))
+    named -= {name for name in named if any(word in name for word in PLACEHOLDERS)}
+    there = [
+        "/" + path.relative_to(ROOT).as_posix() + "/" * path.is_dir()
+        for path in [*ROOT.rglob("*.*"), *(ROOT / "seisblock").rglob("*"), *(ROOT / "tests").glob("*")]
+    ]
+    assert sorted(name for name in named if name != "utils.py" and not any(path.endswith("/" + name) for path in there)) == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page):
+    """Every picture and every link to a file is there."""
+    links = [link for link in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")) if "://" not in link]
+    assert [link for link in links if not (page.parent / link).exists()] == []
+
+
+def test_drawings_are_what_their_script_draws(tmp_path, monkeypatch):
+    """The drawings were made by the script beside them as it stands."""
+    import runpy
+
+    script = ROOT / "docs" / "figures" / "draw.py"
+    made = runpy.run_path(str(script))
+    for name in ("architecture", "conventions"):
+        assert (script.parent / f"{name}.svg").read_text(encoding="utf-8") == made[name]()
+
+
+def test_the_first_commands_of_a_newcomer_exist():
+    """Commands that the pages name are commands."""
+    said = {name for page in PAGES for name in re.findall(r"`seisblock ([a-z][a-z-]*)", page.read_text(encoding="utf-8"))}
+    assert said <= set(COMMANDS)
