@@ -29,6 +29,7 @@ _HOME = {
     "read_all": "seisblock.readers",
     "sample_path": "seisblock.readers",
     "solve_jump": "seisblock.solvers.jump.solve",
+    "SlidingBase": "seisblock.bodies.sliding_base",
     "SpringBlock": "seisblock.bodies.spring_block",
     "slide_study": "seisblock.studies.sliding",
     "criterion_study": "seisblock.studies.gravestone_criterion",

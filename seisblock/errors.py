@@ -17,6 +17,10 @@ class ParameterError(InputError):
     """A number or an option lies outside what the model admits."""
 
 
+class KindError(ParameterError, TypeError):
+    """A value is of another kind than the call takes."""
+
+
 class UnitError(InputError):
     """A unit is unknown, or a number that needs one came without."""
 

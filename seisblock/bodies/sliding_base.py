@@ -16,8 +16,8 @@ class SlidingBase:
     ----------
     mu : float
         Static friction coefficient, positive.
-    mu_kinetic : float
-        Kinetic friction coefficient, 0 to `mu`.
+    mu_kinetic : float or None
+        Kinetic friction coefficient, 0 to `mu`; as `mu` when left out.
     slope_deg : float, degrees
         Angle by which the base falls towards the component's positive direction, -90 to 90 exclusive; negative falls the other way.
     slope_length : float or None, m
@@ -32,21 +32,20 @@ class SlidingBase:
     """
 
     mu: float
-    mu_kinetic: float
+    mu_kinetic: float | None = None
     slope_deg: float = 0.0
     slope_length: float | None = None
     one_way: bool = False
 
     def __post_init__(self) -> None:
         _finite("mu, the static friction coefficient,", self.mu)
-        _finite("the kinetic friction coefficient", self.mu_kinetic)
+        _finite("the kinetic friction coefficient", self.kinetic)
         _finite("the slope", self.slope_deg)
         if self.mu <= 0.0:
             raise ParameterError(f"mu, the static friction coefficient, must be positive, found {self.mu:g}")
-        if not 0.0 <= self.mu_kinetic <= self.mu:
+        if not 0.0 <= self.kinetic <= self.mu:
             raise ParameterError(
-                f"the kinetic friction coefficient must lie between 0 and mu = {self.mu:g} (kappa between 0 and 1), "
-                f"found {self.mu_kinetic:g}"
+                f"the kinetic friction coefficient must lie between 0 and mu = {self.mu:g} (kappa between 0 and 1), found {self.kinetic:g}"
             )
         if not -90.0 < self.slope_deg < 90.0:
             raise ParameterError(f"the slope must lie between -90 and 90 degrees, found {self.slope_deg:g}")
@@ -65,6 +64,16 @@ class SlidingBase:
             raise ParameterError("one-way sliding goes downhill, the component's positive direction: give a slope that is not negative")
 
     @property
+    def kinetic(self) -> float:
+        """Kinetic friction coefficient, given or the static one."""
+        return self.mu if self.mu_kinetic is None else self.mu_kinetic
+
+    @property
+    def kappa(self) -> float:
+        """Kinetic over static friction."""
+        return self.kinetic / self.mu
+
+    @property
     def angle(self) -> float:
         """Slope, rad."""
         return math.radians(self.slope_deg)
@@ -72,7 +81,7 @@ class SlidingBase:
     @property
     def slides_for_ever(self) -> bool:
         """Whether an object that slides downhill on still ground is never stopped by the slope itself ([Fujino1978]_ eq. (14))."""
-        return self.slope_deg != 0.0 and self.mu_kinetic <= abs(math.tan(self.angle))
+        return self.slope_deg != 0.0 and self.kinetic <= abs(math.tan(self.angle))
 
 
 def holds_at_rest(mu: float, slope_deg: float) -> bool:
@@ -103,7 +112,7 @@ def sliding_base(
         if not 0.0 < kappa <= 1.0:
             raise ParameterError(f"kappa, kinetic over static friction, must lie in 0 < kappa <= 1, found {kappa:g}")
         mu_kinetic = kappa * mu
-    return SlidingBase(mu, mu if mu_kinetic is None else mu_kinetic, slope_deg, slope_length, one_way)
+    return SlidingBase(mu, mu_kinetic, slope_deg, slope_length, one_way)
 
 
 def _finite(what: str, value: float) -> None:

@@ -92,7 +92,7 @@ def _card(record: Any, component: str, block: Any, options: dict[str, Any]) -> C
     measured = measure(record, (component,), conventions=rules).components[0]
     motion = motion_of(record, component)
     need_vertical(motion, options["vertical"])
-    response = flagged(solve_rock(motion, block, **options))
+    response = flagged(solve_rock(block, motion, **options))
     frequencies = asdict(measured.equivalent_frequency_hz)
     rows = overturning_card(block, measured.pga_m_s2, measured.pgv_m_s, frequencies, options["gravity"])
     return Card(record, component, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings)

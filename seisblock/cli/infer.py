@@ -8,15 +8,13 @@ from typing import Any
 
 import click
 
-from seisblock.bodies.inset import WORN
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
-from seisblock.cli.types import FLOATS, INSET, LENGTH
+from seisblock.cli.types import FLOATS, LENGTH
 
 DEFAULT_BLOCK = "chozusha"
-FITTED_EDGES = "--inset changes nothing here: (9), (10) were fitted to stones whose edges are not sharp; --criterion rigid uses it"
 FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 
 
@@ -59,19 +57,6 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
     metavar="HZ",
     help="Stones: equivalent frequency, Hz, or a list or range. [default: averaged over 0.5-3 Hz, and at 0.5, 1 ... 3]",
 )
-@option(
-    "--criterion",
-    type=click.Choice(["furukawa", "rigid"]),
-    default="furukawa",
-    show_default=True,
-    help="Stones: fit to whole stones (9), (10), or one rigid block under a half sine.",
-)
-@option(
-    "--inset",
-    type=INSET,
-    metavar="SHARE|M",
-    help="Stones, rigid: how far in from each side worn edges lie, a share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.1]",
-)
 @option("--confidence", type=float, default=0.9, show_default=True, help="Stones: level of the intervals, 0 to 1.")
 @option(
     "--common-error",
@@ -111,11 +96,8 @@ def infer(source: Source, output: Output, cemetery: str | None, rate: str | None
 
 def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, Any]) -> None:
     """Answer from fallen stones."""
-    from functools import partial
-
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.present.document import Answer
-    from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
     from seisblock.studies.cemetery.rate import FREQUENCIES
     from seisblock.studies.inverse.estimate import Model, contour, estimate_shaking, groups_of, remarks_of
     from seisblock.studies.inverse.survey import counted_survey, marked_survey, parse_rate
@@ -124,14 +106,11 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
     for note in stones.notes[:1]:
         say(f"{cemetery}: {note}")
     survey = marked_survey(stones) if rate is None else counted_survey(stones, *parse_rate(rate))
-    inset, criterion = asked["inset"] or WORN, asked["criterion"]
-    limits = partial(rigid_limits, inset=inset, gravity=asked["gravity"]) if criterion == "rigid" else fitted_limits
-    model = Model(asked["common_error"], asked["stone_error"], asked["confidence"], limits)
+    model = Model(asked["common_error"], asked["stone_error"], asked["confidence"])
     frequencies = asked["frequency"] or (None, *FREQUENCIES)
     estimates = [estimate_shaking(part, f, model, stones=name) for name, part in groups_of(survey) for f in frequencies]
     line = contour(survey, model)
-    warnings = [FITTED_EDGES] if asked["inset"] is not None and criterion == "furukawa" else []
-    warnings += dict.fromkeys(text for each in estimates for text in remarks_of(each))
+    warnings = list(dict.fromkeys(text for each in estimates for text in remarks_of(each)))
     parameters = {
         "cemetery": cemetery,
         "stones": stones.size,
@@ -140,8 +119,7 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
         "confidence": model.level,
         "common_error_ln_pga": model.common_error,
         "stone_error_ln_pga": model.stone_error,
-        "criterion": criterion,
-        "inset": inset if criterion == "rigid" else None,
+        "criterion": "furukawa",
         "prior": "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given",
         "intensity": "2.68 + 1.72 log10 PGV (kine), standard deviation 0.21",
     }
@@ -150,7 +128,7 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
         parameters,
         [asdict(each) for each in estimates],
         (),
-        ("Furukawa2009", *(("Housner1963",) if criterion == "rigid" else ()), "Midorikawa1999"),
+        ("Furukawa2009", "Midorikawa1999"),
         warnings,
         {"contour": [asdict(each) for each in line]},
     )
@@ -219,11 +197,12 @@ def _moving_object(asked: dict[str, Any]) -> tuple[Any, dict[str, Any], tuple[st
     """Return what gives the displacement under a motion, and what it rests on."""
     from functools import partial
 
+    from seisblock.bodies.sliding_base import SlidingBase
     from seisblock.studies.inverse import factors as study
 
     if asked["slid"] is not None:
-        options = {"mu_kinetic": asked["mu_kinetic"], "vertical_scale": float(asked["vertical"]), "gravity": asked["gravity"]}
-        moves = partial(study.slid, mu=asked["mu"], largest=asked["largest"], **options)
+        base = SlidingBase(asked["mu"], asked["mu_kinetic"])
+        moves = partial(study.slid, base, vertical=asked["vertical"], gravity=asked["gravity"], largest=asked["largest"])
         told = {"mu": asked["mu"], "mu_kinetic": asked["mu_kinetic"], "vertical": asked["vertical"], "gravity_m_s2": asked["gravity"]}
         return moves, {"object": "slid", "largest": asked["largest"], **told}, ("Fujino1978",)
     from seisblock.cli.bodies.two_layer import two_layer_choice
@@ -233,9 +212,7 @@ def _moving_object(asked: dict[str, Any]) -> tuple[Any, dict[str, Any], tuple[st
     if not asked["repeat"]:
         say("the first chain of motion in each record counts, as in seisblock jump; --repeat adds up all, --window cuts earlier ones off")
     options = {"drop": asked["drop"], "spin": asked["spin"], "gravity": asked["gravity"]}
-    moves = partial(
-        study.jumped, block=chosen.block, contact=chosen.contact, flight_only=asked["flight_only"], repeat=asked["repeat"], **options
-    )
+    moves = partial(study.jumped, chosen.block, contact=chosen.contact, flight_only=asked["flight_only"], repeat=asked["repeat"], **options)
     told = {
         "block": chosen.block,
         "contact": chosen.contact,

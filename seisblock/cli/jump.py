@@ -77,9 +77,9 @@ def jump(
             motion,
             [
                 solve_jump(
-                    motion_of(cut, motion.name),
                     chosen.block,
-                    chosen.contact,
+                    motion_of(cut, motion.name),
+                    contact=chosen.contact,
                     drop=drop,
                     spin=spin,
                     direction=direction,

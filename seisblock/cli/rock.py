@@ -78,15 +78,15 @@ def rock(
     responses, extras = [], []
     for motion in (motion for record in load(source) for motion in motions(record, source)):
         need_vertical(motion, vertical)
-        responses.append(flagged(solve_rock(motion, chosen.block, **options)))
+        responses.append(flagged(solve_rock(chosen.block, motion, **options)))
         extra: dict[str, Any] = {}
         if margin:
             with progress(f"margin {motion.name}") as tell:
-                extra["margin"] = find_margin(motion, chosen.block, limit=margin_limit, progress=tell, **options)
+                extra["margin"] = find_margin(chosen.block, motion, limit=margin_limit, progress=tell, **options)
         if perturb is not None:
             widths = Spread(spread, spread, spread, spread)
             with progress(f"perturb {motion.name}") as tell:
-                extra["perturbation"] = perturbed(motion, chosen.block, perturb, spread=widths, seed=seed, progress=tell, **options)
+                extra["perturbation"] = perturbed(chosen.block, motion, perturb, spread=widths, seed=seed, progress=tell, **options)
         extras.append(extra)
     parameters = {**responses[0].options, "block": described(chosen.block), "margin_limit": margin_limit if margin else None}
     answer = response_answer("rock", responses, parameters)

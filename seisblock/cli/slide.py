@@ -97,7 +97,7 @@ def slide(
         "mu": mu,
         "mu_kinetic": mu_kinetic,
         "kappa": kappa,
-        "vertical_scale": scales,
+        "vertical": scales,
         "slope_deg": slope,
     }
     fixed = {"slope_length": slope_length, "one_way": one_way, "gravity": gravity}
@@ -116,22 +116,26 @@ def _one(
     records: list[Record], source: Source, output: Output, directions: list[str] | None, single: dict[str, float], fixed: dict[str, Any]
 ) -> None:
     """Solve one set of parameters for each direction, or for the worst one."""
+    from seisblock.bodies.sliding_base import sliding_base
     from seisblock.present.text import slide as shown
     from seisblock.records import motion_of
     from seisblock.solvers.slide.solve import solve_slide
     from seisblock.studies.sliding import slide_study, worst_directions
 
+    laid = {name: value for name, value in single.items() if name != "vertical"}
+    base = sliding_base(**laid, slope_length=fixed["slope_length"], one_way=fixed["one_way"])
+    vertical = single["vertical"]
     responses, sweep = [], []
     for record in records:
         if directions is None:
             chosen = list(_motions(record, source, None))
         else:
-            points = slide_study(_motions(record, source, directions), **single, **fixed)  # type: ignore[arg-type]
+            points = slide_study(motions=_motions(record, source, directions), **single, **fixed)  # type: ignore[arg-type]
             sweep += points
             worst = worst_directions(points)[0].component
             say(f"largest slip of {len(directions)} directions at azimuth {worst} degrees")
             chosen = [motion_of(record, worst)]
-        responses += [solve_slide(motion, **single, **fixed) for motion in chosen]  # type: ignore[arg-type]
+        responses += [solve_slide(base, motion, vertical=vertical, gravity=fixed["gravity"]) for motion in chosen]
     extra = {"azimuths": [asdict(point) for point in sweep]} if sweep else None
     emit(
         response_answer("slide", responses, dict(responses[0].options), extra=extra),
@@ -153,7 +157,7 @@ def _study(
     points, results = [], []
     for index, record in enumerate(records):
         with progress("sliding") as tell:
-            found = slide_study(_motions(record, source, directions), **choice, **fixed, progress=tell)
+            found = slide_study(motions=_motions(record, source, directions), **choice, **fixed, progress=tell)
         found = found if directions is None else worst_directions(found)
         points.append(found)
         results += [{**({"record_index": index} if len(records) > 1 else {}), **asdict(point)} for point in found]

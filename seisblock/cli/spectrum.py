@@ -6,12 +6,11 @@ from typing import Any
 
 import click
 
-from seisblock.bodies.inset import SHARP, Inset
 from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.rock import along, need_vertical
-from seisblock.cli.types import FLOATS, INSET, LENGTHS
+from seisblock.cli.types import FLOATS, LENGTHS
 from seisblock.errors import ParameterError
 
 KINDS = ("rocking", "overturning", "sliding")
@@ -40,13 +39,6 @@ KINDS = ("rocking", "overturning", "sliding")
 @option(
     "--slenderness-rad", type=FLOATS, section="Body", metavar="LIST|RANGE", help="alpha = atan(B/H), rad, instead of --height-over-width."
 )
-@option(
-    "--inset",
-    type=INSET,
-    metavar="SHARE|M",
-    section="Body",
-    help="How far in from each side the blocks' worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm). [default: 0]",
-)
 @option("--steps", type=click.IntRange(2, 1000), default=40, show_default=True, help="Points of each axis that is left to its default.")
 @rocking_options
 @gravity_option
@@ -61,7 +53,6 @@ def spectrum(
     frequency_parameter: tuple[float, ...] | None,
     height_over_width: tuple[float, ...] | None,
     slenderness_rad: tuple[float, ...] | None,
-    inset: Inset | None,
     steps: int,
     restitution: float | None,
     linear: bool,
@@ -79,7 +70,6 @@ def spectrum(
             "frequency-parameter": frequency_parameter,
             "height-over-width": height_over_width,
             "slenderness-rad": slenderness_rad,
-            "inset": inset,
             "restitution": restitution,
             "linear": linear,
         }
@@ -100,14 +90,14 @@ def spectrum(
     _one_of(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
     diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else default_sizes(steps))
     alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else default_slendernesses(steps))
-    options: dict[str, Any] = {"restitution": restitution, "linear": linear, "vertical": vertical, "inset": inset or SHARP}
+    options: dict[str, Any] = {"restitution": restitution, "linear": linear, "vertical": vertical}
     records = load(source)
     found = []
     for record in records:
         for motion in motions(record, source):
             need_vertical(motion, vertical)
             with progress(f"spectrum {motion.name}") as tell:
-                found.append((motion, rocking_spectrum(motion, diagonals, alphas, gravity=gravity, progress=tell, **options)))
+                found.append((motion, rocking_spectrum(diagonals, alphas, motion, gravity=gravity, progress=tell, **options)))
     results = [
         {**({"record_index": records.index(motion.record)} if len(records) > 1 and motion.record else {}), **shown.document(motion, answer)}
         for motion, answer in found
@@ -115,7 +105,7 @@ def spectrum(
     emit(
         Answer("spectrum", {"kind": kind, "gravity_m_s2": gravity, **options}, results, records, ["Housner1963", "Zhang2001"]),
         output,
-        tables=lambda: shown.tables(found, kind, f"; edges worn by {inset.share:g} B + {inset.length_m:g} m per side" if inset else ""),
+        tables=lambda: shown.tables(found, kind),
         csv=lambda path: shown.write(path, found),
         figure=lambda: _draw(found, kind, gravity),
     )
@@ -142,7 +132,7 @@ def _sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ..
     for motion in (motion for record in records for motion in motions(record, source)):
         need_vertical(motion, vertical)
         with progress(f"sliding {motion.name}") as tell:
-            found.append((motion, slide_study(motion, frictions, vertical_scale=float(vertical), gravity=gravity, progress=tell)))
+            found.append((motion, slide_study(frictions, motion, vertical=vertical, gravity=gravity, progress=tell)))
     index = {id(record): i for i, record in enumerate(records)}
     several = len(records) > 1
     results = [{**({"record_index": index[id(m.record)]} if several else {}), **shown.document(m, points)} for m, points in found]

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.subjects import Subject
 from seisblock.criteria.card import Row, overturning_card
 from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures, measure
@@ -118,13 +119,14 @@ def assess(
 def _effects(each: Subject, motion: Motion, drop: float, gravity: float) -> Iterator[Effect]:
     """Yield what every model says of one body under one component."""
     peak = float(np.abs(motion.horizontal).max())
-    rock = flagged(solve_rock(motion, each.block, restitution=each.restitution, gravity=gravity))
-    margin = find_margin(motion, each.block, restitution=each.restitution, gravity=gravity)
+    rock = flagged(solve_rock(each.block, motion, restitution=each.restitution, gravity=gravity))
+    margin = find_margin(each.block, motion, restitution=each.restitution, gravity=gravity)
     yield Effect("rock", rock, _ratio(rock.outcome.threshold_m_s2, peak), margin)
     if each.mu is not None:
-        yield Effect("slide", solve_slide(motion, each.mu, mu_kinetic=each.mu_kinetic, gravity=gravity), _ratio(each.mu * gravity, peak))
+        slid = solve_slide(SlidingBase(each.mu, each.mu_kinetic), motion, gravity=gravity)
+        yield Effect("slide", slid, _ratio(each.mu * gravity, peak))
     if each.layers is not None and each.contact is not None:
-        jump = solve_jump(motion, each.layers, each.contact, drop=drop, gravity=gravity)
+        jump = solve_jump(each.layers, motion, contact=each.contact, drop=drop, gravity=gravity)
         yield Effect("jump", jump, _ratio(jump.outcome.rocking_threshold_m_s2, peak))
     if each.springs is not None:
         lift = solve_uplift(motion=motion, body=each.springs, gravity=gravity)

@@ -275,8 +275,9 @@ def rigid_top(body: Pile, points: int) -> Block:
     inertia = sum(
         m * ((s.width**2 + s.height**2) / 12.0 + (c[0] - x) ** 2 + (c[2] - z) ** 2) for m, s, c in zip(masses, stones, centres, strict=True)
     )
+    inset = 1.0 if points == 2 else 1.0 - 1.0 / points
     return Block(
-        stones[0].width,
+        stones[0].width * inset,
         sum(stone.height for stone in stones),
         depth=stones[0].depth,
         mass=float(masses.sum()),
@@ -284,7 +285,6 @@ def rigid_top(body: Pile, points: int) -> Block:
         centroid_offset=float(x - centres[0, 0]),
         centroid_inertia=float(inertia),
         name=stones[-1].name,
-        inset=0.0 if points == 2 else stones[0].width / (2.0 * points),
     )
 
 
@@ -296,6 +296,6 @@ def rigid_levels(study: CriterionStudy, body: Pile, *, points: int, gravity: flo
     found = []
     for threshold in study.thresholds:
         motion = sine_base(threshold.frequency_hz, threshold.pga_m_s2)
-        falls = (ratio for ratio, block in blocks if rock_verdict(motion, block, gravity=gravity).overturned)
+        falls = (ratio for ratio, block in blocks if rock_verdict(block, motion, gravity=gravity).overturned)
         found.append(Threshold(threshold.frequency_hz, threshold.pga_m_s2, next(falls, None)))
     return fitted_levels(found)

@@ -15,6 +15,7 @@ import numpy as np
 from seisblock.bodies.sliding_base import SlidingBase, holds_at_rest, sliding_base
 from seisblock.dynamics import follow_many
 from seisblock.errors import ParameterError
+from seisblock.records.given import Factor
 from seisblock.records.motion import Motion
 from seisblock.solvers.slide.model import BACKWARD, CONTACT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
@@ -37,7 +38,7 @@ class SlidePoint:
     Parameters
     ----------
     component : str
-    mu, mu_kinetic, kappa, slope_deg, vertical_scale : float
+    mu, mu_kinetic, kappa, slope_deg, vertical : float
     holds_at_rest : bool
         Whether static friction holds without shaking; if not nothing was computed, and what follows is None.
     slips : bool
@@ -52,7 +53,7 @@ class SlidePoint:
     mu_kinetic: float
     kappa: float
     slope_deg: float
-    vertical_scale: float
+    vertical: float
     holds_at_rest: bool
     slips: bool | None = None
     slip_start_s: float | None = None
@@ -68,12 +69,12 @@ class SlidePoint:
 
 
 def slide_study(
-    motions: Motion | Iterable[Motion],
     mu: float | Sequence[float],
+    motions: Motion | Iterable[Motion],
     *,
     mu_kinetic: float | Sequence[float] | None = None,
     kappa: float | Sequence[float] | None = None,
-    vertical_scale: float | Sequence[float] = 0.0,
+    vertical: Factor | Sequence[float] = False,
     slope_deg: float | Sequence[float] = 0.0,
     slope_length: float | None = None,
     one_way: bool = False,
@@ -85,12 +86,13 @@ def slide_study(
 
     Parameters
     ----------
+    mu, mu_kinetic, kappa, slope_deg, vertical : float or sequence
+        As of :func:`seisblock.bodies.sliding_base.sliding_base`, and the factor on the vertical ground motion; every combination is
+        computed. A combination in which static friction does not hold at rest, or kinetic exceeds static friction, is listed with
+        nothing computed.
     motions : Motion or several
-    mu, mu_kinetic, kappa, vertical_scale, slope_deg : float or sequence
-        As in :func:`seisblock.solvers.slide.solve.solve_slide`; every combination is computed. A combination in which static friction does
-        not hold at rest, or kinetic exceeds static friction, is listed with nothing computed.
     slope_length, one_way, gravity
-        As in :func:`seisblock.solvers.slide.solve.solve_slide`.
+        The same in all runs.
     progress : callable or None
         Told how many runs are done, of how many.
     workers : int or None
@@ -109,7 +111,7 @@ def slide_study(
     chosen = [motions] if isinstance(motions, Motion) else list(motions)
     if mu_kinetic is not None and kappa is not None:
         raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
-    scales = _values(vertical_scale)
+    scales = tuple(float(value) for value in _values(vertical))
     for motion, scale in itertools.product(chosen, scales):
         check(motion, scale, gravity)
     bases = [
@@ -136,7 +138,7 @@ def slide_study(
             by_scale = {scale: next(found) for scale in computed}
             points += [_with_beta(by_scale[scale], by_scale[0.0]) if any(scales) else by_scale[scale] for scale in scales]
         else:
-            points += [SlidePoint(motion.name, **base, vertical_scale=scale, holds_at_rest=False) for scale in scales]
+            points += [SlidePoint(motion.name, **base, vertical=scale, holds_at_rest=False) for scale in scales]
     return points
 
 
@@ -144,7 +146,7 @@ def worst_directions(points: Sequence[SlidePoint]) -> list[SlidePoint]:
     """Return, for each combination of parameters, the point of the direction with the largest slip, in the order of the study."""
     worst: dict[tuple[float, ...], SlidePoint] = {}
     for point in points:
-        key = (point.mu, point.mu_kinetic, point.slope_deg, point.vertical_scale)
+        key = (point.mu, point.mu_kinetic, point.slope_deg, point.vertical)
         if key not in worst or (point.max_slip_m or 0.0) > (worst[key].max_slip_m or 0.0):
             worst[key] = point
     return list(worst.values())
@@ -165,7 +167,7 @@ def _base(
 ) -> SlidingBase | dict[str, Any]:
     """Return a base, or the parameters of one that cannot be: too steep, or with more kinetic than static friction."""
     level = sliding_base(mu, kappa=kappa)
-    kinetic = level.mu_kinetic if mu_kinetic is None else mu_kinetic
+    kinetic = level.kinetic if mu_kinetic is None else mu_kinetic
     if kinetic > mu or not holds_at_rest(mu, slope_deg):
         return {"mu": mu, "mu_kinetic": kinetic, "kappa": kinetic / mu, "slope_deg": slope_deg}
     return SlidingBase(mu, kinetic, slope_deg, slope_length if slope_deg else None, one_way)
@@ -220,8 +222,8 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
             SlidePoint(
                 motion.name,
                 base.mu,
-                base.mu_kinetic,
-                base.mu_kinetic / base.mu,
+                base.kinetic,
+                base.kappa,
                 base.slope_deg,
                 scale,
                 holds_at_rest=True,

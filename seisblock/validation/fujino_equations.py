@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from seisblock.bodies.sliding_base import SlidingBase, sliding_base
 from seisblock.criteria.sliding import friction_that_holds, friction_that_stops, pulse_slip, slip_acceleration, slip_limits, steady_slip
 from seisblock.records import Motion
 from seisblock.results import Response
@@ -39,24 +40,26 @@ def sine(displacement_cm: float | None, acceleration_gal: float | None = None) -
     return Motion.from_arrays(0.01 * (amplitude or 0.0) * np.sin(2.0 * t), 1e-4)
 
 
-def _start(motion: Motion, **how: float) -> Callable[[], float]:
+def _start(motion: Motion, *, vertical: float = 0.0, slope_deg: float = 0.0) -> Callable[[], float]:
     """Return what computes the start of the slip."""
-    return lambda: solve_slide(motion, MU, gravity=G, **how).outcome.slip_start_s or math.nan  # type: ignore[arg-type]
+    base = SlidingBase(MU, slope_deg=slope_deg)
+    return lambda: solve_slide(base, motion, vertical=vertical, gravity=G).outcome.slip_start_s or math.nan
 
 
-def _last(motion: Motion, channel: str, **how: float) -> Callable[[], float]:
+def _last(motion: Motion, channel: str, *, vertical: float = 0.0, slope_deg: float = 0.0) -> Callable[[], float]:
     """Return what computes the last value of a channel."""
-    return lambda: float(solve_slide(motion, MU, gravity=G, kappa=KAPPA, **how)[channel][-1])  # type: ignore[arg-type]
+    base = SlidingBase(MU, KAPPA * MU, slope_deg)
+    return lambda: float(solve_slide(base, motion, vertical=vertical, gravity=G)[channel][-1])
 
 
-def _final(motion: Motion, **how: float) -> Callable[[], float]:
-    """Return what computes the slip once at rest."""
-    return lambda: solve_slide(motion, MU, gravity=G, **how).outcome.final_slip_m or math.nan  # type: ignore[arg-type]
+def _final(motion: Motion) -> Callable[[], float]:
+    """Return what computes the slip once at rest of an object that slides one way."""
+    return lambda: solve_slide(SlidingBase(MU, one_way=True), motion, gravity=G).outcome.final_slip_m or math.nan
 
 
 def _sine_response() -> Response[SlideOutcome]:
     """Return the sine example in the reading that fits the figure."""
-    return solve_slide(sine(60.0), 0.2, mu_kinetic=0.175, gravity=G)
+    return solve_slide(SlidingBase(0.2, 0.175), sine(60.0), gravity=G)
 
 
 def _event(number: int) -> Callable[[], float]:
@@ -69,7 +72,7 @@ def _steepest_that_stops() -> float:
     low, high = math.tan(math.radians(TH)), 1.0
     for _ in range(60):
         mu = 0.5 * (low + high)
-        stops = solve_slide(constant(-9.0), mu, kappa=KAPPA, slope_deg=TH, gravity=G).outcome.final_slip_m is not None
+        stops = solve_slide(sliding_base(mu, kappa=KAPPA, slope_deg=TH), constant(-9.0), gravity=G).outcome.final_slip_m is not None
         low, high = (low, mu) if stops else (mu, high)
     return high
 
@@ -81,7 +84,7 @@ def _least_that_holds(along: float, up: float, slope: float) -> float:
     low, high = math.tan(math.radians(slope)), 5.0
     for _ in range(60):
         mu = 0.5 * (low + high)
-        slips = solve_slide(motion, mu, slope_deg=slope, vertical_scale=1.0, gravity=G).outcome.slips
+        slips = solve_slide(sliding_base(mu, slope_deg=slope), motion, vertical=1.0, gravity=G).outcome.slips
         low, high = (mu, high) if slips else (low, mu)
     return high
 
@@ -95,7 +98,9 @@ def _equation_15(alpha: float, ratio: float, slope: float) -> float:
 def _steady() -> float:
     """Return the simulated swing of the slip after the transient of a harmonic base."""
     t = 2e-4 * np.arange(250001)
-    u = solve_slide(Motion.from_arrays(4.0 * np.sin(2.0 * math.pi * t), 2e-4), 0.1, kappa=0.9, gravity=G)["relative_displacement"]
+    u = solve_slide(sliding_base(0.1, kappa=0.9), Motion.from_arrays(4.0 * np.sin(2.0 * math.pi * t), 2e-4), gravity=G)[
+        "relative_displacement"
+    ]
     tail = u[u.size * 49 // 50 :]
     return float(tail.max() - tail.min())
 
@@ -115,7 +120,7 @@ EQUATIONS = (
     Case("fujino-1", WHERE + "eq. (1)", "start of the slip on a ramp of 1 m/s^3: mu g", "s", float(slip_acceleration(MU, gravity=G)),
          1e-12, _start(ramp()), note="equality sticks; the slip starts where the ramp exceeds mu g"),
     Case("fujino-1-equal", WHERE + "eq. (1) against (5)", "slip under exactly mu g", "m", 0.0, 0.0,
-         lambda: solve_slide(constant(MU * G), MU, kappa=KAPPA, gravity=G).outcome.max_slip_m,
+         lambda: solve_slide(sliding_base(MU, kappa=KAPPA), constant(MU * G), gravity=G).outcome.max_slip_m,
          note="(1) prints <=, (5) <: equality sticks here"),
     Case("fujino-2", WHERE + "eq. (2)", "relative acceleration, level base, no vertical motion", "m/s^2", -4.0 + KAPPA * MU * G, EXACT,
          _last(constant(4.0), "relative_acceleration")),
@@ -124,13 +129,13 @@ EQUATIONS = (
     Case("fujino-4", WHERE + "eq. (4)", "relative displacement after 1 s", "m", 0.5 * (-4.0 + KAPPA * MU * G), EXACT,
          _last(constant(4.0), "relative_displacement"), note="the scan drops the dot of z' in (4)"),
     Case("fujino-5", WHERE + "eq. (5)", "start of the slip on a ramp with vertical motion: mu (g + y'')", "s", MU * (G - UP), 1e-12,
-         _start(ramp(up=-UP), vertical_scale=1.0)),
+         _start(ramp(up=-UP), vertical=1.0)),
     Case("fujino-6", WHERE + "eq. (6)", "relative acceleration with vertical motion", "m/s^2", LEVEL_PULL, EXACT,
-         _last(constant(4.0, UP), "relative_acceleration", vertical_scale=1.0)),
+         _last(constant(4.0, UP), "relative_acceleration", vertical=1.0)),
     Case("fujino-7", WHERE + "eq. (7)", "relative velocity after 1 s with vertical motion", "m/s", LEVEL_PULL, EXACT,
-         _last(constant(4.0, UP), "relative_velocity", vertical_scale=1.0)),
+         _last(constant(4.0, UP), "relative_velocity", vertical=1.0)),
     Case("fujino-8", WHERE + "eq. (8)", "relative displacement after 1 s with vertical motion", "m", 0.5 * LEVEL_PULL, EXACT,
-         _last(constant(4.0, UP), "relative_displacement", vertical_scale=1.0),
+         _last(constant(4.0, UP), "relative_displacement", vertical=1.0),
          note="the last term of (8) must be -/+ rho_d y'_t0 (t - t0), as in (13)"),
     Case("fujino-9", WHERE + "eq. (9)", "start of an uphill slip on a ramp: g tan(th + atan mu)", "s",
          G * math.tan(math.radians(TH) + PHI), 1e-11, _start(ramp(), slope_deg=TH), note="both inputs resolved on the slope"),
@@ -153,10 +158,10 @@ EQUATIONS = (
     Case("fujino-15-simulated", WHERE + "eq. (15)", "least friction that holds in a pulse of fig. 16's alpha and mu, 30 degrees", "1",
          _equation_15(*HACHINOHE, 30.0), 1e-12, lambda: _least_that_holds(HACHINOHE[0], HACHINOHE[0] * HACHINOHE[1], 30.0)),
     Case("fujino-sine-printed", WHERE + "sec. 2.2.2", "slip under 60 sin 2t as an acceleration in gal", "m", 0.0, 0.0,
-         lambda: solve_slide(sine(None, 60.0), 0.2, mu_kinetic=0.175, gravity=G).outcome.max_slip_m,
+         lambda: solve_slide(SlidingBase(0.2, 0.175), sine(None, 60.0), gravity=G).outcome.max_slip_m,
          note="as printed the example never slides: 60 gal against 0.2 g"),
     Case("fujino-sine-printed-slides", WHERE + "fig. 4", "slip of the example as printed against that of its figure", "m", 0.2226306,
-         0.01, lambda: solve_slide(sine(None, 60.0), 0.2, mu_kinetic=0.175, gravity=G).outcome.max_slip_m, status="differs",
+         0.01, lambda: solve_slide(SlidingBase(0.2, 0.175), sine(None, 60.0), gravity=G).outcome.max_slip_m, status="differs",
          note="fig. 4 slides although 60 gal is less than 0.2 g; read as a ground displacement of 60 sin 2t cm (240 gal) it fits"),
     *(
         Case(f"fujino-sine-{name}", WHERE + "fig. 4", f"sine example, {what}", "s", expected, 5e-6, _event(number),
@@ -171,7 +176,7 @@ EQUATIONS = (
     Case("fujino-sine-back", WHERE + "sec. 2.2.2", "sine example, displacement after the second slip: no ratcheting", "m", 0.0, CONVERGED,
          lambda: float(_sine_response().events[3].after[0])),
     Case("newmark-pulse", "[Newmark1965]_ rectangular pulse", "one-way slip under 6 m/s^2 for 1 s", "m",
-         pulse_slip(6.0, 1.0, MU * G), 1e-12, _final(constant(-6.0), one_way=True)),
+         pulse_slip(6.0, 1.0, MU * G), 1e-12, _final(constant(-6.0))),
     Case("westermo-steady", "[WestermoUdwadia1983]_ steady sliding", "swing of the slip on a harmonic base, 4 m/s^2 at 1 Hz", "m",
          steady_slip(4.0, 1.0, 0.1, kappa=0.9, gravity=G) or math.nan, 2e-7, _steady),
 )  # fmt: skip

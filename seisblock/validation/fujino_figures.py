@@ -36,14 +36,14 @@ def el_centro() -> Motion:
 @functools.cache
 def largest_slips() -> FloatArray:
     """Return the largest slip of fig. 7, (31 frictions, 4 ratios), m."""
-    points = slide_study(el_centro(), FRICTION.tolist(), kappa=RATIOS, gravity=G)
+    points = slide_study(FRICTION.tolist(), el_centro(), kappa=RATIOS, gravity=G)
     return np.array([point.max_slip_m for point in points]).reshape(FRICTION.size, len(RATIOS))
 
 
 @functools.cache
 def on_slope(mu: float) -> tuple[SlidePoint, ...]:
     """Return the points of fig. 15 for one friction: a slope of 1 m with level ground beyond, kappa = 0.5."""
-    points = slide_study(el_centro(), mu, kappa=0.5, slope_deg=SLOPES.tolist(), slope_length=1.0, gravity=G)
+    points = slide_study(mu, el_centro(), kappa=0.5, slope_deg=SLOPES.tolist(), slope_length=1.0, gravity=G)
     return tuple(point for point in points if point.holds_at_rest)
 
 
@@ -82,7 +82,7 @@ def _rate(mu: float) -> float:
 
 def _critical(slope: float) -> float:
     """Return the largest friction with which the object slides over 2 m down a slope of fig. 16, kappa = 0.5."""
-    points = slide_study(el_centro(), np.arange(0.05, 1.6, 0.005).tolist(), kappa=0.5, slope_deg=slope, gravity=G)
+    points = slide_study(np.arange(0.05, 1.6, 0.005).tolist(), el_centro(), kappa=0.5, slope_deg=slope, gravity=G)
     return max(point.mu for point in points if point.holds_at_rest and (point.final_slip_m is None or (point.max_slip_m or 0.0) > 2.0))
 
 

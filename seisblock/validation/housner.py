@@ -38,7 +38,7 @@ def simulated_threshold(w: float, halves: int, low: float, high: float) -> float
     pulse = sine_pulse(1.0, w, halves)
 
     def overturns(x: float) -> bool:
-        return rock_verdict(pulse, block, scale=x, restitution=ETA, linear=True).overturned
+        return rock_verdict(block, pulse, scale=x, restitution=ETA, linear=True).overturned
 
     above = overturns(high)
     while high - low > 1e-8:
@@ -50,7 +50,7 @@ def simulated_threshold(w: float, halves: int, low: float, high: float) -> float
 def free_period(share: float) -> float:
     """Return the period of free rocking from theta0 = share alpha, linear and without loss, s."""
     still = Motion.from_arrays(np.zeros(2001), 0.01)
-    response = solve_rock(still, from_slenderness(ALPHA, P), restitution=1.0, linear=True, initial=(share * ALPHA, 0.0))
+    response = solve_rock(from_slenderness(ALPHA, P), still, restitution=1.0, linear=True, initial=(share * ALPHA, 0.0))
     times = [event.time_s for event in response.events if event.name == "impact"]
     return times[2] - times[0]
 
@@ -62,7 +62,7 @@ def rectangle_threshold(duration: float) -> float:
     low, high = 1.0, 10.0
     while high - low > 1e-8:
         middle = 0.5 * (low + high)
-        if rock_verdict(pulse, block, scale=middle, restitution=ETA, linear=True).overturned:
+        if rock_verdict(block, pulse, scale=middle, restitution=ETA, linear=True).overturned:
             high = middle
         else:
             low = middle

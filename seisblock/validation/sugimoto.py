@@ -79,7 +79,7 @@ def _chain(number: int, spin: str = "", mu: float = 0.18, mu_kinetic: float = 0.
     block = _block(side)
     surface = Contact(mu, mu_kinetic, 0.95, restitution_y)
     rule = spin or f"ratio={SPIN[side]}"
-    return solve_jump(_part(part), block, surface, drop=drop, spin=rule, gravity=GRAVITY).outcome.chains[0]
+    return solve_jump(block, _part(part), contact=surface, drop=drop, spin=rule, gravity=GRAVITY).outcome.chains[0]
 
 
 def _chain_number(number: int, key: str) -> float:

@@ -32,7 +32,7 @@ def test_a_sample_of_rocking(benchmark):
 def test_a_sample_at_rest(benchmark):
     """At most 10 ns per sample at rest."""
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(10 * SAMPLES)), 0.01)
-    verdict = benchmark(rock_verdict, motion, Block(0.3, 1.0))
+    verdict = benchmark(rock_verdict, Block(0.3, 1.0), motion)
     assert not verdict.overturned
     bound(benchmark, 10e-9 * 10 * SAMPLES)
 
@@ -40,7 +40,7 @@ def test_a_sample_at_rest(benchmark):
 def test_whole_answer_of_a_rocking_block(benchmark):
     """Channels, phases, forces and outcome included: at most 1 microsecond per sample."""
     motion = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
-    response = benchmark(solve_rock, motion, from_slenderness(0.25, 2.14), restitution=0.9999, initial=(0.15, 0.0))
+    response = benchmark(solve_rock, from_slenderness(0.25, 2.14), motion, restitution=0.9999, initial=(0.15, 0.0))
     assert response.outcome.impacts > 50
     bound(benchmark, 1e-6 * SAMPLES)
 
@@ -51,6 +51,6 @@ def test_spectrum_of_a_hundred_seconds(benchmark):
     t = np.arange(SAMPLES) * 0.01
     a = np.convolve(rng.normal(size=SAMPLES), np.ones(8) / 8, "same") * np.exp(-(((t - 35) / 18) ** 2))
     motion = Motion.from_arrays(5 * a / np.abs(a).max(), 0.01)
-    answer = benchmark.pedantic(rocking_spectrum, (motion, default_sizes(10), default_slendernesses(10)), rounds=3, warmup_rounds=1)
+    answer = benchmark.pedantic(rocking_spectrum, (default_sizes(10), default_slendernesses(10), motion), rounds=3, warmup_rounds=1)
     assert answer.overturned.any()
     bound(benchmark, 0.6)

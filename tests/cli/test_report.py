@@ -69,7 +69,7 @@ def test_it_tells_where_it_comes_from(pages):
 
 def test_its_verdict_is_the_solver_s(pages):
     """The gravestone overturns, as solve_rock says, and the margin stands beside it."""
-    outcome = solve_rock(motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW"), load_block("gravestone")).outcome
+    outcome = solve_rock(load_block("gravestone"), motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")).outcome
     assert outcome.overturned
     assert f"overturns towards {outcome.overturned_towards[0]}EW" in pages["en"]
     assert f"lies down at {outcome.overturning_time_s:.2f} s" in pages["en"]

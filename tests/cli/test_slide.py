@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 import seisblock
+from seisblock.bodies.sliding_base import sliding_base
 from seisblock.cli import main
 from seisblock.readers import read
 
@@ -40,12 +41,12 @@ def test_document_keeps_the_contract_and_the_library_agrees():
     document = answer("--mu", "0.2", "--kappa", "0.5", "--vertical")
     assert document["schema"] == "seisblock/slide/1"
     assert document["parameters"]["mu_kinetic"] == 0.1
-    assert document["parameters"]["vertical_scale"] == 1.0
+    assert document["parameters"]["vertical"] == 1.0
     assert [entry["component"] for entry in document["results"]] == ["NS", "EW"]
     record = read("synthetic_jma.csv")
     for entry in document["results"]:
         assert set(entry) >= KEYS
-        alone = seisblock.solve_slide(seisblock.motion_of(record, entry["component"]), 0.2, kappa=0.5, vertical_scale=1.0)
+        alone = seisblock.solve_slide(sliding_base(0.2, kappa=0.5), seisblock.motion_of(record, entry["component"]), vertical=1.0)
         assert entry["max_slip_m"] == alone.outcome.max_slip_m
         assert entry["residual_slip_m"] == alone.outcome.residual_slip_m
 
@@ -87,7 +88,7 @@ def test_lists_and_ranges_make_the_study(tmp_path):
 def test_vertical_study_reports_beta():
     """With vertical motion the study holds the ratio to the slip without it; without vertical motion there is none."""
     points = answer("--mu", "0.1,0.2", "--vertical-scale", "0,1,3", "--component", "NS")["results"]
-    base = {point["mu"]: point["max_slip_m"] for point in points if point["vertical_scale"] == 0.0}
+    base = {point["mu"]: point["max_slip_m"] for point in points if point["vertical"] == 0.0}
     for point in points:
         assert point["beta"] == pytest.approx(point["max_slip_m"] / base[point["mu"]], rel=1e-15)
     assert "beta" in run("--mu", "0.1,0.2", "--vertical").stdout
@@ -177,6 +178,6 @@ def test_progress_is_told_to_the_end():
     """A study tells how many of its runs are done, and ends with all of them."""
     told = []
     motion = seisblock.motion_of(read("elcentro_1940_ns"), "NS")
-    seisblock.slide_study(motion, [0.1, 0.2, 0.3], kappa=[0.5, 1.0], progress=lambda done, total: told.append((done, total)), workers=2)
+    seisblock.slide_study([0.1, 0.2, 0.3], motion, kappa=[0.5, 1.0], progress=lambda done, total: told.append((done, total)), workers=2)
     assert told[-1] == (6, 6)
     assert [done for done, _ in told] == sorted(done for done, _ in told)

@@ -104,7 +104,7 @@ def test_progress_is_told_and_memory_is_bounded():
     """The bar hears of every chunk and ends at the number of runs."""
     told = []
     motion = Motion.from_arrays(3 * np.sin(np.arange(400) * 0.1), 0.02)
-    rocking_spectrum(motion, np.linspace(0.5, 3, 20), np.linspace(0.1, 0.4, 20), progress=lambda done, total: told.append((done, total)))
+    rocking_spectrum(np.linspace(0.5, 3, 20), np.linspace(0.1, 0.4, 20), motion, progress=lambda done, total: told.append((done, total)))
     assert told[-1] == (400, 400)
     assert len(told) > 2
 
@@ -112,9 +112,9 @@ def test_progress_is_told_and_memory_is_bounded():
 def test_similarity():
     """Length L and time sqrt(L): the same leans over alpha."""
     a = 3 * np.sin(np.arange(400) * 0.12)
-    small = rocking_spectrum(Motion.from_arrays(a, 0.02), [0.5, 1.0], [0.15, 0.3])
-    large = rocking_spectrum(Motion.from_arrays(a, 0.04), [2.0, 4.0], [0.15, 0.3])
+    small = rocking_spectrum([0.5, 1.0], [0.15, 0.3], Motion.from_arrays(a, 0.02))
+    large = rocking_spectrum([2.0, 4.0], [0.15, 0.3], Motion.from_arrays(a, 0.04))
     np.testing.assert_array_equal(small.overturned, large.overturned)
     np.testing.assert_allclose(small.max_rotation_ratio, large.max_rotation_ratio, rtol=1e-9)
-    one = solve_rock(Motion.from_arrays(a, 0.02), Block(0.5 * math.sin(0.15), 0.5 * math.cos(0.15))).outcome
+    one = solve_rock(Block(0.5 * math.sin(0.15), 0.5 * math.cos(0.15)), Motion.from_arrays(a, 0.02)).outcome
     assert small.max_rotation_ratio[0, 0] == pytest.approx(one.max_rotation_ratio, rel=1e-12)

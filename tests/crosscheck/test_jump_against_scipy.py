@@ -139,7 +139,7 @@ CASES = [
 def test_chain_under_a_pulse(motion, block, spin, drop):
     """Onset, impact, landing, end and displacements agree with DOP853 at 1e-12."""
     contact = Contact(0.18, 0.17, 0.95, 0.85)
-    found = solve_jump(motion, block, contact, drop=drop, spin=f"ratio={spin}", gravity=G).outcome.chains[0]
+    found = solve_jump(block, motion, contact=contact, drop=drop, spin=f"ratio={spin}", gravity=G).outcome.chains[0]
     onset, impact, landing, end, jumped, moved, slides, stops = chain(block, motion, contact, spin, drop)
     assert not stops, "the reference does not model a second slip; choose another case"
     assert found.slid == slides
@@ -156,7 +156,7 @@ def test_chain_under_a_pulse_with_more_friction(friction):
     """With friction enough the foot sticks, and the chain is that of eq. (12)."""
     contact = Contact(*friction, 0.95, 0.70)
     motion = half_sine(6.5, 0.6, 3.0)
-    found = solve_jump(motion, SHORT, contact, drop=0.3, spin="ratio=0.22", gravity=G).outcome.chains[0]
+    found = solve_jump(SHORT, motion, contact=contact, drop=0.3, spin="ratio=0.22", gravity=G).outcome.chains[0]
     *times, slides, stops = chain(SHORT, motion, contact, 0.22, 0.3)
     assert not stops
     assert found.slid == slides
@@ -169,7 +169,7 @@ def test_chain_under_real_records(index):
     motion = real_motions(6.0)[index]
     contact = Contact(0.18, 0.17, 0.95, 0.85)
     slender = TwoLayerBlock(1.0, 1.0, 1.06, 1.84, 1303.7, 160.0)
-    found = solve_jump(motion, slender, contact, drop=0.1, spin="ratio=0.2", gravity=G).outcome.chains[0]
+    found = solve_jump(slender, motion, contact=contact, drop=0.1, spin="ratio=0.2", gravity=G).outcome.chains[0]
     onset, impact, landing, end, jumped, moved, _, stops = chain(slender, motion, contact, 0.2, 0.1)
     assert not stops
     np.testing.assert_allclose(

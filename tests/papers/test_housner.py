@@ -27,7 +27,7 @@ def test_cases(case):
 
 def impact_times(block, initial, **options):
     """Return the times of the impacts of free rocking."""
-    response = solve_rock(STILL, block, initial=initial, **options)
+    response = solve_rock(block, STILL, initial=initial, **options)
     return [event.time_s for event in response.events if event.name == "impact"], response
 
 
@@ -58,7 +58,7 @@ def test_exact_free_rocking_period(share):
 def test_amplitudes_after_impacts():
     """1 - u_n = sqrt(1 - e^(2n) (1 - (1 - u_0)^2)), u = theta/alpha (linear): the energy falls by e^2 per impact."""
     e, share = 0.9, 0.7
-    response = solve_rock(STILL, from_slenderness(ALPHA, P), initial=(share * ALPHA, 0.0), restitution=e, linear=True)
+    response = solve_rock(from_slenderness(ALPHA, P), STILL, initial=(share * ALPHA, 0.0), restitution=e, linear=True)
     theta = np.abs(response["rotation"])
     times = [event.time_s for event in response.events if event.name == "impact"]
     for n in range(1, 7):
@@ -74,7 +74,7 @@ def test_amplitudes_after_impacts():
 @pytest.mark.parametrize("block", [Block(0.3, 1.0), Block(0.4, 1.0, centroid_offset=0.06, centroid_height=0.7)])
 def test_angular_momentum_about_the_new_corner_is_kept(block):
     """I_G w + m (r x v) about the corner that is struck is the same on both sides of the impact."""
-    response = solve_rock(STILL, block, initial=(0.1, 0.0))
+    response = solve_rock(block, STILL, initial=(0.1, 0.0))
     right, left = block.arms
     mass, inertia = block.total_mass, block.gyration_squared * block.total_mass
     for event in [event for event in response.events if event.name == "impact"][:6]:
@@ -90,7 +90,7 @@ def test_restitution_of_a_rectangle():
     """The restitution is 1 - 1.5 sin^2(alpha); Housner's r is its square."""
     block = Block(0.5, 1.5)
     assert block.restitution == pytest.approx(1 - 1.5 * math.sin(block.slenderness) ** 2, rel=1e-14)
-    assert solve_rock(STILL, block).outcome.restitution == block.restitution
+    assert solve_rock(block, STILL).outcome.restitution == block.restitution
 
 
 def sine(x, w, cycles, samples=2000):
@@ -103,10 +103,10 @@ def sine(x, w, cycles, samples=2000):
 def threshold(pulse, low, high, e=0.9):
     """Bisect the amplitude at which the verdict of the linear solver changes."""
     block = from_slenderness(ALPHA, P)
-    above = rock_verdict(pulse(high), block, restitution=e, linear=True).overturned
+    above = rock_verdict(block, pulse(high), restitution=e, linear=True).overturned
     for _ in range(30):
         middle = (low + high) / 2
-        if rock_verdict(pulse(middle), block, restitution=e, linear=True).overturned == above:
+        if rock_verdict(block, pulse(middle), restitution=e, linear=True).overturned == above:
             high = middle
         else:
             low = middle
@@ -132,7 +132,7 @@ def test_zhang_and_makris_safe_window():
     found = [threshold(lambda a: sine(a, 5.0, 2), low, high) for low, high in ((2, 4), (5, 6.6), (6.8, 8))]
     np.testing.assert_allclose(found, [3.019, 6.318, 7.168], atol=5e-4)
     block = from_slenderness(ALPHA, P)
-    verdicts = [rock_verdict(sine(x, 5.0, 2), block, restitution=0.9, linear=True).overturned for x in (2.9, 5, 6.7, 7.5)]
+    verdicts = [rock_verdict(block, sine(x, 5.0, 2), restitution=0.9, linear=True).overturned for x in (2.9, 5, 6.7, 7.5)]
     assert verdicts == [False, True, False, True]
 
 
@@ -152,11 +152,11 @@ def test_threshold_of_rocking_is_the_band():
     """Rocking starts above g tan(alpha), at the exact crossing between samples; with vertical motion above (g + a_v) tan(alpha)."""
     block = Block(0.4, 1.2)
     ramp = np.linspace(0.0, 5.0, 11)
-    response = solve_rock(Motion.from_arrays(ramp, 0.1), block)
+    response = solve_rock(block, Motion.from_arrays(ramp, 0.1))
     assert response.outcome.rocking_start_s == pytest.approx(G / 3 / 5.0, rel=1e-14)
-    up = solve_rock(Motion.from_arrays(ramp, 0.1, vertical=np.full(11, 2.0)), block, vertical=True)
+    up = solve_rock(block, Motion.from_arrays(ramp, 0.1, vertical=np.full(11, 2.0)), vertical=True)
     assert up.outcome.rocking_start_s == pytest.approx((G + 2) / 3 / 5.0, rel=1e-14)
-    assert solve_rock(Motion.from_arrays(np.full(50, G / 3), 0.1), block).outcome.rocks is False
+    assert solve_rock(block, Motion.from_arrays(np.full(50, G / 3), 0.1)).outcome.rocks is False
 
 
 @pytest.mark.parametrize("function", [half_sine_ratio, one_sine_ratio, lambda w: rectangular_ratio(w, 1.0)])
@@ -172,10 +172,10 @@ def test_free_fall_after_the_record_is_timed_exactly():
     pulse = np.zeros(400)
     pulse[:60] = 5.0 * np.sin(np.pi * np.arange(60) / 60)
     block = Block(0.24, 0.8)
-    amplitude = brentq(lambda s: 0.5 - rock_verdict(Motion.from_arrays(s * pulse, 0.01), block).overturned, 0.1, 3.0, xtol=1e-9) + 1e-3
+    amplitude = brentq(lambda s: 0.5 - rock_verdict(block, Motion.from_arrays(s * pulse, 0.01)).overturned, 0.1, 3.0, xtol=1e-9) + 1e-3
     for samples in (62, 75, 90):
-        cut = solve_rock(Motion.from_arrays(amplitude * pulse[:samples], 0.01), block).outcome
-        whole = solve_rock(Motion.from_arrays(np.append(amplitude * pulse, np.zeros(2000)), 0.01), block).outcome
+        cut = solve_rock(block, Motion.from_arrays(amplitude * pulse[:samples], 0.01)).outcome
+        whole = solve_rock(block, Motion.from_arrays(np.append(amplitude * pulse, np.zeros(2000)), 0.01)).outcome
         assert cut.decided_after_record
         assert not whole.decided_after_record
         assert cut.overturned is whole.overturned is True

@@ -28,8 +28,8 @@ def test_velocity_step_is_the_threshold_of_the_solver(width, height):
     dt = 1e-6 / p
     k = np.arange(103)
     pulse = Motion.from_arrays(np.where(k < 101, exact / (100.5 * dt), 0.0), dt)
-    assert not rock_verdict(pulse, block, scale=0.9999).overturned
-    assert rock_verdict(pulse, block, scale=1.0001).overturned
+    assert not rock_verdict(block, pulse, scale=0.9999).overturned
+    assert rock_verdict(block, pulse, scale=1.0001).overturned
 
 
 def test_equation_4_lies_4_to_8_percent_below_the_exact_step():

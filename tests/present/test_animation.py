@@ -19,7 +19,7 @@ from seisblock.solvers.rock.solve import solve_rock
 def response():
     """Five seconds of rocking."""
     t = np.arange(501) * 0.01
-    return solve_rock(Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"), Block(0.3, 0.9))
+    return solve_rock(Block(0.3, 0.9), Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
 
 
 def pictures(count):
@@ -117,7 +117,7 @@ def test_block_turns_about_the_corner_in_contact():
 def test_fall_after_the_record_is_shown_to_its_end():
     """A block that overturns only after the record lies down in the picture, too."""
     pulse = 4.0 * np.sin(np.pi * np.arange(61) / 60)
-    short = solve_rock(Motion.from_arrays(1.4 * pulse, 0.01), Block(0.24, 0.8))
+    short = solve_rock(Block(0.24, 0.8), Motion.from_arrays(1.4 * pulse, 0.01))
     assert short.outcome.overturned
     assert short.outcome.decided_after_record
     whole = to_the_end(short)

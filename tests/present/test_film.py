@@ -33,7 +33,7 @@ def jumped():
     """The bundled record's jump off a floor 30 cm above the ground."""
     body = read_table("chozusha")
     motion = motion_of(crop(read("synthetic_jma.csv"), 26.1, 27.6), "EW")
-    return solve_jump(motion, two_layer_block(body, "short"), Contact(**contact(body)), drop=0.3)
+    return solve_jump(two_layer_block(body, "short"), motion, contact=Contact(**contact(body)), drop=0.3)
 
 
 @pytest.fixture(scope="module")
@@ -121,7 +121,7 @@ def test_slow_motion_has_as_many_more_pictures(jumped, tmp_path):
 def test_drawing_tells_how_far_it_is(tmp_path):
     """Progress ends at the number of pictures, which is that of the response's length in real time."""
     t = np.arange(301) * 0.01
-    response = solve_rock(Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"), Block(0.3, 0.9))
+    response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(3.4 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
     told = []
     animate_rocking(response, tmp_path / "rock.gif", Filming(progress=lambda done, total: told.append((done, total))))
     assert told[-1][0] == told[-1][1] > 50
@@ -130,7 +130,7 @@ def test_drawing_tells_how_far_it_is(tmp_path):
 def test_the_rocking_block_stands_on_its_pivot():
     """Leaning to +x the right foot is on the ground and the left one above it."""
     t = np.arange(301) * 0.01
-    response = solve_rock(Motion.from_arrays(4.0 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"), Block(0.3, 0.9))
+    response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(4.0 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
     film = rocking_film(response, response.time)
     corners = film.bodies[0].pieces[0].corners
     feet = [film.bodies[0].path(corners[i])[1] for i in (0, 1)]

@@ -19,9 +19,9 @@ def responses():
     t = np.arange(401) * 0.01
     motion = Motion.from_arrays(5.5 * np.sin(2 * np.pi * 1.2 * t), 0.01, name="EW")
     chozusha = read_table("chozusha")
-    yield seisblock.solve_rock(motion, seisblock.Block(0.3, 0.9))
-    yield seisblock.solve_slide(motion, 0.2)
-    yield seisblock.solve_jump(motion, two_layer_block(chozusha, "short"), Contact(**contact(chozusha)))
+    yield seisblock.solve_rock(seisblock.Block(0.3, 0.9), motion)
+    yield seisblock.solve_slide(0.2, motion)
+    yield seisblock.solve_jump(two_layer_block(chozusha, "short"), motion, contact=Contact(**contact(chozusha)))
     yield seisblock.solve_uplift(seisblock.SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7), motion)
 
 

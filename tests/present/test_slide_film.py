@@ -17,7 +17,7 @@ from seisblock.solvers.slide.solve import solve_slide
 def response():
     """Six seconds of sliding on level ground."""
     t = np.arange(601) * 0.01
-    return solve_slide(Motion.from_arrays(4.0 * np.sin(2 * np.pi * t), 0.01, name="EW"), mu=0.2)
+    return solve_slide(0.2, Motion.from_arrays(4.0 * np.sin(2 * np.pi * t), 0.01, name="EW"))
 
 
 @pytest.mark.parametrize("slope", [-25.0, 0.0, 25.0])

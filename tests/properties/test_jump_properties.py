@@ -29,8 +29,8 @@ def noise(seed: int, peak: float = 9.0, n: int = 600) -> np.ndarray:
 def test_mirror_image(seed, drop, spin):
     """The mirrored motion gives the mirrored chain, bit by bit."""
     a = noise(seed)
-    one = solve_jump(Motion.from_arrays(a, 0.01), SHORT, CONTACT, drop=drop, spin=f"ratio={spin}", repeat=True)
-    other = solve_jump(Motion.from_arrays(-a, 0.01), SHORT, CONTACT, drop=drop, spin=f"ratio={spin}", repeat=True)
+    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), contact=CONTACT, drop=drop, spin=f"ratio={spin}", repeat=True)
+    other = solve_jump(SHORT, Motion.from_arrays(-a, 0.01), contact=CONTACT, drop=drop, spin=f"ratio={spin}", repeat=True)
     assert [c.outcome for c in one.outcome.chains] == [c.outcome for c in other.outcome.chains]
     np.testing.assert_array_equal(one["x_G"], -other["x_G"])
     np.testing.assert_array_equal(one["theta"], -other["theta"])
@@ -43,8 +43,8 @@ def test_similarity(seed, size):
     """A block of `size` times the lengths in sqrt(size) times the time tilts by the same angles and goes `size` times as far."""
     a = noise(seed)
     big = TwoLayerBlock(2.08 * size, 2.5 * size, 1.06 * size, 1.84 * size, 1303.7, 160.0)
-    one = solve_jump(Motion.from_arrays(a, 0.01), SHORT, CONTACT, spin="ratio=0.19").outcome
-    other = solve_jump(Motion.from_arrays(a, 0.01 * np.sqrt(size)), big, CONTACT, spin="ratio=0.19").outcome
+    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), contact=CONTACT, spin="ratio=0.19").outcome
+    other = solve_jump(big, Motion.from_arrays(a, 0.01 * np.sqrt(size)), contact=CONTACT, spin="ratio=0.19").outcome
     assert one.outcome == other.outcome
     for c, d in zip(one.chains, other.chains, strict=True):
         assert d.max_rotation_rad == pytest.approx(c.max_rotation_rad, rel=1e-8, abs=1e-14)
@@ -58,8 +58,8 @@ def test_refining_the_record_changes_nothing(seed):
     """Interpolating the record linearly is the same motion: the same times to round-off."""
     a = noise(seed)
     fine = np.interp(np.arange(4 * a.size - 3) / 4, np.arange(a.size), a)
-    one = solve_jump(Motion.from_arrays(a, 0.01), SHORT, CONTACT, spin="ratio=0.19", drop=0.3).outcome
-    other = solve_jump(Motion.from_arrays(fine, 0.0025), SHORT, CONTACT, spin="ratio=0.19", drop=0.3).outcome
+    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), contact=CONTACT, spin="ratio=0.19", drop=0.3).outcome
+    other = solve_jump(SHORT, Motion.from_arrays(fine, 0.0025), contact=CONTACT, spin="ratio=0.19", drop=0.3).outcome
     assert one.outcome == other.outcome
     for c, d in zip(one.chains, other.chains, strict=True):
         for key in ("rocking_start_s", "impact_s", "landing_s", "end_s", "total_displacement_m"):
@@ -71,7 +71,7 @@ def test_refining_the_record_changes_nothing(seed):
 
 def test_energy_is_lost_at_the_impact():
     """With restitution at most one, the kinetic energy after the impact is not more than before."""
-    response = solve_jump(half_sine(6.5, 0.6, 3.0), SHORT, CONTACT, gravity=G)
+    response = solve_jump(SHORT, half_sine(6.5, 0.6, 3.0), contact=CONTACT, gravity=G)
     chain = response.outcome.chains[0]
     before = SHORT.corner_inertia * chain.impact_velocity_rad_s**2
     speed = chain.impact_velocity_rad_s
@@ -83,7 +83,7 @@ def test_energy_is_lost_at_the_impact():
 def test_flight_is_a_parabola():
     """Rise and duration of a flight without spin are those of a thrown stone, and it moves opposite to the ground."""
     still = half_sine(6.5, 0.6, 4.0)
-    chain = solve_jump(still, SHORT, CONTACT, spin="ratio=0", gravity=G).outcome.chains[0]
+    chain = solve_jump(SHORT, still, contact=CONTACT, spin="ratio=0", gravity=G).outcome.chains[0]
     up = 0.85 * chain.impact_velocity_rad_s * 1.04
     assert chain.max_rise_m == pytest.approx(up**2 / (2 * G), rel=1e-14)
     assert chain.jump_duration_s == pytest.approx(2 * up / G, rel=1e-12)
@@ -95,27 +95,27 @@ def test_below_the_threshold_nothing_moves():
     """Equality does not rock; a hair above does."""
     threshold = SHORT.rocking_threshold(G)
     plateau = np.concatenate([np.zeros(5), np.full(20, threshold), np.zeros(5)])
-    assert solve_jump(Motion.from_arrays(plateau, 0.01), SHORT, CONTACT, gravity=G).outcome.outcome == DID_NOT_ROCK
-    rocked = solve_jump(Motion.from_arrays(plateau * (1 + 1e-9), 0.01), SHORT, CONTACT, gravity=G).outcome
+    assert solve_jump(SHORT, Motion.from_arrays(plateau, 0.01), contact=CONTACT, gravity=G).outcome.outcome == DID_NOT_ROCK
+    rocked = solve_jump(SHORT, Motion.from_arrays(plateau * (1 + 1e-9), 0.01), contact=CONTACT, gravity=G).outcome
     assert rocked.outcome != DID_NOT_ROCK
 
 
 def test_a_record_that_begins_above_the_threshold_rocks_at_once():
     """The first sample counts, although the next one is below the threshold."""
     a = np.concatenate([[9.0, 1.0], np.zeros(60)])
-    assert solve_jump(Motion.from_arrays(a, 0.01), SHORT, CONTACT).outcome.chains[0].rocking_start_s == 0.0
+    assert solve_jump(SHORT, Motion.from_arrays(a, 0.01), contact=CONTACT).outcome.chains[0].rocking_start_s == 0.0
 
 
 def test_no_jump_when_spin_outweighs_the_rebound():
     """A spin ratio above e_y presses a corner into the floor: the chain ends at the impact."""
     motion = half_sine(6.5, 0.6, 3.0)
-    assert solve_jump(motion, SHORT, CONTACT, spin="ratio=0.86").outcome.outcome == NO_JUMP
-    assert solve_jump(motion, SHORT, CONTACT, spin="ratio=0.84").outcome.outcome == JUMPED
+    assert solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.86").outcome.outcome == NO_JUMP
+    assert solve_jump(SHORT, motion, contact=CONTACT, spin="ratio=0.84").outcome.outcome == JUMPED
 
 
 def test_repeat_follows_chain_after_chain():
     """Chains follow each other in time, and displacements add up in the history."""
-    response = solve_jump(Motion.from_arrays(noise(3, 12.0), 0.01), SHORT, CONTACT, repeat=True, spin="ratio=0.19")
+    response = solve_jump(SHORT, Motion.from_arrays(noise(3, 12.0), 0.01), contact=CONTACT, repeat=True, spin="ratio=0.19")
     chains = response.outcome.chains
     assert len(chains) > 2
     for before, after in itertools.pairwise(chains):
@@ -131,8 +131,8 @@ def test_only_the_asked_direction_starts_a_chain():
     """Direction + ignores an earlier push to the other side."""
     a = np.concatenate([-half_sine(6.5, 0.6, 3.0).horizontal, half_sine(6.5, 0.6, 3.0).horizontal])
     motion = Motion.from_arrays(a, 0.01)
-    both = solve_jump(motion, SHORT, CONTACT).outcome.chains[0]
-    plus = solve_jump(motion, SHORT, CONTACT, direction="+").outcome.chains[0]
+    both = solve_jump(SHORT, motion, contact=CONTACT).outcome.chains[0]
+    plus = solve_jump(SHORT, motion, contact=CONTACT, direction="+").outcome.chains[0]
     assert (both.direction, plus.direction) == ("-", "+")
     assert plus.rocking_start_s == pytest.approx(both.rocking_start_s + 3.0, abs=1e-12)
     assert plus.total_displacement_m == pytest.approx(-both.total_displacement_m, rel=1e-9)
@@ -141,6 +141,6 @@ def test_only_the_asked_direction_starts_a_chain():
 def test_overturning_is_a_result():
     """A long strong push topples the block, while rocking."""
     motion = Motion.from_arrays(np.concatenate([[0.0], np.full(500, 9.0)]), 0.01)
-    outcome = solve_jump(motion, SHORT, CONTACT).outcome
+    outcome = solve_jump(SHORT, motion, contact=CONTACT).outcome
     assert outcome.outcome == "overturned while rocking"
     assert outcome.chains[0].max_rotation_rad == pytest.approx(np.pi / 2, rel=1e-12)

@@ -34,7 +34,7 @@ few = settings(max_examples=25, deadline=None)
 def test_mirror(a, block, linear):
     """The mirrored block under the mirrored motion gives the mirrored answer, bit by bit."""
     mirrored = Block(block.width, block.height, centroid_offset=-block.centroid_offset)
-    one, other = (solve_rock(Motion.from_arrays(x, 0.03), b, linear=linear) for x, b in ((a, block), (-a, mirrored)))
+    one, other = (solve_rock(b, Motion.from_arrays(x, 0.03), linear=linear) for x, b in ((a, block), (-a, mirrored)))
     np.testing.assert_array_equal(one["rotation"], -other["rotation"])
     assert one.outcome.impacts == other.outcome.impacts
     assert one.outcome.overturning_time_s == other.outcome.overturning_time_s
@@ -44,8 +44,8 @@ def test_mirror(a, block, linear):
 @given(shakings, blocks, st.floats(0.2, 9.0))
 def test_similarity(a, block, length):
     """Length L and time sqrt(L): the same angles at the same samples, and the same forces per weight."""
-    small = solve_rock(Motion.from_arrays(a, 0.03), block)
-    large = solve_rock(Motion.from_arrays(a, 0.03 * math.sqrt(length)), resized(block, size=length))
+    small = solve_rock(block, Motion.from_arrays(a, 0.03))
+    large = solve_rock(resized(block, size=length), Motion.from_arrays(a, 0.03 * math.sqrt(length)))
     assert small.outcome.overturned == large.outcome.overturned
     assert large.outcome.max_rotation_rad == pytest.approx(small.outcome.max_rotation_rad, rel=1e-7, abs=1e-12)
     if small.outcome.overturned:
@@ -60,7 +60,7 @@ def test_energy_never_grows_unforced(block, share, push, linear):
     """Without shaking, m R/I_O-scaled energy is kept between impacts and falls at each of them."""
     alpha = block.slendernesses[0]
     p = math.sqrt(G * block.lever_ratios[0])
-    response = solve_rock(Motion.from_arrays(np.zeros(60), 0.02), block, initial=(share * alpha, push * p * alpha * 0.3), linear=linear)
+    response = solve_rock(block, Motion.from_arrays(np.zeros(60), 0.02), initial=(share * alpha, push * p * alpha * 0.3), linear=linear)
     theta, omega = response["rotation"], response["angular_velocity"]
     energy = np.empty(theta.size)
     for i, (angle, rate) in enumerate(zip(theta, omega, strict=True)):
@@ -81,7 +81,7 @@ def test_energy_never_grows_unforced(block, share, push, linear):
 def test_halving_the_step_changes_nothing(a, block):
     """The same straight lines sampled twice as densely give the same answer."""
     fine = np.interp(np.arange(2 * a.size - 1) / 2, np.arange(a.size), a)
-    one, other = solve_rock(Motion.from_arrays(a, 0.03), block), solve_rock(Motion.from_arrays(fine, 0.015), block)
+    one, other = solve_rock(block, Motion.from_arrays(a, 0.03)), solve_rock(block, Motion.from_arrays(fine, 0.015))
     assert one.outcome.overturned == other.outcome.overturned
     assert other.outcome.max_rotation_rad == pytest.approx(one.outcome.max_rotation_rad, rel=1e-7, abs=1e-13)
     if one.outcome.alpha_passed_s is not None:
@@ -94,7 +94,7 @@ def test_ensembles_agree_with_single_runs(a, block, scale, vertical):
     """The short way gives the verdict and the ratio of the long one."""
     motion = Motion.from_arrays(a, 0.03, vertical=0.5 * a[::-1])
     scaled = Motion.from_arrays(scale * a, 0.03, vertical=scale * 0.5 * a[::-1])
-    short, long = rock_verdict(motion, block, scale=scale, vertical=vertical), solve_rock(scaled, block, vertical=vertical).outcome
+    short, long = rock_verdict(block, motion, scale=scale, vertical=vertical), solve_rock(block, scaled, vertical=vertical).outcome
     assert short.overturned == long.overturned
     assert short.max_rotation_ratio == pytest.approx(long.max_rotation_ratio, rel=1e-9, abs=1e-15)
 
@@ -106,7 +106,7 @@ def test_below_the_threshold_nothing_moves(a, block):
     peak = float(np.abs(a).max())
     if peak == 0.0:
         return
-    outcome = solve_rock(Motion.from_arrays(a / peak * block.rocking_threshold() * (1 - 1e-12), 0.03), block).outcome
+    outcome = solve_rock(block, Motion.from_arrays(a / peak * block.rocking_threshold() * (1 - 1e-12), 0.03)).outcome
     assert outcome.rocks is outcome.overturned is False
     assert outcome.max_rotation_rad == outcome.impacts == 0
     assert outcome.max_friction_demand == pytest.approx(block.rocking_threshold() / G, rel=1e-9)

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from seisblock.bodies.sliding_base import sliding_base
 from seisblock.records import Motion
 from seisblock.solvers.slide.solve import SLIDING, solve_slide
 from seisblock.studies.sliding import slide_study
@@ -30,7 +31,7 @@ def test_mirror(seed, mu, kappa):
     """On a level base the mirrored motion gives the mirrored slip, bit by bit."""
     motion = noise(seed)
     mirrored = Motion(motion.acceleration * [[-1.0], [1.0], [1.0]], motion.dt)
-    one, other = (solve_slide(m, mu, kappa=kappa, vertical_scale=1.0) for m in (motion, mirrored))
+    one, other = (solve_slide(sliding_base(mu, kappa=kappa), m, vertical=1.0) for m in (motion, mirrored))
     np.testing.assert_array_equal(one["relative_displacement"], -other["relative_displacement"])
 
 
@@ -41,8 +42,8 @@ def test_slope_mirrored_with_the_motion(seed, mu, kappa, slope):
     motion = noise(seed)
     mu += np.tan(np.radians(slope))
     mirrored = Motion(motion.acceleration * [[-1.0], [1.0], [1.0]], motion.dt)
-    one = solve_slide(motion, mu, kappa=kappa, slope_deg=slope, slope_length=0.01, vertical_scale=1.0).outcome
-    other = solve_slide(mirrored, mu, kappa=kappa, slope_deg=-slope, slope_length=0.01, vertical_scale=1.0).outcome
+    one = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope, slope_length=0.01), motion, vertical=1.0).outcome
+    other = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=-slope, slope_length=0.01), mirrored, vertical=1.0).outcome
     assert one.residual_slip_m == pytest.approx(-other.residual_slip_m, rel=1e-12, abs=1e-15)
     assert one.fell_off_slope == other.fell_off_slope
 
@@ -52,8 +53,8 @@ def test_slope_mirrored_with_the_motion(seed, mu, kappa, slope):
 def test_accelerations_scale_together(seed, mu, kappa, factor):
     """Scaling ground acceleration and gravity together scales the slip."""
     motion = noise(seed)
-    one = solve_slide(motion, mu, kappa=kappa, gravity=9.8).outcome
-    other = solve_slide(Motion(motion.acceleration * factor, motion.dt), mu, kappa=kappa, gravity=9.8 * factor).outcome
+    one = solve_slide(sliding_base(mu, kappa=kappa), motion, gravity=9.8).outcome
+    other = solve_slide(sliding_base(mu, kappa=kappa), Motion(motion.acceleration * factor, motion.dt), gravity=9.8 * factor).outcome
     assert other.max_slip_m == factor * one.max_slip_m
     assert other.slip_start_s == one.slip_start_s
 
@@ -63,8 +64,8 @@ def test_accelerations_scale_together(seed, mu, kappa, factor):
 def test_friction_scales_with_gravity(seed, mu, kappa):
     """On a level base only mu g counts: twice the friction with half the gravity changes nothing."""
     motion = noise(seed)
-    one = solve_slide(motion, mu, kappa=kappa, gravity=9.8).outcome
-    other = solve_slide(motion, 2.0 * mu, kappa=kappa, gravity=4.9).outcome
+    one = solve_slide(sliding_base(mu, kappa=kappa), motion, gravity=9.8).outcome
+    other = solve_slide(sliding_base(2.0 * mu, kappa=kappa), motion, gravity=4.9).outcome
     assert other == one
 
 
@@ -73,8 +74,8 @@ def test_friction_scales_with_gravity(seed, mu, kappa):
 def test_time_scales_slip_with_its_square(seed, mu, kappa):
     """The same samples at twice the interval give four times the slip."""
     motion = noise(seed)
-    one = solve_slide(motion, mu, kappa=kappa).outcome
-    other = solve_slide(Motion(motion.acceleration, 2.0 * motion.dt), mu, kappa=kappa).outcome
+    one = solve_slide(sliding_base(mu, kappa=kappa), motion).outcome
+    other = solve_slide(sliding_base(mu, kappa=kappa), Motion(motion.acceleration, 2.0 * motion.dt)).outcome
     assert other.max_slip_m == pytest.approx(4.0 * one.max_slip_m, rel=1e-12, abs=1e-15)
 
 
@@ -86,8 +87,8 @@ def test_refining_the_record_changes_nothing(seed, mu, kappa, slope):
     n = motion.samples
     fine = np.stack([np.interp(np.arange(3 * n - 2) / 3.0, np.arange(n), row) for row in motion.acceleration])
     mu += np.tan(np.radians(slope))
-    one = solve_slide(motion, mu, kappa=kappa, slope_deg=slope, vertical_scale=1.0).outcome
-    other = solve_slide(Motion(fine, motion.dt / 3.0), mu, kappa=kappa, slope_deg=slope, vertical_scale=1.0).outcome
+    one = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope), motion, vertical=1.0).outcome
+    other = solve_slide(sliding_base(mu, kappa=kappa, slope_deg=slope), Motion(fine, motion.dt / 3.0), vertical=1.0).outcome
     assert other.residual_slip_m == pytest.approx(one.residual_slip_m, rel=1e-9, abs=1e-12)
     assert other.max_slip_m == pytest.approx(one.max_slip_m, rel=1e-9, abs=1e-12)
 
@@ -97,7 +98,7 @@ def test_refining_the_record_changes_nothing(seed, mu, kappa, slope):
 def test_energy_lost_is_friction_work(seed, mu, kappa):
     """Relative to the base, work of the inertial force less work of friction is the kinetic energy left."""
     motion = noise(seed)
-    response = solve_slide(motion, mu, kappa=kappa)
+    response = solve_slide(sliding_base(mu, kappa=kappa), motion)
     u, v, a = (response[name] for name in ("relative_displacement", "relative_velocity", "ground_acceleration"))
     h = np.diff(response.time)
     # v is a quadratic and a straight line within each step: Simpson's rule on the cubic a v is exact, with v in mid-step from
@@ -115,12 +116,12 @@ def test_energy_lost_is_friction_work(seed, mu, kappa):
 def test_ground_velocity_does_not_matter(seed, mu, kappa, sample):
     """Starting the record at any instant of rest, whatever the ground's velocity is then, gives what is left of the slip."""
     motion = noise(seed)
-    whole = solve_slide(motion, mu, kappa=kappa)
+    whole = solve_slide(sliding_base(mu, kappa=kappa), motion)
     names = np.array([phase.name for phase in whole.phases])[whole.phase_of_row()]
     resting = [k for k in range(sample, motion.samples - 1) if (names[whole.time == k * motion.dt] == "stick").all()]
     if resting:
         before = whole["relative_displacement"][whole.time == resting[0] * motion.dt][0]
-        rest = solve_slide(Motion(motion.acceleration[:, resting[0] :], motion.dt), mu, kappa=kappa).outcome
+        rest = solve_slide(sliding_base(mu, kappa=kappa), Motion(motion.acceleration[:, resting[0] :], motion.dt)).outcome
         assert rest.residual_slip_m == pytest.approx(whole.outcome.residual_slip_m - before, abs=1e-13)
 
 
@@ -128,7 +129,7 @@ def test_ground_velocity_does_not_matter(seed, mu, kappa, sample):
 @given(seeds, mus, kappas)
 def test_speed_has_one_sign_in_each_slip(seed, mu, kappa):
     """Phases named forward have u' >= 0, backward u' <= 0, and sticking ones zero."""
-    response = solve_slide(noise(seed), mu, kappa=kappa, vertical_scale=1.0)
+    response = solve_slide(sliding_base(mu, kappa=kappa), noise(seed), vertical=1.0)
     names = np.array([phase.name for phase in response.phases])[response.phase_of_row()]
     v = response["relative_velocity"]
     assert (v[names == SLIDING[0]] >= -1e-12).all()
@@ -143,10 +144,10 @@ def test_study_gives_the_single_answers(seed, kappa, slope, scale):
     motion = noise(seed, peak=6.0)
     mu = 0.3
     length = 0.05 if slope else None
-    points = slide_study(motion, [mu, 0.5], kappa=kappa, slope_deg=slope, slope_length=length, vertical_scale=[scale, 0.5], workers=1)
+    points = slide_study([mu, 0.5], motion, kappa=kappa, slope_deg=slope, slope_length=length, vertical=[scale, 0.5], workers=1)
     for point in points:
         alone = solve_slide(
-            motion, point.mu, kappa=kappa, slope_deg=slope, slope_length=length, vertical_scale=point.vertical_scale
+            sliding_base(point.mu, kappa=kappa, slope_deg=slope, slope_length=length), motion, vertical=point.vertical
         ).outcome
         for name in (
             "slips",

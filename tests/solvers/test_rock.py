@@ -26,7 +26,7 @@ def test_friction_demand_is_that_of_the_moving_centre():
     fine = np.arange(120001) * 5e-5
     a, up = np.interp(fine, T, SHAKING), np.interp(fine, T, UP)
     motion = Motion.from_arrays(a, 5e-5, vertical=up)
-    response = solve_rock(motion, block, vertical=True)
+    response = solve_rock(block, motion, vertical=True)
     trajectory = follow(rock_model.ROCKING, motion, rock_model.parameters(block, 5e-5, G, None, False), (0, 0), 0, gains=(1, 0, 1))
     theta, modes = trajectory.states[:, 0], trajectory.modes
     half, centre = np.where(theta >= 0, block.width / 2, -block.width / 2), block.centre
@@ -37,7 +37,7 @@ def test_friction_demand_is_that_of_the_moving_centre():
     steady = (modes[:-2] == modes[2:]) & (modes[1:-1] == modes[2:])
     ratio = np.where(steady, np.abs(along / normal), 0.0)
     assert response.outcome.max_friction_demand == pytest.approx(ratio.max(), rel=2e-3)
-    coarse = solve_rock(Motion.from_arrays(SHAKING, 0.005, vertical=UP), block, vertical=True).outcome
+    coarse = solve_rock(block, Motion.from_arrays(SHAKING, 0.005, vertical=UP), vertical=True).outcome
     assert coarse.max_friction_demand == pytest.approx(response.outcome.max_friction_demand, rel=1e-4)
     assert coarse.max_friction_demand_s == pytest.approx(response.outcome.max_friction_demand_s, abs=2e-3)
 
@@ -45,12 +45,12 @@ def test_friction_demand_is_that_of_the_moving_centre():
 def test_contact_is_lost_under_strong_downward_ground():
     """At rest N vanishes where the ground falls faster than g, at the exact time; it is said."""
     down = np.linspace(0.0, -2.0 * G, 41)
-    response = solve_rock(Motion.from_arrays(np.zeros(41), 0.1, vertical=down), Block(0.4, 1.0), vertical=True)
+    response = solve_rock(Block(0.4, 1.0), Motion.from_arrays(np.zeros(41), 0.1, vertical=down), vertical=True)
     assert response.outcome.contact_lost
     assert response.outcome.contact_lost_s == pytest.approx(2.0, abs=1e-6)
     assert response.outcome.max_friction_demand is None
     assert any("contact" in text for text in response.warnings)
-    assert not solve_rock(Motion.from_arrays(np.zeros(41), 0.1, vertical=down), Block(0.4, 1.0)).outcome.contact_lost
+    assert not solve_rock(Block(0.4, 1.0), Motion.from_arrays(np.zeros(41), 0.1, vertical=down)).outcome.contact_lost
 
 
 def test_rocking_ends_in_rest_and_starts_again():
@@ -58,7 +58,7 @@ def test_rocking_ends_in_rest_and_starts_again():
     block = Block(0.5, 1.2)
     pulse = 6.0 * np.sin(np.pi * np.arange(41) / 40)
     a = np.concatenate([pulse, np.zeros(800), -pulse, np.zeros(400)])
-    response = solve_rock(Motion.from_arrays(a, 0.005), block)
+    response = solve_rock(block, Motion.from_arrays(a, 0.005))
     names = [event.name for event in response.events]
     assert names.count("rocking starts") == names.count("comes to rest") >= 2
     starts = [event.time_s for event in response.events if event.name == "rocking starts"]
@@ -73,9 +73,9 @@ def test_rocking_ends_in_rest_and_starts_again():
 def test_maximum_is_between_samples():
     """Halving dt does not move the maximum of one swing: it is that of the curve."""
     a = np.concatenate([4.0 * np.sin(np.pi * np.arange(21) / 20), np.zeros(60)])
-    coarse = solve_rock(Motion.from_arrays(a, 0.02), Block(0.3, 1.0))
+    coarse = solve_rock(Block(0.3, 1.0), Motion.from_arrays(a, 0.02))
     fine = np.interp(np.arange(801) / 10, np.arange(81), a)
-    dense = solve_rock(Motion.from_arrays(fine, 0.002), Block(0.3, 1.0))
+    dense = solve_rock(Block(0.3, 1.0), Motion.from_arrays(fine, 0.002))
     assert coarse.outcome.max_rotation_rad == pytest.approx(dense.outcome.max_rotation_rad, rel=1e-12)
     assert coarse.outcome.max_rotation_s == pytest.approx(dense.outcome.max_rotation_s, abs=1e-8)
     assert np.abs(coarse["rotation"]).max() < coarse.outcome.max_rotation_rad
@@ -84,10 +84,10 @@ def test_maximum_is_between_samples():
 def test_unequal_corners():
     """An offset centre: it starts to the side of the shorter arm, with that alpha, and its restitutions differ."""
     block = Block(0.4, 1.0, centroid_offset=0.1)
-    outcome = solve_rock(Motion.from_arrays(np.array([0.0, -2.5, 0.0]), 0.2), block).outcome
+    outcome = solve_rock(block, Motion.from_arrays(np.array([0.0, -2.5, 0.0]), 0.2)).outcome
     assert outcome.threshold_m_s2 == pytest.approx(G * 0.1 / 0.5)
     assert outcome.rocking_start_s == pytest.approx(0.2 * G * 0.2 / 2.5)
-    assert solve_rock(Motion.from_arrays(np.array([0.0, 2.5, 0.0]), 0.2), block).outcome.rocks is False
+    assert solve_rock(block, Motion.from_arrays(np.array([0.0, 2.5, 0.0]), 0.2)).outcome.rocks is False
     onto_right, onto_left = block.restitutions
     assert onto_right > onto_left
     assert onto_left == pytest.approx((block.gyration_squared + 0.25 - 0.03) / (block.gyration_squared + 0.25 + 0.09))
@@ -97,7 +97,7 @@ def test_very_wide_block_stops_at_the_impact():
     """With B/H above sqrt(2) angular momentum leaves nothing to turn on with: the block lies still at the first impact."""
     block = Block(1.5, 1.0)
     assert block.restitutions == (0.0, 0.0)
-    response = solve_rock(Motion.from_arrays(np.zeros(300), 0.01), block, initial=(0.1, 0.0))
+    response = solve_rock(block, Motion.from_arrays(np.zeros(300), 0.01), initial=(0.1, 0.0))
     assert [event.name for event in response.events] == ["comes to rest"]
     assert response.outcome.impacts == 1
     assert "rocks only above 1.50 g" in response.warnings[0]
@@ -107,15 +107,15 @@ def test_block_that_never_loses_energy_is_told_from_one_that_falls():
     """With a restitution of 1 energy decides, too: below the barrier it stands although it rocks for ever."""
     block = from_slenderness(0.25, 2.14)
     still = Motion.from_arrays(np.zeros(50), 0.01)
-    outcome = solve_rock(still, block, restitution=1.0, initial=(0.2, 0.0)).outcome
+    outcome = solve_rock(block, still, restitution=1.0, initial=(0.2, 0.0)).outcome
     assert outcome.overturned is False
     assert outcome.decided_after_record
     assert outcome.max_rotation_rad == pytest.approx(0.2, rel=1e-12)
     speed = 2.14 * math.sqrt(2 * (1 - math.cos(0.25)))
-    assert solve_rock(still, block, restitution=1.0, initial=(0.0, speed * (1 + 1e-9))).outcome.overturned
-    assert not solve_rock(still, block, restitution=1.0, initial=(0.0, speed * (1 - 1e-9))).outcome.overturned
-    assert solve_rock(still, block, linear=True, initial=(0.0, 2.14 * 0.25 * (1 + 1e-9))).outcome.overturned
-    assert not solve_rock(still, block, linear=True, initial=(0.0, 2.14 * 0.25 * (1 - 1e-9))).outcome.overturned
+    assert solve_rock(block, still, restitution=1.0, initial=(0.0, speed * (1 + 1e-9))).outcome.overturned
+    assert not solve_rock(block, still, restitution=1.0, initial=(0.0, speed * (1 - 1e-9))).outcome.overturned
+    assert solve_rock(block, still, linear=True, initial=(0.0, 2.14 * 0.25 * (1 + 1e-9))).outcome.overturned
+    assert not solve_rock(block, still, linear=True, initial=(0.0, 2.14 * 0.25 * (1 - 1e-9))).outcome.overturned
 
 
 @pytest.mark.parametrize("linear", [False, True])
@@ -124,7 +124,7 @@ def test_fate_agrees_with_integrating_on(theta, omega, linear):
     """Verdict, times and largest lean of free rocking are those of a long still record, starting on either side of alpha."""
     block = from_slenderness(0.25, 2.14)
     found = fate(sides(block, G, 0.95, linear), theta, omega)
-    long = solve_rock(Motion.from_arrays(np.zeros(4000), 0.005), block, restitution=0.95, linear=linear, initial=(theta, omega)).outcome
+    long = solve_rock(block, Motion.from_arrays(np.zeros(4000), 0.005), restitution=0.95, linear=linear, initial=(theta, omega)).outcome
     assert found.overturns == long.overturned
     assert max(found.largest) == pytest.approx(long.max_rotation_rad, rel=1e-9)
     if found.overturns:
@@ -136,7 +136,7 @@ def test_passing_alpha_and_coming_back_is_not_overturning():
     """A block beyond alpha that the ground pushes back stands; the passing is logged, not the overturning."""
     block = from_slenderness(0.2, 3.0)
     a = np.concatenate([[0.0], np.full(60, 4.0), np.full(140, 0.0)])
-    response = solve_rock(Motion.from_arrays(a, 0.005), block, initial=(0.21, -0.2))
+    response = solve_rock(block, Motion.from_arrays(a, 0.005), initial=(0.21, -0.2))
     names = [event.name for event in response.events]
     assert names[0] == "comes back over alpha"
     assert response.outcome.overturned is False or response.outcome.alpha_passed_s > response.events[0].time_s
@@ -144,7 +144,7 @@ def test_passing_alpha_and_coming_back_is_not_overturning():
 
 def test_phases_cover_the_record_without_gaps():
     """Each phase begins where the one before ends, from the first to the last sample."""
-    response = solve_rock(Motion.from_arrays(SHAKING, 0.005, start_s=3.0), Block(0.3, 1.0))
+    response = solve_rock(Block(0.3, 1.0), Motion.from_arrays(SHAKING, 0.005, start_s=3.0))
     phases = response.phases
     assert phases[0].start_s == 3.0
     assert phases[-1].end_s == pytest.approx(9.0)
@@ -153,14 +153,14 @@ def test_phases_cover_the_record_without_gaps():
 
 def test_window_does_not_shift_times():
     """A record that starts later gives the same times, from the record's first sample."""
-    early, late = (solve_rock(Motion.from_arrays(SHAKING, 0.005, start_s=s), Block(0.3, 1.0)).outcome for s in (0.0, 7.5))
+    early, late = (solve_rock(Block(0.3, 1.0), Motion.from_arrays(SHAKING, 0.005, start_s=s)).outcome for s in (0.0, 7.5))
     for key in ("rocking_start_s", "max_rotation_s", "max_friction_demand_s"):
         assert getattr(late, key) == pytest.approx(getattr(early, key) + 7.5, abs=1e-12)
 
 
 def test_block_that_starts_loaded_beyond_the_threshold_starts_at_once():
     """A record whose first sample exceeds the threshold starts rocking at its first sample."""
-    outcome = solve_rock(Motion.from_arrays(np.full(100, -5.0), 0.01), Block(0.2, 1.0)).outcome
+    outcome = solve_rock(Block(0.2, 1.0), Motion.from_arrays(np.full(100, -5.0), 0.01)).outcome
     assert outcome.rocking_start_s == 0.0
     assert outcome.overturned_towards == "+x"
 
@@ -170,7 +170,7 @@ def test_lossless_hops_without_end_are_a_clear_error():
     threshold = G * 0.2
     a = np.array([0.0, threshold * (1 + 3e-3), 0.0, *np.zeros(400)])
     with pytest.raises(SolverError, match="changes its mode without end"):
-        solve_rock(Motion.from_arrays(a, 0.05), Block(0.2, 1.0), restitution=1.0)
+        solve_rock(Block(0.2, 1.0), Motion.from_arrays(a, 0.05), restitution=1.0)
 
 
 @pytest.mark.parametrize(
@@ -204,7 +204,7 @@ def test_impossible_blocks_are_refused(sizes, says):
 def test_impossible_options_are_refused(options):
     """One sentence each."""
     with pytest.raises(ParameterError):
-        solve_rock(Motion.from_arrays(np.zeros(5), 0.1), Block(0.2, 1.0), **options)
+        solve_rock(Block(0.2, 1.0), Motion.from_arrays(np.zeros(5), 0.1), **options)
 
 
 @pytest.mark.parametrize(("alpha", "p"), [(0.0, 1.0), (1.6, 1.0), (0.3, -1.0), (math.nan, 1.0)])

@@ -24,7 +24,7 @@ def shaking(seed=0, samples=4000, dt=0.01, vertical=0.5):
 
 def test_equal_friction_coefficients_do_not_chatter():
     """With kappa = 1 each slip starts from equal forces: 500 studies' rows with and without flight end without giving up."""
-    points = slide_study(shaking(), np.linspace(0.02, 0.4, 50).tolist(), kappa=1.0, vertical_scale=np.linspace(0.0, 10.0, 10).tolist())
+    points = slide_study(np.linspace(0.02, 0.4, 50).tolist(), shaking(), kappa=1.0, vertical=np.linspace(0.0, 10.0, 10).tolist())
     assert len(points) == 500
     assert sum(point.lifted_off for point in points) > 50
     assert all(point.slips for point in points if point.mu < 0.25)
@@ -34,15 +34,18 @@ def test_equality_sticks_in_any_unit():
     """A plateau of exactly mu g moves nothing though gal and m/s^2 round it differently; 1e-12 more slides, far with a small kappa."""
     for mu in np.round(np.arange(0.01, 1.0, 0.01), 2):
         plateau = 0.01 * np.full(20, round(mu * 980.665, 6))
-        assert not solve_slide(Motion.from_arrays(plateau, 0.01), mu, kappa=0.1, gravity=9.80665).outcome.slips
-        assert solve_slide(Motion.from_arrays(plateau * (1.0 + 1e-12), 0.01), mu, kappa=0.1, gravity=9.80665).outcome.max_slip_m > 1e-4
+        assert not solve_slide(sliding_base(mu, kappa=0.1), Motion.from_arrays(plateau, 0.01), gravity=9.80665).outcome.slips
+        assert (
+            solve_slide(sliding_base(mu, kappa=0.1), Motion.from_arrays(plateau * (1.0 + 1e-12), 0.01), gravity=9.80665).outcome.max_slip_m
+            > 1e-4
+        )
 
 
 def test_a_base_in_free_fall_keeps_contact():
     """Falling at exactly g, in any unit, is not faster than the object falls."""
     for gal in np.round(np.arange(978.0, 983.0, 0.1), 1):
         motion = Motion.from_arrays(np.zeros(20), 0.01, vertical=-0.01 * np.full(20, gal))
-        assert not solve_slide(motion, 0.2, vertical_scale=1.0, gravity=round(gal / 100.0, 6)).outcome.lifted_off
+        assert not solve_slide(0.2, motion, vertical=1.0, gravity=round(gal / 100.0, 6)).outcome.lifted_off
 
 
 @pytest.mark.parametrize("one_way", [False, True])
@@ -52,18 +55,18 @@ def test_contact_is_lost_exactly_where_the_base_falls_faster_than_g(one_way, sca
     motion = shaking()
     falls = (G + scale * motion.vertical).min() < 0.0
     for mu in (0.1, 0.9, 5.0):
-        assert solve_slide(motion, mu, vertical_scale=scale, one_way=one_way).outcome.lifted_off == falls
+        assert solve_slide(sliding_base(mu, one_way=one_way), motion, vertical=scale).outcome.lifted_off == falls
 
 
 def test_one_way_object_held_back_still_lifts_off():
     """Pushed where it cannot slide, a one-way object loses contact all the same when the base falls for one sample."""
     motion = Motion.from_arrays(np.full(9, 5.0), 0.01, vertical=[0, 0, 0, -4.0, -10.0, -4.0, 0, 0, 0])
-    assert solve_slide(motion, 0.5, vertical_scale=1.0, one_way=True).outcome.lifted_off
+    assert solve_slide(sliding_base(0.5, one_way=True), motion, vertical=1.0).outcome.lifted_off
 
 
 def test_one_way_never_goes_back():
     """Without flight the displacement of a one-way slide never falls."""
-    u = solve_slide(shaking(), 0.1, kappa=0.5, one_way=True)["relative_displacement"]
+    u = solve_slide(sliding_base(0.1, kappa=0.5, one_way=True), shaking())["relative_displacement"]
     assert (np.diff(u) >= -1e-15).all()
     assert u[-1] > 0.1
 
@@ -71,7 +74,7 @@ def test_one_way_never_goes_back():
 def test_still_ground_moves_nothing():
     """No shaking, no slip, on the steepest slope that friction holds too; every number is there."""
     still = Motion.from_arrays(np.zeros(10), 0.01)
-    outcome = solve_slide(still, np.tan(np.radians(30.0)), slope_deg=30.0).outcome
+    outcome = solve_slide(sliding_base(np.tan(np.radians(30.0)), slope_deg=30.0), still).outcome
     assert not outcome.slips
     assert outcome.slip_start_s is None
     assert (outcome.max_slip_m, outcome.residual_slip_m, outcome.final_slip_m, outcome.slip_count) == (0.0, 0.0, 0.0, 0)
@@ -80,7 +83,7 @@ def test_still_ground_moves_nothing():
 def test_slope_that_kinetic_friction_does_not_hold_is_for_ever():
     """Once in motion on an endless slope with mu_k < tan th nothing stops the object, and the outcome says so."""
     motion = Motion.from_arrays(np.concatenate([np.full(10, -5.0), np.zeros(40)]), 0.02)
-    response = solve_slide(motion, 0.3, kappa=0.5, slope_deg=12.0)
+    response = solve_slide(sliding_base(0.3, kappa=0.5, slope_deg=12.0), motion)
     assert response.outcome.final_slip_m is None
     assert response.outcome.slides_at_end
     assert any("for ever" in warning for warning in response.warnings)
@@ -92,24 +95,24 @@ def test_times_count_from_the_records_first_sample():
     """A motion that starts 20 s into its record reports times on the record's clock."""
     motion = shaking()
     later = Motion(motion.acceleration, motion.dt, start_s=20.0)
-    one, other = solve_slide(motion, 0.1), solve_slide(later, 0.1)
+    one, other = solve_slide(0.1, motion), solve_slide(0.1, later)
     assert other.outcome.slip_start_s == pytest.approx(one.outcome.slip_start_s + 20.0, rel=1e-15)
     assert other.outcome.max_slip_time_s == pytest.approx(one.outcome.max_slip_time_s + 20.0, rel=1e-15)
     assert other.time[0] == other.phases[0].start_s == 20.0
-    assert slide_study(later, 0.1)[0].slip_start_s == other.outcome.slip_start_s
+    assert slide_study(0.1, later)[0].slip_start_s == other.outcome.slip_start_s
 
 
 def test_largest_slip_between_samples_is_found():
     """The extremum is that of the cubic, between samples and not at one of them."""
-    coarse = solve_slide(Motion.from_arrays([0.0, 4.0, -4.0, 0.0, 0.0], 0.2), 0.1)
-    dense = solve_slide(Motion.from_arrays(np.interp(np.arange(4001) / 1000, np.arange(5), [0.0, 4.0, -4.0, 0.0, 0.0]), 0.0002), 0.1)
+    coarse = solve_slide(0.1, Motion.from_arrays([0.0, 4.0, -4.0, 0.0, 0.0], 0.2))
+    dense = solve_slide(0.1, Motion.from_arrays(np.interp(np.arange(4001) / 1000, np.arange(5), [0.0, 4.0, -4.0, 0.0, 0.0]), 0.0002))
     assert coarse.outcome.max_slip_m == pytest.approx(np.abs(dense["relative_displacement"]).max(), rel=1e-9)
 
 
 def test_worst_direction_is_the_largest_slip_of_each_combination():
     """Of two directions the study keeps, for each friction, the one that slides further."""
     weak, strong = shaking(), Motion(1.5 * shaking(1).acceleration, 0.01, name="90")
-    points = slide_study([weak, strong], [0.05, 0.1])
+    points = slide_study([0.05, 0.1], [weak, strong])
     worst = worst_directions(points)
     assert [point.mu for point in worst] == [0.05, 0.1]
     for point in worst:
@@ -119,7 +122,7 @@ def test_worst_direction_is_the_largest_slip_of_each_combination():
 def test_vertical_motion_needs_a_vertical_component():
     """A record without one is refused, by name, in the solver and in the study."""
     motion = motion_of(Record([Component("NS", np.ones(10))], 0.01), "NS")
-    for call in (lambda: solve_slide(motion, 0.2, vertical_scale=1.0), lambda: slide_study(motion, 0.2, vertical_scale=[0.0, 1.0])):
+    for call in (lambda: solve_slide(0.2, motion, vertical=1.0), lambda: slide_study(0.2, motion, vertical=[0.0, 1.0])):
         with pytest.raises(ComponentError, match="no vertical component"):
             call()
 
@@ -134,8 +137,9 @@ def test_numbers_must_be_finite(number):
         {"mu": 0.2, "kappa": number},
         {"mu": 0.2, "slope_deg": number},
         {"mu": 0.2, "slope_deg": 5.0, "slope_length": number},
-        {"mu": 0.2, "vertical_scale": number},
-        {"mu": 0.2, "gravity": number},
     ):
         with pytest.raises(ParameterError):
-            solve_slide(motion, **how)
+            sliding_base(**how)
+    for how in ({"vertical": number}, {"gravity": number}):
+        with pytest.raises(ParameterError):
+            solve_slide(0.2, motion, **how)

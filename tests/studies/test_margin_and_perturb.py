@@ -28,7 +28,7 @@ def one_sine(x, samples=400):
 
 def test_every_window_of_one_sine_is_found():
     """[Zhang2001]_: safe to 3.019, unsafe to 6.318, safe to 7.168, unsafe above; scaled from X = 4."""
-    margin = find_margin(one_sine(4.0), BLOCK, restitution=0.9, linear=True)
+    margin = find_margin(BLOCK, one_sine(4.0), restitution=0.9, linear=True)
     assert [window.overturned for window in margin.windows] == [False, True, False, True]
     np.testing.assert_allclose(np.array(margin.flips) * 4, [3.019, 6.318, 7.168], atol=1e-3)
     assert margin.overturned is True
@@ -41,14 +41,14 @@ def test_every_window_of_one_sine_is_found():
 def test_verdicts_on_both_sides_of_each_flip():
     """Just below and just above each factor the verdicts differ."""
     motion = one_sine(4.0)
-    for flip in find_margin(motion, BLOCK, restitution=0.9).flips:
-        below, above = (rock_verdict(motion, BLOCK, scale=flip * (1 + e), restitution=0.9).overturned for e in (-1e-5, 1e-5))
+    for flip in find_margin(BLOCK, motion, restitution=0.9).flips:
+        below, above = (rock_verdict(BLOCK, motion, scale=flip * (1 + e), restitution=0.9).overturned for e in (-1e-5, 1e-5))
         assert below != above
 
 
 def test_block_that_never_falls_has_one_window():
     """No flip, no nearest flip."""
-    margin = find_margin(Motion.from_arrays(0.01 * np.ones(50), 0.01), BLOCK)
+    margin = find_margin(BLOCK, Motion.from_arrays(0.01 * np.ones(50), 0.01))
     assert margin.flips == ()
     assert margin.nearest_flip is None
     assert len(margin.windows) == 1
@@ -58,10 +58,10 @@ def test_fragile_verdicts_are_flagged():
     """Within 2 % of a flip the response says so and warns; further away it says no; before it is looked for it says nothing."""
     for x, fragile in ((3.019 * 1.015, True), (3.019 * 0.985, True), (3.019 * 1.05, False)):
         motion = one_sine(x)
-        response = solve_rock(motion, BLOCK, restitution=0.9, linear=True)
+        response = solve_rock(BLOCK, motion, restitution=0.9, linear=True)
         assert response.outcome.verdict_flips_within_2_percent is None
         told = flagged(response)
-        assert told.outcome.verdict_flips_within_2_percent is flips_nearby(motion, BLOCK, restitution=0.9, linear=True) is fragile
+        assert told.outcome.verdict_flips_within_2_percent is flips_nearby(BLOCK, motion, restitution=0.9, linear=True) is fragile
         assert any("2 %" in text for text in told.warnings) is fragile
 
 
@@ -69,31 +69,31 @@ def test_fragile_verdicts_are_flagged():
 def test_impossible_scans_are_refused(limit, step):
     """The scan needs 0 < step <= limit."""
     with pytest.raises(ParameterError, match="0 < step <= limit"):
-        find_margin(one_sine(1.0), BLOCK, limit=limit, step=step)
+        find_margin(BLOCK, one_sine(1.0), limit=limit, step=step)
 
 
 def test_probability_far_from_any_flip_is_certain():
     """All or none of the runs overturn, and the interval says what so few runs can tell."""
-    sure = perturb(one_sine(4.5), BLOCK, 60, restitution=0.9)
+    sure = perturb(BLOCK, one_sine(4.5), 60, restitution=0.9)
     assert (sure.overturned, sure.probability, sure.probability_interval[1]) == (60, 1.0, 1.0)
     assert 0.9 < sure.probability_interval[0] < 1.0
-    never = perturb(one_sine(1.5), BLOCK, 60, restitution=0.9)
+    never = perturb(BLOCK, one_sine(1.5), 60, restitution=0.9)
     assert (never.overturned, never.probability_interval[0]) == (0, 0.0)
 
 
 def test_probability_at_a_flip_is_a_half():
     """With the amplitude alone changing, half of the runs lie on each side of a flip."""
-    flip = find_margin(one_sine(3.0), BLOCK, restitution=0.9).flips[0]
+    flip = find_margin(BLOCK, one_sine(3.0), restitution=0.9).flips[0]
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0)
-    found = perturb(one_sine(3.0 * flip), BLOCK, 400, restitution=0.9, spread=only)
+    found = perturb(BLOCK, one_sine(3.0 * flip), 400, restitution=0.9, spread=only)
     assert found.probability_interval[0] < 0.5 < found.probability_interval[1]
 
 
 def test_same_seed_same_runs():
     """The seed decides."""
     motion = one_sine(3.0)
-    assert perturb(motion, BLOCK, 50, seed=7) == perturb(motion, BLOCK, 50, seed=7)
-    assert perturb(motion, BLOCK, 50, seed=7).overturned != perturb(motion, BLOCK, 50, seed=8).overturned
+    assert perturb(BLOCK, motion, 50, seed=7) == perturb(BLOCK, motion, 50, seed=7)
+    assert perturb(BLOCK, motion, 50, seed=7).overturned != perturb(BLOCK, motion, 50, seed=8).overturned
 
 
 def test_turning_the_motion():
@@ -133,7 +133,7 @@ def test_impossible_spreads_are_refused(spread):
 def test_no_runs_are_refused():
     """At least one."""
     with pytest.raises(ParameterError, match="at least 1"):
-        perturb(one_sine(1.0), BLOCK, 0)
+        perturb(BLOCK, one_sine(1.0), 0)
 
 
 def test_threads_answer_in_order():

@@ -22,7 +22,7 @@ def test_a_rectangular_pulse_has_its_closed_form():
     mu, g, observed = 0.2, 9.80665, 1.0
     # the last sample's fall from a to zero takes one interval more: its impulse is that of half an interval
     a, T = 4.0, 1.0
-    found = scale_factors(slid(PULSE, mu), observed, PULSE, limit=2.0).scale_factors
+    found = scale_factors(slid(mu, PULSE), observed, PULSE, limit=2.0).scale_factors
     root = (mu * g + np.sqrt((mu * g) ** 2 + 8.0 * mu * g * observed / T**2)) / (2.0 * a)
     assert len(found) == 1
     assert found[0].scale == pytest.approx(root, rel=0.01)
@@ -33,12 +33,12 @@ def test_a_rectangular_pulse_has_its_closed_form():
 @pytest.mark.parametrize("largest", [False, True])
 def test_the_slip_of_a_record_gives_its_factor_back(largest):
     """What a scaled record does is found at that factor, for the residual and for the largest slip."""
-    outcome = solve_slide(scaled(MOTION, 0.8), 0.3).outcome
+    outcome = solve_slide(0.3, scaled(MOTION, 0.8)).outcome
     observed = outcome.max_slip_m if largest else abs(outcome.residual_slip_m)
-    found = scale_factors(slid(MOTION, 0.3, largest=largest), observed, MOTION, limit=2.0, steps=100)
+    found = scale_factors(slid(0.3, MOTION, largest=largest), observed, MOTION, limit=2.0, steps=100)
     assert any(f.scale == pytest.approx(0.8, abs=1e-6) for f in found.scale_factors)
     for each in found.scale_factors:
-        again = solve_slide(scaled(MOTION, each.scale), 0.3).outcome
+        again = solve_slide(0.3, scaled(MOTION, each.scale)).outcome
         assert (again.max_slip_m if largest else abs(again.residual_slip_m)) == pytest.approx(observed, rel=1e-6)
 
 
@@ -46,9 +46,9 @@ def test_the_slip_of_a_record_gives_its_factor_back(largest):
 def test_the_jump_of_a_record_gives_its_factor_back(repeat):
     """The displacement of the Chozu-sha under the record as it is has 1 among its factors."""
     chosen = two_layer_choice({}, default="chozusha")
-    chains = solve_jump(MOTION, chosen.block, chosen.contact, repeat=repeat).outcome.chains
+    chains = solve_jump(chosen.block, MOTION, contact=chosen.contact, repeat=repeat).outcome.chains
     observed = abs(sum(chain.total_displacement_m or 0.0 for chain in chains))
-    found = scale_factors(jumped(MOTION, chosen.block, chosen.contact, repeat=repeat), observed, MOTION, limit=1.5, steps=60)
+    found = scale_factors(jumped(chosen.block, MOTION, contact=chosen.contact, repeat=repeat), observed, MOTION, limit=1.5, steps=60)
     assert any(f.scale == pytest.approx(1.0, abs=1e-6) and not f.leaps for f in found.scale_factors)
     assert found.displacement_at_1_m == pytest.approx(observed)
 
@@ -65,10 +65,10 @@ def test_all_solutions_and_leaps_are_found():
 
 def test_an_object_that_never_moves_so_far_has_no_factor():
     """The largest displacement of the scan is told instead."""
-    found = scale_factors(slid(PULSE, 0.2), 1e3, PULSE)
+    found = scale_factors(slid(0.2, PULSE), 1e3, PULSE)
     assert found.scale_factors == ()
     assert found.largest_at_scale == 3.0
-    assert found.largest_displacement_m == pytest.approx(solve_slide(scaled(PULSE, 3.0), 0.2).outcome.residual_slip_m * -1.0)
+    assert found.largest_displacement_m == pytest.approx(solve_slide(0.2, scaled(PULSE, 3.0)).outcome.residual_slip_m * -1.0)
 
 
 def test_impossible_questions_are_refused():
@@ -81,7 +81,7 @@ def test_impossible_questions_are_refused():
         with pytest.raises(ParameterError, match=message):
             scale_factors(lambda s: s, words[0], PULSE, limit=words[1], steps=words[2])
     with pytest.raises(ParameterError):
-        slid(PULSE, -0.1)
+        slid(-0.1, PULSE)
     north = read("synthetic_jma.csv").component("NS")
     with pytest.raises(ComponentError, match="no vertical component"):
-        slid(motion_of(Record((north,), 0.01), "NS"), 0.3, vertical_scale=1.0)
+        slid(0.3, motion_of(Record((north,), 0.01), "NS"), vertical=1.0)

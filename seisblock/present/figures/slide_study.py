@@ -94,7 +94,7 @@ def _criteria(axis: Any, points: Points, record: Record, gravity: float) -> None
         stops = [friction_that_stops(abs(angle), kappa) for angle in dense]
         axis.plot(dense, stops, color=canvas.ACCENT, linewidth=1.1, label=f"(14): tan θ / κ, κ {kappa:g}")
     motion = motion_of(record, points[0].component)
-    for scale, style in zip(list(dict.fromkeys(point.vertical_scale for point in points))[:2], ("-", "--"), strict=False):
+    for scale, style in zip(list(dict.fromkeys(point.vertical for point in points))[:2], ("-", "--"), strict=False):
         starts = [friction_that_holds(angle, motion.horizontal / gravity, scale * motion.vertical / gravity).max() for angle in dense]
         axis.plot(dense, starts, style, color=canvas.SECOND, linewidth=1.1, label="(15): this record" + (f", γ {scale:g}" if scale else ""))
     axis.set_ylim(min(frictions), max(frictions))

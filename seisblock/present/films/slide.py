@@ -37,7 +37,7 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray) -> Film:
     block = Piece(rectangle(-size, size, 0.0, 1.2 * size), "#b5a58a")
     gal = motion.horizontal * 100.0
     limit = base.mu * float(response.options["gravity_m_s2"]) * 100.0
-    level = not base.slope_deg and not response.options["vertical_scale"]
+    level = not base.slope_deg and not response.options["vertical"]
     return Film(
         title=f"{motion.name}  {setting(response)}",
         time=times,

@@ -49,14 +49,14 @@ def tables(responses: Slides, sweep: Sequence[SlidePoint] = ()) -> Iterator[Any]
 def setting(response: Response[SlideOutcome]) -> str:
     """Say which base an object slid on."""
     base, options = response.body, response.options
-    told = f"mu {base.mu:g}, kinetic {base.mu_kinetic:g}"
+    told = f"mu {base.mu:g}, kinetic {base.kinetic:g}"
     if base.slope_deg:
         told += f", slope {base.slope_deg:g} deg"
         told += f" for {base.slope_length:g} m, then level" if base.slope_length else ""
     if base.one_way:
         told += ", one way"
-    if options["vertical_scale"]:
-        told += f", vertical motion x {options['vertical_scale']:g}"
+    if options["vertical"]:
+        told += f", vertical motion x {options['vertical']:g}"
     return told
 
 

@@ -16,7 +16,7 @@ from seisblock.studies.sliding import SlidePoint
 Points = Sequence[SlidePoint]
 
 
-SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": "μ kinetic", "slope_deg": "θ (deg)", "vertical_scale": "γ"}
+SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": "μ kinetic", "slope_deg": "θ (deg)", "vertical": "γ"}
 
 
 MOST_ROWS, MOST_COLUMNS = 60, 8
@@ -35,7 +35,7 @@ class Layout:
     def of(cls, points: Points) -> Layout:
         """Put the parameter with most values on x; of equals, the one that the paper's figures have there."""
         kinetic = "kappa" if len({p.kappa for p in points}) <= len({p.mu_kinetic for p in points}) else "mu_kinetic"
-        counts = {name: len({getattr(p, name) for p in points}) for name in ("mu", "slope_deg", "vertical_scale", kinetic)}
+        counts = {name: len({getattr(p, name) for p in points}) for name in ("mu", "slope_deg", "vertical", kinetic)}
         x = max(counts, key=lambda name: counts[name])
         return cls(x, tuple(name for name, count in counts.items() if name != x and count > 1))
 

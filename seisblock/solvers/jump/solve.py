@@ -13,6 +13,7 @@ from seisblock.dynamics import Instant, follow
 from seisblock.dynamics.hybrid import STOPPED
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
+from seisblock.records.given import check_call
 from seisblock.results import Channel, Event, Phase, Response
 from seisblock.solvers.jump import flight as flying
 from seisblock.solvers.jump import rocking
@@ -58,10 +59,10 @@ class JumpOutcome:
 
 
 def solve_jump(
-    motion: Motion,
     block: TwoLayerBlock,
-    contact: Contact,
+    motion: Motion,
     *,
+    contact: Contact,
     drop: float = 0.0,
     spin: str = "momentum",
     direction: str = "both",
@@ -76,9 +77,9 @@ def solve_jump(
 
     Parameters
     ----------
+    block : TwoLayerBlock
     motion : Motion
         Only its horizontal row acts.
-    block : TwoLayerBlock
     contact : Contact
         Friction of the landed foot and restitution of the impact.
     drop : float, m
@@ -114,10 +115,11 @@ def solve_jump(
     >>> import numpy as np
     >>> block = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
     >>> pulse = np.concatenate([6.0 * np.sin(np.pi * np.linspace(0, 1, 101)), np.zeros(200)])
-    >>> response = solve_jump(Motion.from_arrays(pulse, 0.01), block, Contact(0.18, 0.17, 0.95, 0.85))
+    >>> response = solve_jump(block, Motion.from_arrays(pulse, 0.01), contact=Contact(0.18, 0.17, 0.95, 0.85))
     >>> response.outcome.outcome
     'jumped'
     """
+    check_call(block, TwoLayerBlock, motion)
     _check(contact, drop, direction, gravity)
     ratio = spin_ratio(block, spin, contact.restitution_x, contact.restitution_y)
     followed: list[Followed] = []

@@ -11,6 +11,7 @@ from seisblock.bodies.block import Block, Restitution
 from seisblock.dynamics import Trajectory, follow
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
+from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.results import Channel, Event, Response, Status
 from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate, fate, sides
@@ -33,12 +34,12 @@ def check_options(restitution: Restitution, gravity: float) -> None:
 
 
 def solve_rock(
-    motion: Motion,
     block: Block,
+    motion: Motion,
     *,
     restitution: Restitution = None,
     linear: bool = False,
-    vertical: bool = False,
+    vertical: Factor = False,
     gravity: float = STANDARD_GRAVITY,
     initial: tuple[float, float] = (0.0, 0.0),
 ) -> Response[RockOutcome]:
@@ -49,16 +50,16 @@ def solve_rock(
 
     Parameters
     ----------
+    block : Block
     motion : Motion
         Ground acceleration, m/s^2.
-    block : Block
     restitution : float, or a pair
         Ratio of angular velocities at an impact, in (0, 1], or that onto the right and that onto the left corner; by default from
         the angular momentum about the corner that is struck, 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_).
     linear : bool
         Whether to use the linear equation of slender blocks ([Zhang2001]_ eqs. (4), (5)).
-    vertical : bool
-        Whether the vertical ground motion acts, too.
+    vertical : bool or float
+        Whether the vertical ground motion acts, too, or a factor on it.
     gravity : float, m/s^2
     initial : (float, float), rad, rad/s
         Lean and angular velocity at the first sample.
@@ -72,6 +73,8 @@ def solve_rock(
     ------
     ParameterError
         If the restitution lies outside (0, 1] or gravity is not positive.
+    ComponentError
+        If the vertical motion is asked of a record without one.
     SolverError
         If a restitution of 1 makes it rock on in ever smaller hops.
 
@@ -83,13 +86,14 @@ def solve_rock(
     --------
     >>> import numpy as np
     >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
-    >>> outcome = solve_rock(pulse, Block(0.24, 0.8)).outcome
+    >>> outcome = solve_rock(Block(0.24, 0.8), pulse).outcome
     >>> outcome.overturned, outcome.overturned_towards, outcome.decided_after_record
     (True, '-x', True)
     """
+    check_call(block, Block, motion)
     check_options(restitution, gravity)
     p = model.parameters(block, motion.dt, gravity, restitution, linear)
-    gains = np.array([1.0, 0.0, 1.0 if vertical else 0.0])
+    gains = np.array([1.0, 0.0, vertical_gain(motion, vertical)])
     trajectory = follow(model.ROCKING, motion, p, initial, start_mode(block, initial), gains=tuple(gains))
     after = afterwards(trajectory, block, gravity, restitution, linear)
     outcome = gather(block, motion, trajectory, after, gains=gains, gravity=gravity, restitution=restitution, linear=linear)
@@ -109,7 +113,7 @@ def solve_rock(
         channels,
         phases(trajectory, motion.start_s),
         tuple(Event(event_name(c), motion.start_s + c.time, c.before, c.after) for c in trajectory.changes),
-        {"restitution": restitution, "linear": linear, "vertical": vertical, "gravity_m_s2": gravity},
+        {"restitution": restitution, "linear": linear, "vertical": float(gains[2]), "gravity_m_s2": gravity},
         Status(trajectory.status),
         warnings(block, outcome, gravity),
         CITATIONS,
@@ -148,20 +152,20 @@ class Verdict:
 
 
 def rock_verdict(
-    motion: Motion,
     block: Block,
+    motion: Motion,
     *,
     scale: float = 1.0,
     restitution: Restitution = None,
     linear: bool = False,
-    vertical: bool = False,
+    vertical: Factor = False,
     gravity: float = STANDARD_GRAVITY,
 ) -> Verdict:
     """Return only whether a block overturns and its largest lean over alpha, as fast as possible ([Housner1963]_).
 
     Parameters
     ----------
-    motion, block, restitution, linear, vertical, gravity
+    block, motion, restitution, linear, vertical, gravity
         As in :func:`solve_rock`.
     scale : float
         Factor on the ground acceleration.
@@ -172,7 +176,7 @@ def rock_verdict(
         The ratio is pi/2 over alpha when it overturns.
     """
     p = model.parameters(block, motion.dt, gravity, restitution, linear)
-    gains = (scale, 0.0, scale if vertical else 0.0)
+    gains = (scale, 0.0, scale * vertical)
     trajectory = follow(model.ROCKING, motion, p, (0.0, 0.0), model.REST, gains=gains, keep_path=False, keep_events=False)
     after = afterwards(trajectory, block, gravity, restitution, linear, timed=False)
     late = after.largest if after else (0.0, 0.0)

@@ -206,4 +206,4 @@ def parameters(base: SlidingBase, gravity: float) -> tuple[float, ...]:
     """Return a base and gravity as the parameters of the model, (8,) ([Fujino1978]_)."""
     foot = math.inf if base.slope_length is None else base.slope_length
     downhill = -1.0 if base.slope_deg < 0.0 else 1.0
-    return base.mu, base.mu_kinetic, gravity, math.sin(base.angle), math.cos(base.angle), foot, downhill, float(base.one_way)
+    return base.mu, base.kinetic, gravity, math.sin(base.angle), math.cos(base.angle), foot, downhill, float(base.one_way)

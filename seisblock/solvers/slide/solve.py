@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.bodies.sliding_base import SlidingBase, sliding_base
+from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.dynamics import Change, Trajectory, follow
-from seisblock.errors import ComponentError, ParameterError
-from seisblock.records.motion import Motion
+from seisblock.errors import ParameterError
+from seisblock.records.given import Factor, check_call, vertical_gain
+from seisblock.records.motion import UP, Motion
 from seisblock.results import Channel, Event, Phase, Response, Status
 from seisblock.solvers.slide.model import BACKWARD, CONTACT, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
@@ -67,16 +68,7 @@ class SlideOutcome:
 
 
 def solve_slide(
-    motion: Motion,
-    mu: float,
-    *,
-    mu_kinetic: float | None = None,
-    kappa: float | None = None,
-    vertical_scale: float = 0.0,
-    slope_deg: float = 0.0,
-    slope_length: float | None = None,
-    one_way: bool = False,
-    gravity: float = STANDARD_GRAVITY,
+    base: SlidingBase | float, motion: Motion, *, vertical: Factor = False, gravity: float = STANDARD_GRAVITY
 ) -> Response[SlideOutcome]:
     """Follow an object that slides on a shaken base, exactly for the piecewise linear record.
 
@@ -86,22 +78,12 @@ def solve_slide(
 
     Parameters
     ----------
+    base : SlidingBase or float
+        Friction and slope; a number is the friction coefficient of a level base, static and kinetic.
     motion : Motion
-        Its horizontal row acts along the slope's direction, its vertical one times `vertical_scale`.
-    mu : float
-        Static friction coefficient, positive.
-    mu_kinetic : float or None
-        Kinetic friction coefficient, 0 to `mu`; None: `kappa` times `mu`.
-    kappa : float or None
-        Kinetic over static friction, in (0, 1]; None: 1.
-    vertical_scale : float
-        Factor on the vertical ground acceleration, the paper's gamma; 0 leaves it out.
-    slope_deg : float, degrees
-        Angle of the base, -90 to 90 exclusive; positive falls towards the component's positive direction.
-    slope_length : float or None, m
-        Distance along the slope from the object to the foot, with level ground beyond; None is a slope without end.
-    one_way : bool
-        Whether the object slides in the positive direction only ([Newmark1965]_).
+        Its horizontal row acts along the slope's direction.
+    vertical : bool or float
+        Whether the vertical ground motion acts, too, or a factor on it, the paper's gamma.
     gravity : float, m/s^2
 
     Returns
@@ -113,7 +95,7 @@ def solve_slide(
     Raises
     ------
     ParameterError
-        If a number lies outside its range, or the slope is steeper than static friction holds.
+        If a number lies outside its range.
     ComponentError
         If the vertical motion is asked of a record without one.
 
@@ -130,24 +112,26 @@ def solve_slide(
     --------
     >>> import numpy as np
     >>> pulse = np.concatenate([np.full(101, 4.0), np.zeros(200)])
-    >>> response = solve_slide(Motion.from_arrays(pulse, 0.01), 0.2)
+    >>> response = solve_slide(0.2, Motion.from_arrays(pulse, 0.01))
     >>> round(response.outcome.residual_slip_m, 4)
     -2.0997
     """
-    base = sliding_base(mu, mu_kinetic=mu_kinetic, kappa=kappa, slope_deg=slope_deg, slope_length=slope_length, one_way=one_way)
-    gains = check(motion, vertical_scale, gravity)
+    if isinstance(base, (int, float)):
+        base = SlidingBase(base)
+    check_call(base, SlidingBase, motion)
+    gains = check(motion, vertical, gravity)
     p = parameters(base, gravity)
     trajectory = follow(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
     time, states, modes = trajectory.table()
     outcome = _outcome(trajectory, motion, states, p)
     options = {
         "mu": base.mu,
-        "mu_kinetic": base.mu_kinetic,
-        "kappa": base.mu_kinetic / base.mu,
-        "vertical_scale": vertical_scale,
+        "mu_kinetic": base.kinetic,
+        "kappa": base.kappa,
+        "vertical": gains[UP],
         "slope_deg": base.slope_deg,
         "slope_length_m": base.slope_length,
-        "one_way": one_way,
+        "one_way": base.one_way,
         "gravity_m_s2": gravity,
     }
     return Response(
@@ -156,28 +140,21 @@ def solve_slide(
         motion,
         base,
         motion.start_s + time,
-        _channels(motion, base, vertical_scale, gravity, time, states, modes),
+        _channels(motion, base, gains[UP], gravity, time, states, modes),
         _phases(trajectory, motion),
         _events(trajectory.changes, motion.start_s),
         options,
         Status(trajectory.status),
         tuple(_warnings(outcome, motion)),
-        ("Fujino1978", "Newmark1965") if one_way else ("Fujino1978",),
+        ("Fujino1978", "Newmark1965") if base.one_way else ("Fujino1978",),
     )
 
 
-def check(motion: Motion, vertical_scale: float, gravity: float) -> tuple[float, float, float]:
+def check(motion: Motion, vertical: Factor, gravity: float) -> tuple[float, float, float]:
     """Return the factors on the motion's three rows, or refuse what cannot act ([Fujino1978]_)."""
     if not (math.isfinite(gravity) and gravity > 0.0):
         raise ParameterError(f"gravity must be positive, found {gravity:g} m/s^2")
-    if not math.isfinite(vertical_scale):
-        raise ParameterError(f"the factor on the vertical motion must be a finite number, found {vertical_scale}")
-    if vertical_scale != 0.0 and motion.record is not None and motion.record.vertical is None:
-        raise ComponentError(
-            f"{motion.record.source or 'record'}: no vertical component; it has {', '.join(motion.record.codes)}: "
-            "leave the vertical motion out, or give a record that has one"
-        )
-    return 1.0, 0.0, vertical_scale
+    return 1.0, 0.0, vertical_gain(motion, vertical)
 
 
 def _outcome(trajectory: Trajectory, motion: Motion, states: FloatArray, p: tuple[float, ...]) -> SlideOutcome:
@@ -262,7 +239,7 @@ def _event_name(change: Change) -> str:
 
 
 def _channels(
-    motion: Motion, base: SlidingBase, vertical_scale: float, gravity: float, time: FloatArray, states: FloatArray, modes: IntArray
+    motion: Motion, base: SlidingBase, gain: float, gravity: float, time: FloatArray, states: FloatArray, modes: IntArray
 ) -> tuple[Channel, ...]:
     """Return the curves on the trajectory's own time axis, both limits at each event."""
     level = modes >= LEVEL
@@ -270,12 +247,12 @@ def _channels(
     cosine = np.where(level, 1.0, math.cos(base.angle))
     grid = motion.dt * np.arange(motion.samples)
     horizontal = np.interp(time, grid, motion.horizontal)
-    vertical = vertical_scale * np.interp(time, grid, motion.vertical) if vertical_scale else np.zeros_like(time)
+    vertical = gain * np.interp(time, grid, motion.vertical) if gain else np.zeros_like(time)
     along = horizontal * cosine - vertical * sine
     normal = (gravity + vertical) * cosine + horizontal * sine
     pull = gravity * sine
     phase = modes % LEVEL
-    friction = np.select([phase == FORWARD, phase == BACKWARD], [-base.mu_kinetic * normal, base.mu_kinetic * normal], 0.0)
+    friction = np.select([phase == FORWARD, phase == BACKWARD], [-base.kinetic * normal, base.kinetic * normal], 0.0)
     acceleration = np.where(phase == STICK, 0.0, pull - along + friction)
     velocity = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(time) * (along[1:] + along[:-1]))])
     unit, speed = "m/s^2", "m/s"

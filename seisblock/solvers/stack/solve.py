@@ -11,6 +11,7 @@ import numpy as np
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.errors import ParameterError, SolverError
+from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import ACROSS, UP, Motion
 from seisblock.results import Event, Phase, Response, Status
 from seisblock.solvers.stack.arrays import PileArrays, pile_arrays
@@ -40,8 +41,8 @@ def solve_stack(
     *,
     points: int = 5,
     contact: PileContact | None = None,
-    vertical: bool = True,
-    across: bool = True,
+    vertical: Factor = True,
+    across: Factor = True,
     gravity: float = STANDARD_GRAVITY,
     step: float | None = None,
     stop_at_fall: bool = False,
@@ -61,8 +62,8 @@ def solve_stack(
         Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
     contact : PileContact
         Default: [Furukawa2009]_ table 2.
-    vertical, across : bool
-        Whether the motion's vertical and transverse rows act.
+    vertical, across : bool or float
+        Whether the motion's vertical and transverse rows act, or factors on them.
     gravity : float, m/s^2
     step : float, s
         Fixed step; default: 0.7 of the stable step of the stiffest contact.
@@ -86,6 +87,7 @@ def solve_stack(
     SolverError
         If the run created energy or left the finite numbers.
     """
+    check_call(body, Pile, motion)
     contact = PileContact() if contact is None else contact
     if not (gravity > 0.0 and math.isfinite(gravity)):
         raise ParameterError(f"gravity must be positive, found {gravity} m/s^2")
@@ -94,7 +96,7 @@ def solve_stack(
     quiet = math.ceil(AFTERWARDS / motion.dt)
     shaking = np.zeros((3, motion.samples + quiet))
     shaking[:, : motion.samples] = motion.acceleration
-    shaking[[ACROSS, UP]] *= np.array([[across], [vertical]])
+    shaking[[ACROSS, UP]] *= np.array([[float(across)], [vertical_gain(motion, vertical, needed=False)]])
     bodies, memory = pile.bodies.copy(), pile.memory()
     sink(pile, gravity, bodies, memory[0])
     fates = _fates(pile, bodies)
@@ -125,8 +127,8 @@ def solve_stack(
         options={
             "points": points,
             "mu": body.mu,
-            "vertical": vertical,
-            "across": across,
+            "vertical": float(vertical),
+            "across": float(across),
             "gravity_m_s2": gravity,
             "step_s": motion.dt / steps,
             "contact": asdict(contact),

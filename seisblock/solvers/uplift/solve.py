@@ -8,6 +8,7 @@ import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.dynamics.model import Trajectory, follow
+from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.results import Channel, Event, Phase, Response, Status
 from seisblock.solvers.uplift.model import GLUED, UPLIFT, UPLIFT_AGAIN, WHOLE_BASE, F, U, X, Y, at_rest, contact_name, parameters, rotations
@@ -23,8 +24,6 @@ REPEATABLE = 1e-3
 
 ROUND_OFF = 1e-12
 """A corner that rises by less than this share of the static settlement has not moved."""
-
-ALL_ROWS = (1.0, 1.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -106,7 +105,9 @@ class UpliftOutcome:
     corners: tuple[CornerOutcome, ...]
 
 
-def solve_uplift(body: SpringBlock, motion: Motion, *, gravity: float = STANDARD_GRAVITY) -> Response[UpliftOutcome]:
+def solve_uplift(
+    body: SpringBlock, motion: Motion, *, vertical: Factor = True, gravity: float = STANDARD_GRAVITY
+) -> Response[UpliftOutcome]:
     """Solve a block on corner springs through a three-component motion, from static equilibrium.
 
     Extends [Okumura1987]_ eq. (1) to records: the vertical spring and dashpot of a corner act only while compressed, horizontal ones stay
@@ -118,6 +119,8 @@ def solve_uplift(body: SpringBlock, motion: Motion, *, gravity: float = STANDARD
         Its damping is the ratio zeta of each corner dashpot, c = 2 zeta k / omega of its direction.
     motion : Motion
         Ground acceleration along +x, across (+y) and up.
+    vertical : bool or float
+        Whether the vertical ground motion acts, or a factor on it.
     gravity : float, m/s^2
 
     Returns
@@ -139,10 +142,12 @@ def solve_uplift(body: SpringBlock, motion: Motion, *, gravity: float = STANDARD
     >>> solve_uplift(block, Motion.from_arrays(shaking, 0.01)).outcome.uplifts
     True
     """
+    check_call(body, SpringBlock, motion)
+    gains = (1.0, 1.0, vertical_gain(motion, vertical, needed=False))
     p, start = parameters(body, gravity), at_rest(body, gravity)
-    trajectory = follow(UPLIFT, motion, p, start, WHOLE_BASE, gains=ALL_ROWS)
-    linear = follow(UPLIFT, motion, p, start, GLUED, gains=ALL_ROWS, keep_path=False, keep_events=False)
-    again = follow(UPLIFT_AGAIN, motion, p, start, WHOLE_BASE, gains=ALL_ROWS, keep_path=False, keep_events=False)
+    trajectory = follow(UPLIFT, motion, p, start, WHOLE_BASE, gains=gains)
+    linear = follow(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)
+    again = follow(UPLIFT_AGAIN, motion, p, start, WHOLE_BASE, gains=gains, keep_path=False, keep_events=False)
     time, states, _ = trajectory.table()
     theta_x, theta_y = rotations(states, body)
     slenderness = max(body.height / body.depth * np.abs(theta_x).max(), body.height / body.width * np.abs(theta_y).max())
@@ -171,7 +176,7 @@ def solve_uplift(body: SpringBlock, motion: Motion, *, gravity: float = STANDARD
             for i in range(4)
             if (c.source ^ c.target) >> i & 1
         ),
-        options={"gravity_m_s2": gravity},
+        options={"vertical": gains[2], "gravity_m_s2": gravity},
         status=Status(trajectory.status),
         warnings=_warnings(motion, float(slenderness), _highest(trajectory), _highest(again)),
         citations=("Okumura1987",),

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
@@ -163,13 +164,13 @@ def scaled(motion: Motion, factor: float) -> Motion:
 
 
 def jumped(
-    motion: Motion, block: TwoLayerBlock, contact: Contact, *, flight_only: bool = False, repeat: bool = False, **options: Any
+    block: TwoLayerBlock, motion: Motion, *, contact: Contact, flight_only: bool = False, repeat: bool = False, **options: Any
 ) -> Callable[[float], float]:
     """Return how far a two-layer block is displaced, m, against the factor on a motion ([Sugimoto2017]_ table 1).
 
     Parameters
     ----------
-    motion, block, contact
+    block, motion, contact
         As in :func:`seisblock.solvers.jump.solve.solve_jump`.
     flight_only : bool
         Count the jump alone, not the rocking-sliding after it.
@@ -181,23 +182,23 @@ def jumped(
     key = "jump_displacement_m" if flight_only else "total_displacement_m"
 
     def displacement(factor: float) -> float:
-        found = solve_jump(scaled(motion, factor), block, contact, repeat=repeat, **options)
+        found = solve_jump(block, scaled(motion, factor), contact=contact, repeat=repeat, **options)
         return abs(sum(getattr(chain, key) or 0.0 for chain in found.outcome.chains))
 
     return displacement
 
 
-def slid(motion: Motion, mu: float, *, largest: bool = False, **options: Any) -> Callable[[float], float]:
+def slid(base: SlidingBase | float, motion: Motion, *, largest: bool = False, **options: Any) -> Callable[[float], float]:
     """Return how far an object slides on a level base, m, against the factor on a motion ([Fujino1978]_).
 
     Parameters
     ----------
-    motion, mu
+    base, motion
         As in :func:`seisblock.solvers.slide.solve.solve_slide`.
     largest : bool
         The largest slip counts, not the one left when the record ends.
     options
-        Its ``mu_kinetic``, ``vertical_scale`` and ``gravity``.
+        Its ``vertical`` and ``gravity``.
 
     Raises
     ------
@@ -206,10 +207,10 @@ def slid(motion: Motion, mu: float, *, largest: bool = False, **options: Any) ->
     ComponentError
         If the vertical motion is asked of a record without one.
     """
-    solve_slide(motion, mu, **options)  # what cannot be solved is refused here, where the record is still known
+    solve_slide(base, motion, **options)  # what cannot be solved is refused here, where the record is still known
 
     def displacement(factor: float) -> float:
-        outcome = solve_slide(scaled(motion, factor), mu, **options).outcome
+        outcome = solve_slide(base, scaled(motion, factor), **options).outcome
         return outcome.max_slip_m if largest else abs(outcome.residual_slip_m)
 
     return displacement

@@ -72,13 +72,13 @@ class Margin:
 
 
 def find_margin(
-    motion: Motion, block: Block, *, limit: float = LIMIT, step: float = STEP, progress: Progress | None = None, **options: Any
+    block: Block, motion: Motion, *, limit: float = LIMIT, step: float = STEP, progress: Progress | None = None, **options: Any
 ) -> Margin:
     """Return every factor up to a limit at which a rocking block's verdict changes.
 
     Parameters
     ----------
-    motion, block : Motion, Block
+    block, motion : Block, Motion
     limit, step : float
         Largest factor, and distance of the factors looked at; changes are then bisected to 1e-6.
     progress : callable
@@ -96,7 +96,7 @@ def find_margin(
     check_options(options.get("restitution"), options.get("gravity", STANDARD_GRAVITY))
 
     def overturns(factor: float) -> bool:
-        return rock_verdict(motion, block, scale=factor, **options).overturned
+        return rock_verdict(block, motion, scale=factor, **options).overturned
 
     grid = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
     factors = [float(factor) for factor in grid[grid <= limit]]
@@ -124,15 +124,15 @@ def _bisected(overturns: Any, low: float, high: float, above: bool) -> float:
 def flagged(response: Response[RockOutcome]) -> Response[RockOutcome]:
     """Return a response that knows, and warns, whether a change of the record by less than 2 % changes its verdict."""
     options = {key: response.options[key] for key in ("restitution", "linear", "vertical")}
-    flips = flips_nearby(response.motion, response.body, gravity=response.options["gravity_m_s2"], **options)
+    flips = flips_nearby(response.body, response.motion, gravity=response.options["gravity_m_s2"], **options)
     warnings = response.warnings
     if flips:
         warnings = (*warnings, f"{response.motion.name or 'x'}: a change of the record by less than 2 % changes the verdict")
     return replace(response, outcome=replace(response.outcome, verdict_flips_within_2_percent=flips), warnings=warnings)
 
 
-def flips_nearby(motion: Motion, block: Block, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Any) -> bool:
+def flips_nearby(block: Block, motion: Motion, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Any) -> bool:
     """Return whether some factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
     factors = [float(factor) for factor in np.linspace(1.0 - share, 1.0 + share, steps)]
-    verdicts = set(in_threads(lambda factor: rock_verdict(motion, block, scale=factor, **options).overturned, factors))
+    verdicts = set(in_threads(lambda factor: rock_verdict(block, motion, scale=factor, **options).overturned, factors))
     return len(verdicts) > 1

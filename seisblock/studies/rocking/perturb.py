@@ -69,8 +69,8 @@ class Perturbation:
 
 
 def perturb(
-    motion: Motion,
     block: Block,
+    motion: Motion,
     runs: int,
     *,
     spread: Spread = Spread(),
@@ -83,7 +83,7 @@ def perturb(
 
     Parameters
     ----------
-    motion, block : Motion, Block
+    block, motion : Block, Motion
     runs : int
         How many, at least 1.
     spread : Spread
@@ -112,7 +112,7 @@ def perturb(
         changed = resized(block, size=1.0 + spread.size * size, slenderness=1.0 + spread.slenderness * slenderness)
         right, left = (min(middle * (1.0 + spread.restitution * bounce), 1.0) for middle in restitutions(changed, restitution))
         towards, factor = turned(motion, spread.azimuth_deg * turn), 1.0 + spread.amplitude * amplitude
-        return rock_verdict(towards, changed, scale=factor, restitution=(right, left), **options).overturned
+        return rock_verdict(changed, towards, scale=factor, restitution=(right, left), **options).overturned
 
     count = sum(in_threads(once, list(draws), progress=progress))
     return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.rock.solve import check_options, rock_verdict
@@ -43,11 +42,10 @@ class RockingSpectrum:
 
 
 def rocking_spectrum(
-    motion: Motion,
     sizes: ArrayLike,
     slendernesses: ArrayLike,
+    motion: Motion,
     *,
-    inset: Inset = SHARP,
     gravity: float = STANDARD_GRAVITY,
     progress: Progress | None = None,
     **options: Any,
@@ -56,13 +54,11 @@ def rocking_spectrum(
 
     Parameters
     ----------
-    motion : Motion
     sizes : (n,) array, m
         2R, positive.
     slendernesses : (m,) array, rad
-        alpha, between 0 and pi/2; of the block as drawn, as 2R is.
-    inset : Inset
-        How far the edges are worn, per side; leans are then told over the alpha that is left.
+        alpha, between 0 and pi/2.
+    motion : Motion
     gravity : float, m/s^2
     progress : callable
         Told the number of runs done and the number in all.
@@ -80,7 +76,7 @@ def rocking_spectrum(
 
     def run(index: int) -> tuple[bool, float]:
         d, a = float(diagonal[index // alpha.size]), float(alpha[index % alpha.size])
-        verdict = rock_verdict(motion, Block(d * math.sin(a), d * math.cos(a)).worn(inset), gravity=gravity, **options)
+        verdict = rock_verdict(Block(d * math.sin(a), d * math.cos(a)), motion, gravity=gravity, **options)
         return verdict.overturned, verdict.max_rotation_ratio
 
     overturned = np.zeros((diagonal.size, alpha.size), dtype=np.bool_)

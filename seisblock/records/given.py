@@ -1,0 +1,67 @@
+"""What a solver was given: a body, then a motion, and whether the vertical ground motion acts. Said once for all solvers."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, TypeAlias
+
+from seisblock.errors import ComponentError, KindError, ParameterError
+from seisblock.records.motion import Motion
+from seisblock.records.record import Record
+
+Factor: TypeAlias = bool | float
+"""Whether something acts, or the factor by which it does."""
+
+
+def check_call(body: object, kind: type, motion: object) -> None:
+    """Refuse what is not a body of a kind, or not a motion, with the sentence that helps.
+
+    Raises
+    ------
+    KindError
+        If the two stand in the wrong order, a record stands where a motion belongs, or either is something else.
+    """
+    if isinstance(motion, Motion) and isinstance(body, kind):
+        return
+    if isinstance(body, (Motion, Record)) and not isinstance(motion, (Motion, Record)):
+        raise KindError(f"the body comes first, then the motion: found a {type(body).__name__} before the {type(motion).__name__}")
+    if isinstance(motion, Record):
+        code = next((component.code for component in motion.horizontals), "EW")
+        raise KindError(f"{motion.source or 'this'} is a Record: choose a component with motion_of(record, {code!r})")
+    if not isinstance(motion, Motion):
+        raise KindError(f"a Motion is needed, found {_kind(motion)}: make one with motion_of(record, 'EW') or Motion.from_arrays(...)")
+    raise KindError(f"a {kind.__name__} is needed, found {_kind(body)}")
+
+
+def vertical_gain(motion: Motion, vertical: Factor, *, needed: bool = True) -> float:
+    """Return the factor on a motion's vertical row.
+
+    Parameters
+    ----------
+    motion : Motion
+    vertical : bool or float
+        Whether the vertical ground motion acts, or a factor on it.
+    needed : bool
+        Whether a record without a vertical component is refused, or taken as one that does not move up and down.
+
+    Raises
+    ------
+    ParameterError
+        If the factor is not a finite number.
+    ComponentError
+        If the motion's record has no vertical component.
+    """
+    gain = float(vertical)
+    if not math.isfinite(gain):
+        raise ParameterError(f"the factor on the vertical motion must be a finite number, found {vertical}")
+    if needed and gain != 0.0 and motion.record is not None and motion.record.vertical is None:
+        raise ComponentError(
+            f"{motion.record.source or 'record'}: no vertical component; it has {', '.join(motion.record.codes)}: "
+            "leave the vertical motion out, or give a record that has one"
+        )
+    return gain
+
+
+def _kind(value: Any) -> str:
+    """Return what a value is, for a message."""
+    return "nothing" if value is None else f"{type(value).__name__}"
