@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from seisblock.bodies.inset import Inset
 from seisblock.errors import BodyError
 from seisblock.units import STANDARD_GRAVITY
 
@@ -36,12 +37,14 @@ class Block:
         How far the centre of gravity lies to +x of the middle of the base.
     centroid_inertia : float, kg m^2
         Moment of inertia about the centre of gravity; of the homogeneous rectangle when left out.
+    inset : float, m
+        How far in from each side of its base the worn block turns, see :meth:`worn`; its mass, centre and inertia stay as they are.
     name : str
 
     Raises
     ------
     BodyError
-        If a size, the mass or the inertia is not positive, or the centre of gravity does not lie above the base.
+        If a size, the mass or the inertia is not positive, or the centre of gravity does not lie above what is left of the base.
 
     Examples
     --------
@@ -59,15 +62,18 @@ class Block:
     centroid_offset: float = 0.0
     centroid_inertia: float | None = None
     name: str = "block"
+    inset: float = 0.0
 
     def __post_init__(self) -> None:
         for key in ("width", "height", "depth", "mass", "density", "centroid_height", "centroid_inertia"):
             value = getattr(self, key)
             if value is not None and not (math.isfinite(value) and value > 0.0):
                 raise BodyError(f"{self.name}: {key.replace('_', ' ')} must be positive, found {value}")
-        if not abs(self.centroid_offset) < self.width / 2:
+        if not 0.0 <= self.inset < self.width / 2:
+            raise BodyError(f"{self.name}: the inset must lie between 0 and half the width, {self.width / 2:g} m; found {self.inset} m")
+        if not abs(self.centroid_offset) < self.width / 2 - self.inset:
             raise BodyError(
-                f"{self.name}: the centre of gravity must lie above the base, within {self.width / 2:g} m of its middle; "
+                f"{self.name}: the centre of gravity must lie above the base, within {self.width / 2 - self.inset:g} m of its middle; "
                 f"found an offset of {self.centroid_offset} m"
             )
         if self.centroid_height is not None and self.centroid_height > self.height:
@@ -94,8 +100,9 @@ class Block:
 
     @property
     def arms(self) -> tuple[float, float]:
-        """Horizontal distances from the right and the left lower corner to the centre of gravity, m."""
-        return self.width / 2 - self.centroid_offset, self.width / 2 + self.centroid_offset
+        """Horizontal distances from the right and the left lower corner, worn as they are, to the centre of gravity, m."""
+        half = self.width / 2 - self.inset
+        return half - self.centroid_offset, half + self.centroid_offset
 
     @property
     def radii(self) -> tuple[float, float]:
@@ -153,6 +160,16 @@ class Block:
         side = RIGHT if self.slendernesses[RIGHT] <= self.slendernesses[LEFT] else LEFT
         return math.sqrt(gravity * self.lever_ratios[side])
 
+    def worn(self, inset: Inset | float) -> Block:
+        """Return the block with worn edges: a share of its width per side, or an :class:`~seisblock.bodies.inset.Inset`.
+
+        Examples
+        --------
+        >>> round(Block(0.24, 0.72).worn(0.1).rocking_threshold(9.0), 6)
+        2.4
+        """
+        return replace(self, inset=(inset if isinstance(inset, Inset) else Inset(share=inset)).of(self.width))
+
     def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the horizontal ground acceleration above which it rocks, g b/h, m/s^2 ([Furukawa2009]_ eq. (2))."""
         return gravity * min(self.arms) / self.centre
@@ -181,17 +198,24 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
 
 
 def resized(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Block:
-    """Return a block with all lengths multiplied by `size`, and those along the motion also by `slenderness` (mass as it follows)."""
+    """Return a block with all lengths multiplied by `size`, and those along the motion also by `slenderness`.
+
+    A mass that was given stays, else it follows from the volume; a given inertia keeps its radius of gyration, times `size`.
+    """
 
     def times(value: float | None, factor: float) -> float | None:
         return None if value is None else value * factor
 
-    return replace(
+    bare = replace(
         block,
         width=block.width * size * slenderness,
         height=block.height * size,
         depth=times(block.depth, size),
         centroid_height=times(block.centroid_height, size),
         centroid_offset=block.centroid_offset * size * slenderness,
-        centroid_inertia=times(block.centroid_inertia, size**2),
+        centroid_inertia=None,
+        inset=block.inset * size * slenderness,
     )
+    if block.centroid_inertia is None:
+        return bare
+    return replace(bare, centroid_inertia=bare.total_mass * block.gyration_squared * size**2)

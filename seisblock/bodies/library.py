@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.bodies.toml import length, read_table
 from seisblock.bodies.two_layer import two_layer_block
 from seisblock.errors import BodyError, ParameterError
@@ -14,7 +15,7 @@ from seisblock.units import parse_length, parse_mass
 
 _LENGTHS = ("width", "height", "depth", "centroid_height", "centroid_offset")
 _NUMBERS = ("density", "centroid_inertia")
-_KEYS = {"kind", "source", "name", "mass", "restitution", *_LENGTHS, *_NUMBERS}
+_KEYS = {"kind", "source", "name", "mass", "restitution", "inset", *_LENGTHS, *_NUMBERS}
 
 
 def load_block(name: str | Path, *, side: str = "short") -> Block:
@@ -71,7 +72,20 @@ def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
     for key in _NUMBERS:
         if key in table:
             given[key] = number(table[key], f"{where}: {key}")
-    return Block(**given, name=str(table.get("name", where)))
+    block = Block(**given, name=str(table.get("name", where)))
+    return block.worn(_inset(table["inset"], f"{where}: inset")) if "inset" in table else block
+
+
+def _inset(value: Any, what: str) -> Inset:
+    """Return the inset of a table: a text with a length or a share, or a share of the width per side."""
+    return parse_inset(value) if isinstance(value, str) else Inset(share=number(value, what))
+
+
+def edges(block: Block) -> str:
+    """Return what is to be known of a block's edges, empty when they are those of its drawing."""
+    if not block.inset:
+        return ""
+    return f"turns about edges {block.inset * 1e3:.3g} mm in from its sides ({block.inset / block.width:.3g} of the width)"
 
 
 def described(block: Block) -> dict[str, Any]:
@@ -85,6 +99,7 @@ def described(block: Block) -> dict[str, Any]:
         "mass_kg": block.total_mass,
         "centroid_height_m": block.centre,
         "centroid_offset_m": block.centroid_offset,
+        "inset_m": block.inset,
         "centroid_inertia_kg_m2": block.gyration_squared * block.total_mass,
         "slenderness_right_rad": right,
         "slenderness_left_rad": left,

@@ -8,13 +8,15 @@ from typing import Any
 
 import click
 
+from seisblock.bodies.inset import WORN
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
-from seisblock.cli.types import FLOATS, LENGTH
+from seisblock.cli.types import FLOATS, INSET, LENGTH
 
 DEFAULT_BLOCK = "chozusha"
+FITTED_EDGES = "--inset changes nothing here: (9), (10) were fitted to stones whose edges are not sharp; --criterion rigid uses it"
 FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 
 
@@ -57,6 +59,19 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
     metavar="HZ",
     help="Stones: equivalent frequency, Hz, or a list or range. [default: averaged over 0.5-3 Hz, and at 0.5, 1 ... 3]",
 )
+@option(
+    "--criterion",
+    type=click.Choice(["furukawa", "rigid"]),
+    default="furukawa",
+    show_default=True,
+    help="Stones: fit to whole stones (9), (10), or one rigid block under a half sine.",
+)
+@option(
+    "--inset",
+    type=INSET,
+    metavar="SHARE|M",
+    help="Stones, rigid: how far in from each side worn edges lie, a share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.1]",
+)
 @option("--confidence", type=float, default=0.9, show_default=True, help="Stones: level of the intervals, 0 to 1.")
 @option(
     "--common-error",
@@ -96,8 +111,11 @@ def infer(source: Source, output: Output, cemetery: str | None, rate: str | None
 
 def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, Any]) -> None:
     """Answer from fallen stones."""
+    from functools import partial
+
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.present.document import Answer
+    from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
     from seisblock.studies.cemetery.rate import FREQUENCIES
     from seisblock.studies.inverse.estimate import Model, contour, estimate_shaking, groups_of, remarks_of
     from seisblock.studies.inverse.survey import counted_survey, marked_survey, parse_rate
@@ -106,11 +124,14 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
     for note in stones.notes[:1]:
         say(f"{cemetery}: {note}")
     survey = marked_survey(stones) if rate is None else counted_survey(stones, *parse_rate(rate))
-    model = Model(asked["common_error"], asked["stone_error"], asked["confidence"])
+    inset, criterion = asked["inset"] or WORN, asked["criterion"]
+    limits = partial(rigid_limits, inset=inset, gravity=asked["gravity"]) if criterion == "rigid" else fitted_limits
+    model = Model(asked["common_error"], asked["stone_error"], asked["confidence"], limits)
     frequencies = asked["frequency"] or (None, *FREQUENCIES)
     estimates = [estimate_shaking(part, f, model, stones=name) for name, part in groups_of(survey) for f in frequencies]
     line = contour(survey, model)
-    warnings = list(dict.fromkeys(text for each in estimates for text in remarks_of(each)))
+    warnings = [FITTED_EDGES] if asked["inset"] is not None and criterion == "furukawa" else []
+    warnings += dict.fromkeys(text for each in estimates for text in remarks_of(each))
     parameters = {
         "cemetery": cemetery,
         "stones": stones.size,
@@ -119,7 +140,8 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
         "confidence": model.level,
         "common_error_ln_pga": model.common_error,
         "stone_error_ln_pga": model.stone_error,
-        "criterion": "furukawa",
+        "criterion": criterion,
+        "inset": inset if criterion == "rigid" else None,
         "prior": "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given",
         "intensity": "2.68 + 1.72 log10 PGV (kine), standard deviation 0.21",
     }
@@ -128,7 +150,7 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
         parameters,
         [asdict(each) for each in estimates],
         (),
-        ("Furukawa2009", "Midorikawa1999"),
+        ("Furukawa2009", *(("Housner1963",) if criterion == "rigid" else ()), "Midorikawa1999"),
         warnings,
         {"contour": [asdict(each) for each in line]},
     )

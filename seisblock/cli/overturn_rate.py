@@ -7,18 +7,21 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from seisblock.bodies.inset import HALF, WORN, Inset
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
-from seisblock.cli.types import FLOATS, LENGTH
+from seisblock.cli.types import FLOATS, INSET, LENGTH
 
 if TYPE_CHECKING:
     from seisblock.studies.cemetery.judgement import FrequencyKind
 
 KINDS: dict[str, FrequencyKind] = {"pga-pgv": "pga_pgv", "fourier": "fourier", "pulse-width": "pulse_width"}
 """Definitions of the equivalent frequency, as they are spelled here and in the library."""
+
+FITTED_EDGES = "--inset changes nothing here: (9), (10) were fitted to stones whose edges are not sharp; --criterion rigid, simulate use it"
 
 
 def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[float, float, float] | None:
@@ -91,10 +94,10 @@ def _share(ctx: click.Context, param: click.Parameter, value: float) -> float:
 )
 @option(
     "--inset",
-    type=float,
-    default=1.0,
-    show_default=True,
-    help="simulate: half width of the pivots over that of the stone; 0.8 comes close to (9).",
+    type=INSET,
+    metavar="SHARE|M",
+    help="rigid, simulate: how far in from each side a stone's worn edges lie, a share of its width (0.1, 10%), or m with a unit "
+    "(1cm). [default: 0.1]",
 )
 @option("--fit", callback=_fit, metavar="P,Q,R", help="furukawa: own parameters without a dowel, gal, Hz, 1. [default: 826.8,1.92,4.6]")
 @option(
@@ -123,7 +126,8 @@ def overturn_rate(
         say(f"{cemetery}: {note}")
     stones = stones.dowelled() if reinforced else stones
     after = stones.dowelled(most_fragile) if both or most_fragile else None
-    method = _method(asked)
+    inset, notes = _edges(asked["inset"], asked["criterion"])
+    method = _method({**asked, "inset": inset})
     groups = _groups(source, asked)
     with progress("rates against PGA") as tell:
         judged = [
@@ -134,7 +138,7 @@ def overturn_rate(
         simulated = [point for _, rates in judged for each in rates for point in each.curve] if method.criterion == "simulate" else []
         curve = simulated or study.curve_of(stones, method, frequencies=frequencies, progress=tell)
     found = [(record, [*rates, study.larger_of(rates)] if record is not None and len(rates) > 1 else rates) for record, rates in judged]
-    warnings = study.warnings_of(stones, [each for _, shakings in groups for each in shakings], method, after=after)
+    warnings = notes + study.warnings_of(stones, [each for _, shakings in groups for each in shakings], method, after=after)
     parameters = _parameters(stones, after, method, asked)
     answer = Answer(
         "overturn-rate",
@@ -179,6 +183,20 @@ def _method(asked: dict[str, Any]) -> Any:
     return Method(asked["criterion"], (plain, dowelled), asked["inset"], width, asked["gravity"], asked["confidence"])
 
 
+def _edges(inset: Inset | None, criterion: str) -> tuple[Inset, list[str]]:
+    """Return the inset that is meant, and what must be said of how it was understood."""
+    if inset is None:
+        if criterion != "furukawa":
+            say(f"stones turn about edges worn by {WORN.share:g} of their width per side; --inset 0 for sharp ones")
+        return WORN, []
+    if criterion == "furukawa":
+        return inset, [FITTED_EDGES]
+    if inset.length_m == 0.0 and HALF < inset.share <= 1.0:
+        told = Inset(share=round((1.0 - inset.share) / 2, 12))
+        return told, [f"--inset {inset.share:g} is understood as in 0.1.0, pivots over half width: {told.share:g} of the width per side"]
+    return inset, []
+
+
 def _groups(source: Source, asked: dict[str, Any]) -> list[tuple[Any, list[Any]]]:
     """Return the shakings to judge, under the record they belong to, or None."""
     from seisblock.studies.cemetery.judgement import Shaking, shakings_of
@@ -220,7 +238,7 @@ def _parameters(stones: Any, after: Any, method: Any, asked: dict[str, Any]) -> 
         "criterion": method.criterion,
         "fit": method.fits[0],
         "fit_reinforced": method.fits[1],
-        "inset": method.inset,
+        "inset": None if method.criterion == "furukawa" else method.inset,
         "stone_width_m": method.width,
         "gravity_m_s2": method.gravity,
         "confidence": method.confidence,

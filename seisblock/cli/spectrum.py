@@ -6,11 +6,12 @@ from typing import Any
 
 import click
 
+from seisblock.bodies.inset import SHARP, Inset
 from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.rock import along, need_vertical
-from seisblock.cli.types import FLOATS, LENGTHS
+from seisblock.cli.types import FLOATS, INSET, LENGTHS
 from seisblock.errors import ParameterError
 
 KINDS = ("rocking", "overturning", "sliding")
@@ -39,6 +40,13 @@ KINDS = ("rocking", "overturning", "sliding")
 @option(
     "--slenderness-rad", type=FLOATS, section="Body", metavar="LIST|RANGE", help="alpha = atan(B/H), rad, instead of --height-over-width."
 )
+@option(
+    "--inset",
+    type=INSET,
+    metavar="SHARE|M",
+    section="Body",
+    help="How far in from each side the blocks' worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm). [default: 0]",
+)
 @option("--steps", type=click.IntRange(2, 1000), default=40, show_default=True, help="Points of each axis that is left to its default.")
 @rocking_options
 @gravity_option
@@ -53,6 +61,7 @@ def spectrum(
     frequency_parameter: tuple[float, ...] | None,
     height_over_width: tuple[float, ...] | None,
     slenderness_rad: tuple[float, ...] | None,
+    inset: Inset | None,
     steps: int,
     restitution: float | None,
     linear: bool,
@@ -70,6 +79,7 @@ def spectrum(
             "frequency-parameter": frequency_parameter,
             "height-over-width": height_over_width,
             "slenderness-rad": slenderness_rad,
+            "inset": inset,
             "restitution": restitution,
             "linear": linear,
         }
@@ -90,7 +100,7 @@ def spectrum(
     _one_of(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
     diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else default_sizes(steps))
     alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else default_slendernesses(steps))
-    options: dict[str, Any] = {"restitution": restitution, "linear": linear, "vertical": vertical}
+    options: dict[str, Any] = {"restitution": restitution, "linear": linear, "vertical": vertical, "inset": inset or SHARP}
     records = load(source)
     found = []
     for record in records:
@@ -105,7 +115,7 @@ def spectrum(
     emit(
         Answer("spectrum", {"kind": kind, "gravity_m_s2": gravity, **options}, results, records, ["Housner1963", "Zhang2001"]),
         output,
-        tables=lambda: shown.tables(found, kind),
+        tables=lambda: shown.tables(found, kind, f"; edges worn by {inset.share:g} B + {inset.length_m:g} m per side" if inset else ""),
         csv=lambda path: shown.write(path, found),
         figure=lambda: _draw(found, kind, gravity),
     )

@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.errors import InputError
 from seisblock.units import parse_length, parse_mass
 
@@ -36,6 +37,19 @@ class Mass(click.ParamType):  # type: ignore[type-arg]
         """Return kilograms."""
         try:
             return parse_mass(value)
+        except InputError as error:
+            self.fail(str(error), param, ctx)
+
+
+class InsetType(click.ParamType):  # type: ignore[type-arg]
+    """How far in from each side a block turns: a share of the width (``0.1``, ``10%``), or a length with its unit (``1cm``)."""
+
+    name = "inset"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Inset:
+        """Return the inset."""
+        try:
+            return value if isinstance(value, Inset) else parse_inset(value)
         except InputError as error:
             self.fail(str(error), param, ctx)
 
@@ -104,6 +118,7 @@ class Window(click.ParamType):  # type: ignore[type-arg]
 
 LENGTH = Length()
 MASS = Mass()
+INSET = InsetType()
 FLOATS = Floats()
 LENGTHS = Floats(unit=parse_length)
 MASSES = Floats(unit=parse_mass)

@@ -275,9 +275,8 @@ def rigid_top(body: Pile, points: int) -> Block:
     inertia = sum(
         m * ((s.width**2 + s.height**2) / 12.0 + (c[0] - x) ** 2 + (c[2] - z) ** 2) for m, s, c in zip(masses, stones, centres, strict=True)
     )
-    inset = 1.0 if points == 2 else 1.0 - 1.0 / points
     return Block(
-        stones[0].width * inset,
+        stones[0].width,
         sum(stone.height for stone in stones),
         depth=stones[0].depth,
         mass=float(masses.sum()),
@@ -285,6 +284,7 @@ def rigid_top(body: Pile, points: int) -> Block:
         centroid_offset=float(x - centres[0, 0]),
         centroid_inertia=float(inertia),
         name=stones[-1].name,
+        inset=0.0 if points == 2 else stones[0].width / (2.0 * points),
     )
 
 

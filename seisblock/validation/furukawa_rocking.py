@@ -2,7 +2,7 @@
 
 The stones of table 1 (8 sun wide, 10 to 52 sun high) stand on a rigid base under 20 s of sine, 100 to 1300 gal by 100, as in the paper's
 runs; a(f) is the least-squares hyperbola through the least H/B that overturns, where some stone of the range stands. Once the block turns
-about its own edges, once about points at 0.8 of the half width, as the contact points of the paper's discrete elements do.
+about its own edges, once about edges 0.1 of its width in from each side, as the contact points of the paper's discrete elements do.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def least_ratio(frequency: float, amplitude: float, inset: float) -> float | Non
     t = np.arange(round(DURATION / STEP) + 1) * STEP
     sine = Motion.from_arrays(amplitude * np.sin(2 * math.pi * frequency * t), STEP)
     for height in HEIGHTS:
-        if rock_verdict(Block(inset * WIDTH, height), sine, gravity=GRAVITY).overturned:
+        if rock_verdict(Block(WIDTH, height).worn(inset), sine, gravity=GRAVITY).overturned:
             return float(height / WIDTH)
     return None
 
@@ -58,8 +58,8 @@ def _expected(frequency: float) -> float:
 CASES = (
     *(
         Case(
-            f"furukawa-rocking-inset-{f:g}", "[Furukawa2009]_ fig. 6", f"a({f:g} Hz) of a rigid block that turns about 0.8 of its half width",
-            "m/s^2", _expected(f), 0.10 * _expected(f), partial(rocking_level, f, 0.8), quick=False,
+            f"furukawa-rocking-inset-{f:g}", "[Furukawa2009]_ fig. 6", f"a({f:g} Hz) of a rigid block with edges worn by 0.1 of its width per side",
+            "m/s^2", _expected(f), 0.10 * _expected(f), partial(rocking_level, f, 0.1), quick=False,
             note="expected: eq. (8); the tolerance of 10 % is ours: eq. (8) is itself a fit through six points",
         )
         for f in FREQUENCIES
@@ -67,7 +67,7 @@ CASES = (
     *(
         Case(
             f"furukawa-rocking-edges-{f:g}", "[Furukawa2009]_ fig. 6", f"a({f:g} Hz) of a rigid block that turns about its edges",
-            "m/s^2", _expected(f), 0.10 * _expected(f), partial(rocking_level, f, 1.0), status="differs", quick=False,
+            "m/s^2", _expected(f), 0.10 * _expected(f), partial(rocking_level, f, 0.0), status="differs", quick=False,
             note="differs: a stone that turns about its edges resists 26 to 48 % more than eq. (9) says; the contact points of the discrete "
             "elements lie inside the edges, and the pile below moves",
         )

@@ -89,3 +89,15 @@ def test_resizing_a_given_mass_keeps_what_was_given():
     """A mass that was given stays; its inertia scales with the square of the size."""
     block = resized(Block(0.4, 1.0, mass=100.0, centroid_inertia=9.0), size=2.0)
     assert (block.total_mass, block.centroid_inertia) == (100.0, 36.0)
+
+
+@pytest.mark.parametrize("depth", [None, 0.3])
+def test_resizing_a_given_inertia_keeps_its_gyration(depth):
+    """Where the mass follows from the volume, the inertia follows the mass: its radius of gyration doubles with the size, no more (N6)."""
+    block = Block(0.4, 1.0, depth, centroid_inertia=30.0)
+    for slenderness in (1.0, 1.1):
+        twice = resized(block, size=2.0, slenderness=slenderness)
+        assert twice.gyration_squared == pytest.approx(4.0 * block.gyration_squared, rel=1e-12)
+        assert twice.frequency_parameter(9.8) == pytest.approx(
+            Block(0.8 * slenderness, 2.0, mass=1.0, centroid_inertia=4.0 * block.gyration_squared).frequency_parameter(9.8), rel=1e-12
+        )

@@ -73,8 +73,8 @@ def test_document(run, pulse):
 
 
 def test_sizes_in_sun_and_bundled_body_agree(run, pulse):
-    """8 sun by 20.8 sun is the bundled gravestone."""
-    sizes = json.loads(run(pulse, "--width", "8sun", "--height", "20.8sun", "--json").stdout)
+    """8 sun by 20.8 sun with edges worn by a tenth per side is the bundled gravestone."""
+    sizes = json.loads(run(pulse, "--width", "8sun", "--height", "20.8sun", "--inset", "10%", "--json").stdout)
     named = json.loads(run(pulse, "--block", "gravestone", "--json").stdout)
     assert sizes["results"] == named["results"]
     assert named["parameters"]["block"]["width_m"] == pytest.approx(0.2424)

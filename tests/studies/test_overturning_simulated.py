@@ -8,6 +8,7 @@ import pytest
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.inset import SHARP, WORN, Inset
 from seisblock.criteria.gravestones import overturning_level
 from seisblock.errors import ParameterError
 from seisblock.readers import read
@@ -21,7 +22,7 @@ AOYAMA = read_cemetery("aoyama.csv")
 GRID = Cemetery(tuple(Stone(float(ratio)) for ratio in np.arange(1.25, 6.51, 0.05)))
 
 
-def fitted_level(frequency: float, inset: float) -> float:
+def fitted_level(frequency: float, inset: Inset) -> float:
     """Return a(f) of (7) from the least ratios that fall under sines of 300 to 1300 gal, in gal."""
     motion, products = sine_motion(1.0, frequency), []
     for pga in np.arange(3.0, 13.1, 1.0):
@@ -33,8 +34,8 @@ def fitted_level(frequency: float, inset: float) -> float:
 
 def test_the_stone_keeps_its_mass_and_inertia_when_its_pivots_move_in():
     """Inset pivots change the arms and nothing else."""
-    plain, inset = sao(2.6), sao(2.6, inset=0.8)
-    assert plain == Block(0.2424, 2.6 * 0.2424, depth=0.2424, mass=plain.mass, centroid_inertia=plain.centroid_inertia, name="sao")
+    plain, inset = sao(2.6, inset=SHARP), sao(2.6)
+    assert plain == Block(0.2424, 2.6 * 0.2424, name="sao")
     assert inset.total_mass == pytest.approx(Block(0.2424, 2.6 * 0.2424).total_mass)
     assert inset.gyration_squared == pytest.approx((0.2424**2 + (2.6 * 0.2424) ** 2) / 12)
     assert inset.rocking_threshold() == pytest.approx(0.8 * plain.rocking_threshold())
@@ -44,8 +45,8 @@ def test_the_stone_keeps_its_mass_and_inertia_when_its_pivots_move_in():
 def test_inset_pivots_reproduce_eq_9_and_the_edges_do_not(frequency):
     """With the pivots of 5 x 5 contact points a(f) is within a tenth of (9), without inset it is more than 20 % too high."""
     printed = 100.0 * float(overturning_level(frequency))
-    assert fitted_level(frequency, 0.8) == pytest.approx(printed, rel=0.1)
-    assert fitted_level(frequency, 1.0) > 1.2 * printed
+    assert fitted_level(frequency, WORN) == pytest.approx(printed, rel=0.1)
+    assert fitted_level(frequency, SHARP) > 1.2 * printed
 
 
 def test_a_stone_alone_and_in_a_cemetery_fall_alike():
@@ -60,15 +61,15 @@ def test_a_stone_alone_and_in_a_cemetery_fall_alike():
 
 def test_simulated_curves_and_the_formula_are_close_at_low_frequency():
     """At 0.5 Hz and with inset pivots the simulated rates are within 0.05 of (9)."""
-    for point in simulated_curve(AOYAMA, [(sine_motion(1.0, 0.5), 0.5)], inset=0.8):
+    for point in simulated_curve(AOYAMA, [(sine_motion(1.0, 0.5), 0.5)]):
         assert point.rate == pytest.approx(overturning_rate(AOYAMA, point.pga_m_s2, 0.5).rate, abs=0.05)
 
 
 def test_what_cannot_be_simulated_is_refused():
-    """A dowel, an inset outside (0, 1] and a sine without a frequency are one sentence."""
+    """A dowel, an inset that leaves no base and a sine without a frequency are one sentence."""
     with pytest.raises(ParameterError, match="knows no dowel"):
         simulated_overturns(AOYAMA.dowelled(), sine_motion(1.0, 1.0))
-    with pytest.raises(ParameterError, match=r"inset.*\(0, 1\], found 0"):
-        sao(2.0, inset=0.0)
+    with pytest.raises(ParameterError, match=r"inset of 0\.1212 m per side leaves nothing"):
+        sao(2.0, inset=Inset(share=0.5))
     with pytest.raises(ParameterError, match="positive frequency"):
         sine_motion(1.0, 0.0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.library import block_of, restitution_of
+from seisblock.bodies.library import block_of, edges, restitution_of
 from seisblock.bodies.toml import read_table
 from seisblock.errors import BodyError
 
@@ -27,8 +27,8 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
     Parameters
     ----------
     asked : mapping
-        ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI; ``restitution`` overrides what a file
-        brings along. None where not given.
+        ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI; ``restitution`` and ``inset`` override
+        what a file brings along. None where not given.
 
     Raises
     ------
@@ -45,9 +45,15 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
         if restitution is None:
             restitution = restitution_of(table, asked["block"])
         block = block_of(table, side=asked.get("side") or "short")
-        return BlockChoice(block, restitution, f"{block.name}, from {asked['block']}")
-    missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
-    if missing:
-        raise BodyError(f"which block? {' and '.join(missing)} missing: give --width and --height, or --block NAME|FILE (say gravestone)")
-    block = Block(**sizes)
-    return BlockChoice(block, restitution, f"block {block.width:g} m wide, {block.height:g} m high")
+        origin = f"{block.name}, from {asked['block']}"
+    else:
+        missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
+        if missing:
+            raise BodyError(
+                f"which block? {' and '.join(missing)} missing: give --width and --height, or --block NAME|FILE (say gravestone)"
+            )
+        block = Block(**sizes)
+        origin = f"block {block.width:g} m wide, {block.height:g} m high"
+    if asked.get("inset") is not None:
+        block = block.worn(asked["inset"])
+    return BlockChoice(block, restitution, ", ".join(part for part in (origin, edges(block)) if part))

@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from seisblock.cli.command import option
-from seisblock.cli.types import LENGTH, MASS
+from seisblock.cli.types import INSET, LENGTH, MASS
 
 _SIZES = (
     option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit (24cm, 8sun)."),
@@ -27,6 +27,14 @@ _REST = (
         metavar="KG.M2",
         section="Body",
         help="Moment of inertia about the centre of gravity, kg m^2. [default: m (B^2 + H^2)/12]",
+    ),
+    option(
+        "--inset",
+        type=INSET,
+        metavar="SHARE|M",
+        section="Body",
+        help="How far in from each side its worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm). "
+        "[default: the body's own, 0.1 for gravestones, else 0]",
     ),
     option("--block", metavar="NAME|FILE", section="Body", help="Bundled body (gravestone) or TOML file, instead of sizes."),
     option(

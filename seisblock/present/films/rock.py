@@ -78,9 +78,11 @@ def to_the_end(response: Response[RockOutcome]) -> Response[RockOutcome]:
 
 
 def corners(block: Block, theta: float) -> FloatArray:
-    """Return the corners of the leaning block, (4, 2), m, from the middle of its base at rest."""
-    half = block.width / 2
-    at_rest = np.array([[-half, 0.0], [half, 0.0], [half, block.height], [-half, block.height]])
+    """Return the corners of the leaning block, (4, 2), m, from the middle of its base at rest; (6, 2) with bevels where it is worn."""
+    half, top, worn = block.width / 2, block.height, block.inset
+    base = [[worn - half, 0.0], [half - worn, 0.0]]
+    sides = [[half, worn], [half, top], [-half, top], [-half, worn]] if worn else [[half, top], [-half, top]]
+    at_rest = np.array([*base, *sides])
     return _turned(at_rest, block, theta)
 
 
@@ -92,5 +94,5 @@ def centre_of(block: Block, theta: float) -> tuple[float, float]:
 
 def _turned(points: FloatArray, block: Block, theta: float) -> FloatArray:
     """Turn points about the corner in contact: the right one when the lean is positive."""
-    pivot = np.array([math.copysign(block.width / 2, theta), 0.0])
+    pivot = np.array([math.copysign(block.width / 2 - block.inset, theta), 0.0])
     return turned(points - pivot, theta) + pivot

@@ -105,7 +105,8 @@ def _body(found: Assessment, body: BodyAssessment, lang: str) -> Iterator[str]:
     alpha = math.degrees(block.slenderness)
     size = f"{block.width:.3g} × {block.height:.3g} m, H/B {block.height / block.width:.3g}, α {alpha:.2f}°"
     friction = "" if body.subject.mu is None else f", μ {body.subject.mu:g} / {body.subject.mu_kinetic:g}"
-    yield f'<p class="soft">{escape(size + friction)}</p>'
+    worn = f", worn {block.inset * 1e3:.3g} mm per side" if block.inset else ""
+    yield f'<p class="soft">{escape(size + worn + friction)}</p>'
     for kind in ORDER:
         effects = _of(body, kind)
         if effects:

@@ -10,6 +10,7 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.library import edges
 from seisblock.criteria.card import ACCELERATION, Row
 from seisblock.measures import ComponentMeasures
 from seisblock.present.files import write_table
@@ -71,6 +72,7 @@ def _tables(card: Card, *, gal: bool) -> Iterator[Any]:
     factors = (GAL, KINE) if gal else (1.0, 1.0)
     title = f"{card.component}: {card.block.name} {card.block.width:g} x {card.block.height:g} m, " + (
         f"PGA {m.pga_m_s2 / factors[0]:.4g} {units[0]}, PGV {m.pgv_m_s / factors[1]:.4g} {units[1]}"
+        + (f"\n{worn}" if (worn := edges(card.block)) else "")
     )
     plain = [row for row in card.rows if row.frequency is None]
     cells = []

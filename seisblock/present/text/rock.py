@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from rich.text import Text
 
+from seisblock.bodies.library import edges
 from seisblock.present.text.tables import acceleration, acceleration_unit, number, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
@@ -37,7 +38,7 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
     threshold = f"{acceleration(first.threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}"
     title = (
         f"{body.name}: alpha {first.slenderness_rad:.4f} rad, p {first.frequency_parameter_rad_s:.3f} rad/s\n"
-        f"restitution {first.restitution:.4f}, rocks above {threshold}"
+        f"restitution {first.restitution:.4f}, rocks above {threshold}" + (f"\n{worn}" if (worn := edges(body)) else "")
     )
     rows: list[tuple[str, list[Any]]] = [
         ("PGA (" + acceleration_unit(gal=gal) + ")", [acceleration(float(np.abs(r.motion.horizontal).max()), gal=gal) for r in responses]),

@@ -36,8 +36,8 @@ def document(motion: Motion, found: RockingSpectrum) -> dict[str, Any]:
     }
 
 
-def tables(spectra: Spectra, kind: str) -> Iterator[Any]:
-    """Yield, per component, a table of at most 12 sizes and 9 slendernesses, and the share that falls."""
+def tables(spectra: Spectra, kind: str, worn: str = "") -> Iterator[Any]:
+    """Yield, per component, a table of at most 12 sizes and 9 slendernesses, and the share that falls; `worn` tells of the edges."""
     last = None
     for motion, found in spectra:
         if motion.record is not None and motion.record is not last:
@@ -47,7 +47,7 @@ def tables(spectra: Spectra, kind: str) -> Iterator[Any]:
         what = "overturning" if kind == "overturning" else "largest lean over alpha"
         heads = [f"{1 / math.tan(found.slenderness_rad[j]):.2f}" for j in columns]
         cells = [[f"{found.size_m[i]:.3g}", *(_cell(found, i, j, kind) for j in columns)] for i in rows]
-        yield table(f"{motion.name}: {what}; down 2R (m), across H/B", ["2R \\ H/B", *heads], cells)
+        yield table(f"{motion.name}: {what}; down 2R (m), across H/B{worn}", ["2R \\ H/B", *heads], cells)
         total = found.overturned.size
         yield Text(f"{motion.name}: {int(found.overturned.sum())} of {total} blocks overturn.")
         yield Text()

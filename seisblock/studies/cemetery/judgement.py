@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
+from seisblock.bodies.inset import WORN, Inset
 from seisblock.criteria.gravestones import DOWELLED, DOWELLED_REMARK, PLAIN, GravestoneFit, outside_fit
 from seisblock.errors import ParameterError
 from seisblock.measures import Conventions, measure
@@ -36,8 +37,8 @@ class Method:
         [Furukawa2009]_ eqs. (9), (10); one rigid block under a half-sine pulse; one rigid block that rocks under the motion itself.
     fits : two GravestoneFit
         For stones without and with a dowel; furukawa only.
-    inset : float
-        Half width of the pivots over that of the stone; simulate only.
+    inset : Inset
+        How far the edges of the stones are worn; rigid and simulate only: the fits have it in them.
     width : float, m
         Of stones whose width is not known; furukawa needs none.
     gravity : float, m/s^2
@@ -47,7 +48,7 @@ class Method:
 
     criterion: Criterion = "furukawa"
     fits: tuple[GravestoneFit, GravestoneFit] = (PLAIN, DOWELLED)
-    inset: float = 1.0
+    inset: Inset = WORN
     width: float = PAPER_WIDTH
     gravity: float = STANDARD_GRAVITY
     confidence: float = CONFIDENCE
@@ -56,7 +57,7 @@ class Method:
         """Return the PGA beyond which each stone falls, (size,), m/s^2, for the criteria that have one."""
         if self.criterion == "furukawa":
             return fitted_limits(cemetery, frequency, fits=self.fits)
-        return rigid_limits(cemetery, frequency, width=self.width, gravity=self.gravity)
+        return rigid_limits(cemetery, frequency, inset=self.inset, width=self.width, gravity=self.gravity)
 
     @property
     def citations(self) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
+from seisblock.bodies.inset import WORN, Inset
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, overturning_level
 from seisblock.criteria.pulses import half_sine_ratio
 from seisblock.errors import ParameterError
@@ -38,7 +39,9 @@ def fitted_limits(cemetery: Cemetery, frequency: float, *, fits: tuple[Graveston
     return limits
 
 
-def rigid_limits(cemetery: Cemetery, frequency: float, *, width: float = PAPER_WIDTH, gravity: float = STANDARD_GRAVITY) -> FloatArray:
+def rigid_limits(
+    cemetery: Cemetery, frequency: float, *, inset: Inset = WORN, width: float = PAPER_WIDTH, gravity: float = STANDARD_GRAVITY
+) -> FloatArray:
     """Return the PGA beyond which each stone falls as one rigid block under a half-sine pulse ([Housner1963]_).
 
     It is alpha g X, X the exact factor for a slender block, and at least the g B/H that starts rocking ([Furukawa2009]_ eq. (2)).
@@ -49,6 +52,8 @@ def rigid_limits(cemetery: Cemetery, frequency: float, *, width: float = PAPER_W
         Stones that stand loose: a dowelled pile is no such block.
     frequency : float, Hz
         As for :func:`fitted_limits`.
+    inset : Inset
+        How far the edges are worn; a length or a share of the width, per side.
     width : float, m
         Of stones whose width is not known.
     gravity : float, m/s^2
@@ -60,13 +65,13 @@ def rigid_limits(cemetery: Cemetery, frequency: float, *, width: float = PAPER_W
     Raises
     ------
     ParameterError
-        If a stone is reinforced.
+        If a stone is reinforced, or the inset leaves nothing of a base.
     """
     require_loose(cemetery)
     if not frequency >= 0.0:
         raise ParameterError(f"the frequency must be zero or positive, in Hz; found {frequency}")
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
-    return np.array([_rigid_limit(Block(b, b * ratio), frequency, gravity) for ratio, b in sizes.tolist()])[index.ravel()]
+    return np.array([_rigid_limit(Block(b, b * ratio).worn(inset), frequency, gravity) for ratio, b in sizes.tolist()])[index.ravel()]
 
 
 def _rigid_limit(stone: Block, frequency: float, gravity: float) -> float:

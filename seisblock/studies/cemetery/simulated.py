@@ -1,7 +1,7 @@
 """Which stones of a cemetery fall when each is let rock as one rigid block, beside the formula fitted to whole piles.
 
-A block whose pivots stand at the edges of its base needs more shaking than [Furukawa2009]_ eq. (9) says; with pivots inset to 0.8 of
-the half width, where the outermost of 5 x 5 contact points lie, it comes within a tenth of (9).
+A block that turns about the edges of its base needs more shaking than [Furukawa2009]_ eq. (9) says; about edges worn by 0.1 of its
+width per side, where the outermost of 5 x 5 contact points lie, it comes within a tenth of (9).
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
+from seisblock.bodies.inset import WORN, Inset
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.rock.solve import rock_verdict
@@ -54,27 +55,22 @@ def sine_motion(pga: float, frequency: float) -> Motion:
     return Motion.from_arrays(pga * np.sin(phase), dt, name=f"sine {frequency:g} Hz")
 
 
-def sao(height_over_width: float, width: float = PAPER_WIDTH, *, inset: float = 1.0) -> Block:
-    """Return the top stone of a grave as a rigid block whose pivots stand in from the edges of its base.
+def sao(height_over_width: float, width: float = PAPER_WIDTH, *, inset: Inset = WORN) -> Block:
+    """Return the top stone of a grave as a rigid block with worn edges.
 
     Parameters
     ----------
     height_over_width, width : float, 1 and m
         H/B and B of the homogeneous stone.
-    inset : float
-        Half width of the pivots over that of the stone, in (0, 1]; 0.8 is the outermost of 5 x 5 segment centres.
+    inset : Inset
+        Per side; 0.1 of the width is where the outermost of 5 x 5 segment centres lie.
 
     Raises
     ------
     ParameterError
-        If the inset lies outside (0, 1].
+        If the inset leaves nothing of the base.
     """
-    if not 0.0 < inset <= 1.0:
-        raise ParameterError(f"the inset, pivots over half width, must lie in (0, 1], found {inset}")
-    height = width * height_over_width
-    stone = Block(width, height)
-    mass = stone.total_mass
-    return Block(width * inset, height, depth=width, mass=mass, centroid_inertia=mass * stone.gyration_squared, name="sao")
+    return Block(width, width * height_over_width, name="sao").worn(inset)
 
 
 def simulated_overturns(
@@ -82,7 +78,7 @@ def simulated_overturns(
     motion: Motion,
     *,
     scale: float = 1.0,
-    inset: float = 1.0,
+    inset: Inset = WORN,
     width: float = PAPER_WIDTH,
     gravity: float = STANDARD_GRAVITY,
 ) -> BoolArray:
@@ -95,7 +91,7 @@ def simulated_overturns(
     motion : Motion
     scale : float
         Factor on the motion.
-    inset : float
+    inset : Inset
         As for :func:`sao`.
     width : float, m
         For stones whose width is not known.
@@ -104,7 +100,7 @@ def simulated_overturns(
     Raises
     ------
     ParameterError
-        If a stone is reinforced, or the inset lies outside (0, 1].
+        If a stone is reinforced, or the inset leaves nothing of a base.
     """
     require_loose(cemetery)
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
@@ -118,7 +114,7 @@ def simulated_curve(
     motions: Sequence[tuple[Motion, float]],
     pga: Sequence[float] = SIMULATED_PGA,
     *,
-    inset: float = 1.0,
+    inset: Inset = WORN,
     width: float = PAPER_WIDTH,
     gravity: float = STANDARD_GRAVITY,
     progress: Progress | None = None,

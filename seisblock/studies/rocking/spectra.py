@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.rock.solve import check_options, rock_verdict
@@ -46,6 +47,7 @@ def rocking_spectrum(
     slendernesses: ArrayLike,
     motion: Motion,
     *,
+    inset: Inset = SHARP,
     gravity: float = STANDARD_GRAVITY,
     progress: Progress | None = None,
     **options: Any,
@@ -57,8 +59,10 @@ def rocking_spectrum(
     sizes : (n,) array, m
         2R, positive.
     slendernesses : (m,) array, rad
-        alpha, between 0 and pi/2.
+        alpha, between 0 and pi/2; of the block as drawn, as 2R is.
     motion : Motion
+    inset : Inset
+        How far the edges are worn, per side; leans are then told over the alpha that is left.
     gravity : float, m/s^2
     progress : callable
         Told the number of runs done and the number in all.
@@ -76,7 +80,7 @@ def rocking_spectrum(
 
     def run(index: int) -> tuple[bool, float]:
         d, a = float(diagonal[index // alpha.size]), float(alpha[index % alpha.size])
-        verdict = rock_verdict(Block(d * math.sin(a), d * math.cos(a)), motion, gravity=gravity, **options)
+        verdict = rock_verdict(Block(d * math.sin(a), d * math.cos(a)).worn(inset), motion, gravity=gravity, **options)
         return verdict.overturned, verdict.max_rotation_ratio
 
     overturned = np.zeros((diagonal.size, alpha.size), dtype=np.bool_)
