@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.errors import BodyError
+from seisblock.ledger import reading
 from seisblock.units import parse_length, parse_mass
 
 
@@ -37,6 +38,7 @@ def read_table(name: str | Path) -> dict[str, Any]:
         raise BodyError(f"{name} is a directory: give a TOML file that describes a body")
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        reading(path)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise BodyError(f"{name} is not a TOML description of a body: {error}") from error
     return {"source": str(name), **table}

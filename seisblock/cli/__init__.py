@@ -16,8 +16,10 @@ import click
 from click.shell_completion import CompletionItem
 
 from seisblock import __version__, _jit
+from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, printable
 from seisblock.cli.talk import say
-from seisblock.errors import SeisblockError
+from seisblock.errors import OutputError, SeisblockError
+from seisblock.ledger import ledger
 
 COMMANDS: dict[str, tuple[str, str]] = {
     "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
@@ -83,9 +85,10 @@ class SeisblockGroup(click.Group):
         """Invoke the command and report what the user can mend."""
         _jit.announce = say
         try:
-            result = super().invoke(ctx)
-            sys.stdout.flush()
-            return result
+            with printable(), ending_in_order(), ledger():
+                result = super().invoke(ctx)
+                sys.stdout.flush()
+                return result
         except SeisblockError as error:
             click.secho(f"seisblock: {error}", fg="red", err=True)
             ctx.exit(error.exit_code)
@@ -94,8 +97,14 @@ class SeisblockGroup(click.Group):
             ctx.exit(INTERRUPTED)
         except BrokenPipeError:
             # the reader went away (| head): nothing to say, and nothing may be flushed at exit
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            discard_stdout()
             ctx.exit(BROKEN_PIPE)
+        except Terminated:
+            ctx.exit(TERMINATED)
+        except OSError as error:
+            discard_stdout()
+            click.secho(f"seisblock: cannot write {error.filename or 'the answer'}: {error.strerror or error}", fg="red", err=True)
+            ctx.exit(OutputError.exit_code)
         finally:
             _jit.announce = None
 

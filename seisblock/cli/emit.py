@@ -14,6 +14,7 @@ from seisblock.cli.talk import say, warn
 from seisblock.errors import OutputError
 from seisblock.present.document import Answer, to_json
 from seisblock.present.faces import figure_of, film_of
+from seisblock.present.files import refuse_collisions
 from seisblock.present.words import language
 from seisblock.results import Response
 
@@ -63,6 +64,7 @@ def emit(
         raise OutputError(f"{answer.command} has no figure here: leave --plot out")
     if output.animate is not None and animation is None:
         raise OutputError(f"{answer.command} has no animation here: leave --animate out")
+    refuse_collisions(output.csv, output.animate, None if output.plot == STDOUT else output.plot)
     if output.csv is not None:
         from seisblock.present.files import write_histories
 

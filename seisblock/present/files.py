@@ -1,4 +1,4 @@
-"""Writing a file so that an interruption never harms one that is there."""
+"""The one place that decides where an output may go, and writes it so that nothing that is there is ever harmed."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import contextlib
 import csv
 import io
 import os
+import secrets
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -13,37 +14,84 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.errors import OutputError
+from seisblock.errors import OutputError, SeisblockError
+from seisblock.ledger import refuse_collision, wrote
 from seisblock.results import Response
 
 
 @contextlib.contextmanager
 def replacing(path: Path | str) -> Iterator[Path]:
-    """Give a temporary name beside `path`, and move it there when the block ends well.
+    """Give a temporary name, and move what was written there to `path` when the block ends well.
+
+    A link is followed, a device or a pipe is written into, and what cannot be written whole leaves the old file as it was.
 
     Raises
     ------
     OutputError
-        If the directory does not exist or cannot be written.
+        If it is a directory, lies in none, is read-only, is a file that is read or another output, or if the disk is full.
     """
     target = Path(path)
-    if target.is_dir():
-        raise OutputError(f"{target} is a directory: give a file name")
-    if not target.parent.exists():
-        raise OutputError(f"cannot write {target}: there is no directory {target.parent}")
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent)
+        real = checked_target(target)
+        if real.exists() and not real.is_file():
+            with tempfile.TemporaryDirectory() as folder:
+                temporary = Path(folder) / f"written{target.suffix}"
+                yield temporary
+                with real.open("wb") as stream:
+                    stream.write(temporary.read_bytes())
+            return
+        # named before it is made: an interruption at any instant finds it here
+        temporary = real.parent / f".seisblock-{secrets.token_hex(6)}{target.suffix[-20:]}"
+        try:
+            temporary.touch(mode=0o600, exist_ok=False)
+            yield temporary
+            mode = real.stat().st_mode & 0o777 if real.exists() else 0o666 & ~_umask()
+            temporary.chmod(mode)
+            temporary.replace(real)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except (SeisblockError, BrokenPipeError):
+        raise
     except OSError as error:
-        raise OutputError(f"cannot write {target}: {error.strerror}") from error
-    os.close(handle)
-    temporary = Path(name)
-    try:
-        yield temporary
-        mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
-        temporary.chmod(mode)
-        temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)
+        kept = "; what was there is unchanged" if target.is_file() else ""
+        raise OutputError(f"cannot write {target}: {error.strerror or error}{kept}") from error
+    wrote(real)
+
+
+def checked_target(path: Path | str) -> Path:
+    """Return the file that a name leads to, links followed, if an output may go there.
+
+    Raises
+    ------
+    OutputError
+        If it may not, in one sentence.
+    """
+    target = Path(path)
+    real = target.resolve()
+    if real.is_dir():
+        raise OutputError(f"{target} is a directory: give a file name")
+    if not real.parent.is_dir():
+        raise OutputError(f"cannot write {target}: there is no directory {real.parent if target.is_symlink() else target.parent}")
+    if real.is_file() and not real.stat().st_mode & 0o222:
+        raise OutputError(f"{target} is read-only: make it writable, or give another name")
+    refuse_collision(target)
+    return real
+
+
+def refuse_collisions(*targets: Path | str | None) -> None:
+    """Refuse, before anything is written, outputs that cannot all be written: see :func:`checked_target`.
+
+    Raises
+    ------
+    OutputError
+        If one may not be written, or two are one file.
+    """
+    seen: dict[Path, Path] = {}
+    for target in (Path(each) for each in targets if each is not None):
+        real = checked_target(target)
+        if real in seen and (real.is_file() or not real.exists()):
+            raise OutputError(f"{seen[real]} and {target} are one file: give each output its own name")
+        seen[real] = target
 
 
 def _umask() -> int:

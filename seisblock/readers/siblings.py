@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 from seisblock.errors import RecordError
+from seisblock.ledger import reading
 from seisblock.readers.formats.at2 import is_at2, orientation, set_name
 from seisblock.readers.formats.knet import is_knet
 from seisblock.readers.source import Blob
@@ -80,6 +81,8 @@ def _load(path: Path, asked: Blob) -> Blob:
     if path == asked.path:
         return asked
     try:
-        return Blob(str(path), path.read_bytes(), path)
+        data = path.read_bytes()
+        reading(path)
+        return Blob(str(path), data, path)
     except OSError as error:
         raise RecordError(f"{path}, which belongs to {asked.name}, cannot be read: {error.strerror or error}") from error

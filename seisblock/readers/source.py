@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError
+from seisblock.ledger import reading
 from seisblock.samples import find_sample, list_samples
 
 Source: TypeAlias = "str | PathLike[str]"
@@ -46,6 +47,7 @@ def load(source: Source) -> Blob:
         raise RecordError(f"{name} is a directory: name a record file in it")
     try:
         data = path.read_bytes()
+        reading(path)
     except OSError as error:
         raise RecordError(f"{name} cannot be read: {error.strerror or error}") from error
     if not data.strip():

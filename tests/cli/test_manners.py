@@ -79,7 +79,7 @@ def test_interruption_exits_with_130_and_leaves_no_half_file(tmp_path):
 
     def drawing(process):
         until = time.monotonic() + 60
-        while not any(path.name.startswith(".film") for path in tmp_path.iterdir()):
+        while not any(path.name.startswith(".seisblock") for path in tmp_path.iterdir()):
             assert process.poll() is None and time.monotonic() < until
             time.sleep(0.02)
         time.sleep(0.3)

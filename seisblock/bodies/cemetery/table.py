@@ -11,6 +11,7 @@ from pathlib import Path
 
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.errors import BodyError, InputError
+from seisblock.ledger import reading
 from seisblock.units import LENGTH_UNITS, parse_length
 
 _NAMES = {
@@ -127,6 +128,7 @@ def _text(path: Path, name: str) -> str:
     """Return a file's text, whichever of the usual encodings it has."""
     try:
         data = path.read_bytes()
+        reading(path)
     except OSError as error:
         raise BodyError(f"cannot read {name}: {error.strerror}") from error
     if b"\0" in data and data[:2] not in (b"\xff\xfe", b"\xfe\xff"):

@@ -166,8 +166,29 @@ def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
         except BrokenPipeError:
             pass
         said = process.stderr.read().decode(errors="replace").strip()
-        if process.wait() != 0:
-            raise OutputError(f"ffmpeg could not write the animation: {said or 'no reason given'}; write a .gif or a .html instead")
+        if process.wait() != 0 or said or not _is_whole_mp4(path):
+            reason = said.splitlines()[-1] if said else "the file is not whole; is the disk full?"
+            raise OutputError(f"ffmpeg could not write the animation: {reason}")
+
+
+def _is_whole_mp4(path: Path) -> bool:
+    """Whether the boxes of an MP4 fill the file exactly, the index among them: a player can open it."""
+    size = path.stat().st_size
+    at, kinds = 0, set()
+    with path.open("rb") as stream:
+        while at < size:
+            stream.seek(at)
+            head = stream.read(16)
+            if len(head) < 8:
+                return False
+            length = int.from_bytes(head[:4], "big")
+            if length == 1:
+                length = int.from_bytes(head[8:16], "big")
+            if length < 8:
+                return False
+            kinds.add(head[4:8])
+            at += length
+    return at == size and {b"ftyp", b"moov", b"mdat"} <= kinds
 
 
 def _write_html(frames: Iterable[Image.Image], path: Path, fps: int) -> None:

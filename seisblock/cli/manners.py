@@ -1,0 +1,58 @@
+"""How a run ends when something outside it does: the terminal, the disk, another program."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from typing import Any, NoReturn
+
+TERMINATED = 143
+"""Exit code after SIGTERM, as shells have it."""
+
+
+class Terminated(BaseException):
+    """Somebody asked the program to end: temporary files go, the old ones stay."""
+
+
+def _terminate(number: int, frame: Any) -> NoReturn:
+    """Turn the signal into an exception, so that everything cleans up behind itself."""
+    raise Terminated
+
+
+@contextlib.contextmanager
+def ending_in_order() -> Iterator[None]:
+    """End on SIGTERM as on Ctrl-C inside the block; in the main thread of a program only, and nothing is left behind."""
+    ours = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+    if ours:
+        signal.signal(signal.SIGTERM, _terminate)
+    try:
+        yield
+    finally:
+        if ours:
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+@contextlib.contextmanager
+def printable() -> Iterator[None]:
+    """Give a run that has no stdout (``>&-``) one that takes everything, and one in Latin-1 a sign for what it cannot write."""
+    with contextlib.ExitStack() as stack:
+        for name in ("stdout", "stderr"):
+            stream = getattr(sys, name)
+            if stream is None:
+                void = stack.enter_context(open(os.devnull, "w", encoding="utf-8"))  # noqa: PTH123
+                setattr(sys, name, void)
+                stack.callback(setattr, sys, name, None)
+            elif hasattr(stream, "reconfigure") and stream.errors == "strict":
+                stream.reconfigure(errors="replace")
+                stack.callback(stream.reconfigure, errors="strict")
+        yield
+
+
+def discard_stdout() -> None:
+    """Let nothing more reach stdout: what is still held there could not be written either."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,0 +1,218 @@
+"""Nothing of the user's is lost: where outputs may go, and what is left when they cannot be written."""
+
+import contextlib
+import errno
+import os
+import signal
+import stat
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.errors import OutputError
+from seisblock.present.files import replacing, write_text
+from seisblock.samples import sample_path
+
+PROGRAM = [sys.executable, "-m", "seisblock"]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A directory of the user's, with a record in it."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "in.csv").write_bytes(sample_path("elcentro_1940_ns").read_bytes())
+    return tmp_path
+
+
+def run(*words):
+    """Run a command in this process."""
+    return CliRunner().invoke(main, [str(word) for word in words])
+
+
+OVER_THE_RECORD = (
+    ("slide", "in.csv", "--mu", "0.2", "--csv", "in.csv"),
+    ("slide", "in.csv", "--mu", "0.2", "--csv", "./in.csv"),
+    ("slide", "in.csv", "--mu", "0.2", "--csv", "link.csv"),
+    ("slide", "in.csv", "--mu", "0.2", "--csv", "hard.csv"),
+    ("measure", "in.csv", "--csv", "in.csv"),
+    ("rock", "in.csv", "--width", "24cm", "--height", "80cm", "--csv", "in.csv"),
+)
+
+
+@pytest.mark.parametrize("words", OVER_THE_RECORD, ids=" ".join)
+def test_no_output_falls_on_the_record(words, folder):
+    """R1: the record that is read is never replaced, by whatever name."""
+    before = (folder / "in.csv").read_bytes()
+    (folder / "link.csv").symlink_to("in.csv")
+    os.link(folder / "in.csv", folder / "hard.csv")
+    done = run(*words)
+    assert done.exit_code == 3 and "is a file that is read" in done.stderr
+    assert (folder / "in.csv").read_bytes() == before
+
+
+def test_no_output_falls_on_a_sibling_of_the_record(folder):
+    """R1: nor are the other components of a K-NET set, which were not named."""
+    for suffix in ("NS", "EW", "UD"):
+        (folder / f"x.{suffix}").write_bytes(sample_path(f"synthetic_knet.{suffix}").read_bytes())
+    before = (folder / "x.NS").read_bytes()
+    assert run("slide", "x.EW", "--mu", "0.2", "--csv", "x.NS").exit_code == 3
+    assert (folder / "x.NS").read_bytes() == before
+
+
+def test_no_output_falls_on_a_body_or_a_cemetery(folder):
+    """R1: files of bodies and cemeteries are read, too."""
+    for name in ("gravestone.toml", "aoyama.csv"):
+        (folder / name).write_bytes(sample_path(name).read_bytes())
+    held = {name: (folder / name).read_bytes() for name in ("gravestone.toml", "aoyama.csv")}
+    assert run("rock", "in.csv", "--block", "gravestone.toml", "--csv", "gravestone.toml").exit_code == 3
+    assert run("overturn-rate", "--cemetery", "aoyama.csv", "--csv", "aoyama.csv").exit_code == 3
+    assert run("report", "in.csv", "-o", "in.csv").exit_code == 3
+    assert {name: (folder / name).read_bytes() for name in held} == held
+
+
+def test_outputs_do_not_fall_on_each_other(folder):
+    """R1: --csv and --plot of one name are refused before either is written."""
+    done = run("slide", "in.csv", "--mu", "0.2", "--csv", "a.png", "--plot", "./a.png")
+    assert done.exit_code == 3 and "one file" in done.stderr
+    assert not (folder / "a.png").exists()
+
+
+def test_a_read_only_file_is_refused(folder):
+    """R3: whoever made it read-only meant it, also for root."""
+    kept = folder / "kept.csv"
+    kept.write_text("mine")
+    kept.chmod(0o444)
+    done = run("slide", "in.csv", "--mu", "0.2", "--csv", "kept.csv")
+    assert done.exit_code == 3 and "read-only" in done.stderr
+    assert kept.read_text() == "mine"
+
+
+def test_a_link_is_followed(folder):
+    """R3: the link stays a link, what it leads to is written."""
+    (folder / "real.csv").write_text("old")
+    (folder / "name.csv").symlink_to("real.csv")
+    assert run("slide", "in.csv", "--mu", "0.2", "--csv", "name.csv").exit_code == 0
+    assert (folder / "name.csv").is_symlink() and (folder / "real.csv").read_text().startswith("component,")
+
+
+def test_a_pipe_is_written_through(folder):
+    """R3: a FIFO stays one, and its reader gets the file."""
+    pipe = folder / "pipe.csv"
+    os.mkfifo(pipe)
+    got = []
+    reader = threading.Thread(target=lambda: got.append(pipe.read_text()))
+    reader.start()
+    assert run("slide", "in.csv", "--mu", "0.2", "--csv", "pipe.csv").exit_code == 0
+    reader.join(10)
+    assert stat.S_ISFIFO(pipe.stat().st_mode) and got[0].startswith("component,")
+
+
+def test_a_device_is_written_through(tmp_path):
+    """R3: /dev/null is a device afterwards, and /dev/full is said to be full."""
+    write_text("/dev/null", "gone")
+    assert stat.S_ISCHR(os.stat("/dev/null").st_mode)  # noqa: PTH116
+    with pytest.raises(OutputError, match="No space left"):
+        write_text("/dev/full", "too much")
+
+
+def test_a_full_disk_keeps_the_old_file(tmp_path):
+    """The write fails half way: the old file stands, nothing lies beside it, and the reason is said."""
+    target = tmp_path / "out.csv"
+    target.write_text("old")
+
+    def failing():
+        with replacing(target) as temporary:
+            temporary.write_text("half")
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with pytest.raises(OutputError, match=r"No space left on device; what was there is unchanged"):
+        failing()
+    assert target.read_text() == "old" and [path.name for path in tmp_path.iterdir()] == ["out.csv"]
+
+
+def test_a_name_too_long_is_a_sentence(folder):
+    """R16: a name of over 255 bytes is refused by the disk, in one line."""
+    done = run("slide", "in.csv", "--mu", "0.2", "--csv", "x" * 300 + ".csv")
+    assert done.exit_code == 3 and "too long" in done.stderr and "Traceback" not in done.output
+
+
+def box(kind, size):
+    """Return a box of an MP4."""
+    return (size + 8).to_bytes(4, "big") + kind + bytes(size)
+
+
+WHOLE = box(b"ftyp", 12) + box(b"mdat", 50) + box(b"moov", 30)
+
+
+@pytest.mark.parametrize(("content", "good"), [(b"", False), (WHOLE[:-10], False), (WHOLE[:78], False), (WHOLE, True)])
+def test_a_film_is_looked_at_before_it_is_moved(content, good, tmp_path, monkeypatch):
+    """R2: an encoder that runs out of disk and says nothing leaves the old film alone."""
+    from PIL import Image
+
+    from seisblock.present.films import animation
+
+    encoder = tmp_path / "ffmpeg"
+    encoder.write_text(
+        f"#!{sys.executable}\nimport sys, pathlib\nsys.stdin.buffer.read()\npathlib.Path(sys.argv[-1]).write_bytes({content!r})\n"
+    )
+    encoder.chmod(0o755)
+    monkeypatch.setattr(animation.shutil, "which", lambda name: str(encoder))
+    film = tmp_path / "film.mp4"
+    film.write_bytes(b"old")
+    frames = [Image.new("RGB", (4, 4)) for _ in range(2)]
+    with contextlib.nullcontext() if good else pytest.raises(OutputError, match="not whole"):
+        animation.animate(frames, film)
+    assert film.read_bytes() == (content if good else b"old")
+
+
+def test_termination_cleans_up(folder):
+    """R16: SIGTERM while pictures are drawn: the old film stands, nothing lies beside it, exit 143."""
+    film = folder / "film.gif"
+    film.write_bytes(b"old")
+    command = [*PROGRAM, "jump", "--component", "EW", "--animate", "film.gif", "--slow", "40", "--quiet"]
+    with subprocess.Popen(command, cwd=folder, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
+        until = time.monotonic() + 60
+        while not any(path.name.startswith(".seisblock") for path in folder.iterdir()):
+            assert process.poll() is None and time.monotonic() < until
+            time.sleep(0.02)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=30)
+    assert process.returncode == 143
+    assert sorted(path.name for path in folder.iterdir()) == ["film.gif", "in.csv"] and film.read_bytes() == b"old"
+
+
+SHELL = {"full": ">/dev/full", "closed": ">&-"}
+
+
+@pytest.mark.parametrize("end", SHELL)
+@pytest.mark.parametrize("command", ["cite", "samples", "measure elcentro_1940_ns --json"])
+def test_stdout_that_takes_nothing(command, end, tmp_path):
+    """R10: a full or a closed stdout is one sentence at most, never a traceback."""
+    line = f"{sys.executable} -m seisblock {command} {SHELL[end]}"
+    done = subprocess.run(["bash", "-c", line], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert "Traceback" not in done.stderr and "Exception ignored" not in done.stderr
+    if end == "full":
+        assert done.returncode == 3 and "No space left" in done.stderr
+    else:
+        assert done.returncode == 0
+
+
+def test_stdout_in_latin_1(tmp_path):
+    """R16: a terminal that cannot write Greek shows a sign in its place."""
+    environment = {**os.environ, "PYTHONIOENCODING": "latin-1"}
+    done = subprocess.run([*PROGRAM, "measure"], cwd=tmp_path, env=environment, capture_output=True, check=False)
+    assert done.returncode == 0 and b"Traceback" not in done.stderr
+
+
+def test_names_that_are_not_utf_8(tmp_path):
+    """R16: a file name of other bytes is read like any other."""
+    name = os.path.join(os.fsencode(tmp_path), b"\xb6\xe8.csv")  # noqa: PTH118
+    with contextlib.suppress(OSError), open(name, "wb") as file:  # noqa: PTH123
+        file.write(sample_path("elcentro_1940_ns").read_bytes())
+    done = subprocess.run([*map(os.fsencode, PROGRAM), b"measure", name], capture_output=True, check=False)
+    assert done.returncode == 0 and b"Traceback" not in done.stderr
