@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from seisblock.records.process import highpass_samples, integrate, integrate_twice
+from seisblock.records.filters import highpass_samples
+from seisblock.records.process import integrate, integrate_twice
 from seisblock.typing import FloatArray
 
 HIGHPASS_HZ = 0.05
@@ -33,9 +34,9 @@ class GroundHistory:
 def ground_history(acceleration: FloatArray, dt: float, *, highpass_hz: float | None = HIGHPASS_HZ) -> GroundHistory:
     """Integrate a ground acceleration to velocity and displacement on the baseline that all measures share.
 
-    High-pass (:func:`seisblock.records.process.highpass`), exact integral of the piecewise linear samples, mean of the
-    velocity over the record removed. The mean matters: a sine that starts from rest has velocity (A/w)(1 - cos wt), and
-    without removing it PGA/(2 pi PGV) would be half the frequency ([Furukawa2009]_ section 3(5)e, method 1).
+    High-pass (:func:`seisblock.records.filters.highpass_samples`, which leaves nothing of an offset), exact integral of the piecewise
+    linear samples, mean of the velocity over the record removed. The mean matters: a sine that starts from rest has velocity
+    (A/w)(1 - cos wt), and without removing it PGA/(2 pi PGV) would be half the frequency ([Furukawa2009]_ section 3(5)e, method 1).
 
     Parameters
     ----------

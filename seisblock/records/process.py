@@ -8,15 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from seisblock.errors import ComponentError, ParameterError, RecordError
+from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.motion import _oriented_pair, _resolve
 from seisblock.records.record import Component, Record
 from seisblock.typing import FloatArray
-
-HIGHPASS_ORDER = 4
-"""Order of the Butterworth high-pass; passed forwards and backwards it acts like one of twice that order, without delay."""
-
-PADDING_PERIODS = 5.0
-"""Length of the high-pass's padding at each end, in corner periods: its slowest transient has died to 1e-5 by then."""
 
 
 def demean(record: Record) -> Record:
@@ -159,9 +154,8 @@ def largest_horizontal(record: Record) -> Component:
 def highpass(record: Record, hz: float) -> Record:
     """Remove what is slower than a corner frequency, without delay.
 
-    A Butterworth filter of order 4, run forwards and backwards (half the amplitude at the corner). The record is extended at
-    both ends by five corner periods of its own mirror image with the sign reversed, so that the *velocity* goes on evenly:
-    a motion that starts in mid-swing gets no step there.
+    An offset and a drift leave nothing (:func:`seisblock.records.filters.highpass_samples`): the line through the ends of the record is
+    taken off, then a Butterworth filter of order 4 is run forwards and backwards (half the amplitude at the corner), with mirrored ends.
 
     Parameters
     ----------
@@ -173,29 +167,10 @@ def highpass(record: Record, hz: float) -> Record:
     Raises
     ------
     ParameterError
-        If the corner lies outside that range.
+        If the corner lies outside that range, or so low that it needs more padding than is allowed.
     """
-    did = f"high-pass {hz:g} Hz (Butterworth order {HIGHPASS_ORDER} forwards and backwards, mirrored ends)"
+    did = f"high-pass {hz:g} Hz (Butterworth order {HIGHPASS_ORDER} forwards and backwards, line through the ends removed, mirrored ends)"
     return _apply(record, lambda c: highpass_samples(c.acceleration, record.dt, hz), did)
-
-
-def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
-    """Return one row of samples after the filter of :func:`highpass`, (n,), m/s^2."""
-    from scipy.signal import butter, sosfiltfilt
-
-    nyquist = 0.5 / dt
-    if not (np.isfinite(hz) and 0 < hz < nyquist):
-        raise ParameterError(f"the high-pass corner must lie between 0 and {nyquist:g} Hz, half the sampling rate; found {hz:g} Hz")
-    n = acceleration.size
-    pad = int(np.ceil(PADDING_PERIODS / (hz * dt)))
-    # mirrored as often as needed: position in a period of twice the record, second half backwards with the sign reversed
-    place = np.arange(-pad, n + pad) % (2 * n)
-    mirrored = place >= n
-    extended = acceleration[np.where(mirrored, 2 * n - 1 - place, place)]
-    extended[mirrored] *= -1.0
-    sections = butter(HIGHPASS_ORDER, hz, btype="highpass", fs=1.0 / dt, output="sos")
-    filtered: FloatArray = sosfiltfilt(sections, extended, padtype=None)[pad : pad + n]
-    return filtered
 
 
 def towards(record: Record, azimuth_deg: float) -> Component:

@@ -38,8 +38,8 @@ def document(run):
 
 @pytest.fixture
 def sines(tmp_path):
-    """A plain CSV: 1 Hz, 300 gal north; 2 Hz, 400 gal east; 20 s."""
-    t = np.arange(4001) * 0.005
+    """A plain CSV: 1 Hz, 300 gal north; 2 Hz, 400 gal east; 60 s."""
+    t = np.arange(12001) * 0.005
     rows = np.column_stack([t, 300 * np.sin(2 * math.pi * t), 400 * np.sin(4 * math.pi * t)])
     np.savetxt(tmp_path / "sines.csv", rows, delimiter=",", header="time,NS (gal),EW (gal)", comments="", fmt="%.17g")
     return "sines.csv"
