@@ -4,27 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from enum import IntEnum
 from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from seisblock.dynamics.status import Status
 from seisblock.records.motion import Motion
 from seisblock.showing import painter
 from seisblock.typing import FloatArray, IntArray
 
 Outcome = TypeVar("Outcome", covariant=True)
-
-
-class Status(IntEnum):
-    """How an integration ended; every compiled kernel returns one of these, never an exception."""
-
-    RECORD_ENDED = 0
-    STOPPED = 1
-    TOO_MANY_EVENTS = 2
-    CHATTERING = 3
-    NOT_FINITE = 4
-    STEP_TOO_SMALL = 5
 
 
 @dataclass(frozen=True)
@@ -169,3 +158,6 @@ class Response(Generic[Outcome]):
         import pandas as pd
 
         return pd.DataFrame(self.to_columns())
+
+
+__all__ = ["Channel", "Event", "Phase", "Response", "Status"]

@@ -13,7 +13,8 @@ FLOORS = (
     ("studies", "many runs: rocking, cemetery, inverse, sliding, uplift regions"),
     ("solvers | criteria", "one folder per model | closed forms"),
     ("bodies | measures | readers", "what stands there | one number per record | how a file is read"),
-    ("dynamics | results", "the engine, which knows no body | phases, events, channels, responses"),
+    ("results", "what a solver answers: phases, events, channels, responses"),
+    ("dynamics", "the engine, which knows no body; the one list of statuses and of array types"),
     ("records", "what was measured: records, motions, and what may be done to them"),
     ("ground floor", "units, samples, errors, references, typing, showing, _jit: import nothing above"),
 )

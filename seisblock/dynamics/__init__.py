@@ -1,6 +1,6 @@
 """Time, state, modes: the engine that every trajectory but the stone pile's runs on."""
 
-from seisblock.dynamics.ensemble import Ensemble, follow_many
-from seisblock.dynamics.model import Change, Instant, Model, Trajectory, follow
+import lazy_loader
 
-__all__ = ["Change", "Ensemble", "Instant", "Model", "Trajectory", "follow", "follow_many"]
+# what names a status or an array type does not load the engine
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

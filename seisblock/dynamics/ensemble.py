@@ -6,73 +6,75 @@ One row costs no Python, and the loop holds no GIL: callers split the rows among
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics import hybrid
-from seisblock.dynamics.arrays import BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX
-from seisblock.dynamics.hybrid import RESET, SERIES, SKIP, integrate
-from seisblock.dynamics.model import FAILURES, Model
+from seisblock.dynamics.arguments import FIRST_EVENT, FOUND, MODE, SAMPLE, SHAPE, STEPS_LEFT, TAU, Cursor, Ground, Kept
+from seisblock.dynamics.arrays import BLOCK, INTEGER_BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX
+from seisblock.dynamics.hybrid import POINTERS, go_on, room
+from seisblock.dynamics.model import SLICE, Instant, Model, cursor_at
+from seisblock.dynamics.status import FAILURES, PAUSED
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records.motion import Motion
 from seisblock.typing import ArrayLike, FloatArray, IntArray
 
 _t = types()
-_COUNTS = _t.Array(_t.int64, 3, "C")
 
 
-@kernel(
-    _t.void(
-        _t.FunctionType(SERIES),
-        _t.FunctionType(RESET),
-        _t.FunctionType(SKIP),
-        READ_ONLY_MATRIX,
-        MATRIX,
-        _t.float64,
-        _t.int64,
-        MATRIX,
-        MATRIX,
-        INTEGERS,
-        BLOCK,
-        _COUNTS,
-        INTEGER_TABLE,
-        MATRIX,
-        INTEGERS,
-    ),
-    allocates=True,
-)
-def integrate_rows(series, reset, skip, acceleration, gains, dt, mode, states, parameters, sizes, extrema, tallies, infos, ends, statuses):
-    """Follow one trajectory per row of `parameters`; see :func:`seisblock.dynamics.hybrid.integrate`."""
-    path = np.empty((0, states.shape[1]))
+class Grounds(NamedTuple):
+    """What shakes each row: one motion, (rows, n), m/s^2, with factors of each trajectory's own, (m, rows), every dt seconds."""
+
+    acceleration: FloatArray
+    gains: FloatArray
+    dt: float
+
+
+class Rows(NamedTuple):
+    """Where each trajectory is, and what it leaves: first axis m; else as in a cursor, and in what is kept of a single one."""
+
+    places: IntArray
+    clocks: FloatArray
+    states: FloatArray
+    extrema: FloatArray
+    tallies: IntArray
+    statuses: IntArray
+
+
+_GROUNDS = _t.NamedTuple((READ_ONLY_MATRIX, MATRIX, _t.float64), Grounds)
+_ROWS = _t.NamedTuple((INTEGER_TABLE, MATRIX, MATRIX, BLOCK, INTEGER_BLOCK, INTEGERS), Rows)
+
+
+@kernel(_t.int64(*POINTERS, _GROUNDS, SHAPE, MATRIX, _ROWS, _t.int64, _t.int64), allocates=True)
+def integrate_rows(series, reset, skip, grounds, shape, parameters, rows, first, steps):
+    """Follow one trajectory per row of `parameters` from row `first` on, for so many steps in all; return the row to go on with."""
+    n_states = rows.states.shape[1]
+    path = np.empty((0, n_states))
     modes = np.empty(0, np.int64)
-    table = np.empty((0, 4), np.int64)
+    events = np.empty((0, 4), np.int64)
     times = np.empty(0)
-    limits = np.empty((0, 2, states.shape[1]))
-    for row in range(parameters.shape[0]):
-        statuses[row] = integrate(
+    limits = np.empty((0, 2, n_states))
+    scratch = room(shape, n_states, grounds.acceleration.shape[0])
+    row = first
+    while row < parameters.shape[0] and steps > 0:
+        place = rows.places[row]
+        place[STEPS_LEFT] = steps
+        rows.statuses[row] = go_on(
             series,
             reset,
             skip,
-            acceleration,
-            gains[row],
-            dt,
-            0,
-            0.0,
-            mode,
-            states[row],
+            Ground(grounds.acceleration, grounds.gains[row], grounds.dt),
+            shape,
             parameters[row],
-            sizes,
-            path,
-            modes,
-            table,
-            times,
-            limits,
-            extrema[row],
-            tallies[row],
-            infos[row],
-            ends[row],
+            Cursor(place, rows.clocks[row], rows.states[row]),
+            Kept(path, modes, events, times, limits, rows.extrema[row], rows.tallies[row]),
+            scratch,
         )
+        steps = place[STEPS_LEFT] - 1
+        if rows.statuses[row] != PAUSED:
+            row += 1
+    return row
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,42 +142,32 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     m, n_states = p.shape[0], len(model.states)
     states = np.array(np.broadcast_to(np.asarray(initial, dtype=np.float64), (m, n_states)), order="C")
     scale = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (m, 3)), order="C")
-    sizes = np.array([model.scratch, len(model.guards), model.tracked, model.order, model.floored], dtype=np.int64)
-    extrema = np.zeros((m, max(model.tracked, 1), 4))
-    tally = np.zeros((m, len(model.guards), len(model.modes)), dtype=np.int64)
-    infos = np.zeros((m, 3), dtype=np.int64)
-    ends = np.zeros((m, 2))
-    statuses = np.zeros(m, dtype=np.int64)
-    integrate_rows(
-        model.series,
-        model.reset,
-        model.skip,
-        motion.acceleration,
-        scale,
-        motion.dt,
-        mode,
+    begin = cursor_at(Instant(), mode, states[0])
+    rows = Rows(
+        np.tile(begin.place, (m, 1)),
+        np.tile(begin.clock, (m, 1)),
         states,
-        p,
-        sizes,
-        extrema,
-        tally,
-        infos,
-        ends,
-        statuses,
+        np.zeros((m, model.tracked, 4)),
+        np.zeros((m, len(model.guards), len(model.modes)), dtype=np.int64),
+        np.zeros(m, dtype=np.int64),
     )
-    end_time = infos[:, hybrid.INFO_SAMPLE] * motion.dt + ends[:, hybrid.LAST_TAU]
-    for row in np.flatnonzero(np.isin(statuses, list(FAILURES)))[:1]:
+    grounds = Grounds(motion.acceleration, scale, motion.dt)
+    row = 0
+    while row < m:
+        row = integrate_rows(*model.pointers, grounds, model.shape, p, rows, row, SLICE)
+    end_time = rows.places[:, SAMPLE] * motion.dt + rows.clocks[:, TAU]
+    for row in np.flatnonzero(np.isin(rows.statuses, list(FAILURES)))[:1]:
         raise SolverError(
-            f"{model.name}, row {row}: given up at {motion.start_s + end_time[row]:.6f} s, where {FAILURES[int(statuses[row])]}"
+            f"{model.name}, row {row}: given up at {motion.start_s + end_time[row]:.6f} s, where {FAILURES[int(rows.statuses[row])]}"
         )
     return Ensemble(
         model,
         motion.dt,
         states,
-        infos[:, hybrid.INFO_MODE],
-        infos[:, hybrid.INFO_EVENTS],
+        rows.places[:, MODE],
+        rows.places[:, FOUND],
         end_time,
-        ends[:, hybrid.FIRST_EVENT],
-        extrema[:, : model.tracked],
-        tally,
+        rows.clocks[:, FIRST_EVENT],
+        rows.extrema,
+        rows.tallies,
     )

@@ -12,6 +12,16 @@ HIGHEST, HIGHEST_TIME, LOWEST, LOWEST_TIME = range(4)
 """Columns of a table of extrema, one row a state."""
 
 
+@kernel(_t.void(MATRIX, _t.int64, VECTOR, _t.float64), inline=True)
+def begin(extrema, n_tracked, y, time):
+    """Let the extrema of the first states begin at what these are."""
+    for i in range(n_tracked):
+        extrema[i, HIGHEST] = y[i]
+        extrema[i, HIGHEST_TIME] = time
+        extrema[i, LOWEST] = y[i]
+        extrema[i, LOWEST_TIME] = time
+
+
 @kernel(_t.void(MATRIX, _t.int64, _t.float64, _t.float64), inline=True)
 def keep(extrema, i, value, time):
     """Widen the extrema of state `i` to hold a value."""

@@ -4,11 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from seisblock._jit import pointer
 from seisblock.dynamics import hybrid
+from seisblock.dynamics.arguments import (
+    EVENT_FROM,
+    EVENT_GUARD,
+    EVENT_SAMPLE,
+    EVENT_TO,
+    FOUND,
+    MODE,
+    SAMPLE,
+    STEPS_LEFT,
+    TAU,
+    Cursor,
+    Ground,
+    Kept,
+    Shape,
+)
+from seisblock.dynamics.status import FAILURES, PAUSED, TOO_MANY_EVENTS
 from seisblock.errors import SolverError
 from seisblock.records.motion import Motion
 from seisblock.typing import ArrayLike, FloatArray, IntArray
@@ -16,16 +34,13 @@ from seisblock.typing import ArrayLike, FloatArray, IntArray
 ORDER = 12
 """Terms of the power series; at 100 Hz the thirteenth is below round-off."""
 
+SLICE = 1 << 16
+"""Steps that compiled code takes before Python may be interrupted: 10 to 150 ms, and no more than 1e-3 of that to come back."""
+
 _FIRST_CAPACITY = 256
 _LAST_CAPACITY = 1 << 18
 
-FAILURES = {
-    hybrid.TOO_MANY_EVENTS: "it changes its mode without end",
-    hybrid.CHATTERING: "two modes return to each other at one instant",
-    hybrid.NOT_FINITE: "its state overflows",
-    hybrid.STEP_TOO_SMALL: "its power series does not converge on any step",
-}
-"""Statuses that are no answer, in words."""
+_NO_TALLY = np.empty((0, 0), dtype=np.int64)
 
 
 @dataclass(frozen=True)
@@ -63,6 +78,16 @@ class Model:
     order: int = ORDER
     skip: Callable[..., Any] = hybrid.stay
     floored: bool = False
+
+    @cached_property
+    def pointers(self) -> tuple[Any, Any, Any]:
+        """Series, reset and skip, as compiled loops take them."""
+        return pointer(self.series, hybrid.SERIES), pointer(self.reset, hybrid.RESET), pointer(self.skip, hybrid.SKIP)
+
+    @cached_property
+    def shape(self) -> Shape:
+        """Sizes that the engine needs."""
+        return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.floored))
 
 
 @dataclass(frozen=True)
@@ -199,68 +224,56 @@ def follow(
         If the integration had to be given up.
     """
     p = np.array(parameters, dtype=np.float64)
-    scale = np.array(gains, dtype=np.float64)
+    ground = Ground(motion.acceleration, np.array(gains, dtype=np.float64), motion.dt)
     n_states = len(model.states)
-    sizes = np.array([model.scratch, len(model.guards), model.tracked, model.order, model.floored], dtype=np.int64)
     rows = motion.samples if keep_path else 0
-    path = np.empty((rows, n_states))
-    modes = np.empty(rows, dtype=np.int64)
-    extrema = np.zeros((max(model.tracked, 1), 4))
-    info = np.zeros(3, dtype=np.int64)
-    end = np.zeros(2)
+    path, modes = np.empty((rows, n_states)), np.empty(rows, dtype=np.int64)
+    extrema = np.zeros((model.tracked, 4))
     capacity = _FIRST_CAPACITY if keep_events else 0
     while True:
-        y = np.array(initial, dtype=np.float64)
-        table = np.empty((capacity, 4), dtype=np.int64)
-        times = np.empty(capacity)
-        limits = np.empty((capacity, 2, n_states))
-        status = int(
-            hybrid.integrate(
-                model.series,
-                model.reset,
-                model.skip,
-                motion.acceleration,
-                scale,
-                motion.dt,
-                start.sample,
-                start.tau,
-                mode,
-                y,
-                p,
-                sizes,
-                path,
-                modes,
-                table,
-                times,
-                limits,
-                extrema,
-                hybrid.NO_TALLY,
-                info,
-                end,
-            )
-        )
-        if status != hybrid.TOO_MANY_EVENTS or capacity >= _LAST_CAPACITY:
+        cursor = cursor_at(start, mode, np.array(initial, dtype=np.float64))
+        events, times, limits = np.empty((capacity, 4), dtype=np.int64), np.empty(capacity), np.empty((capacity, 2, n_states))
+        status = follow_on(model, ground, p, cursor, Kept(path, modes, events, times, limits, extrema, _NO_TALLY))
+        if not (status == TOO_MANY_EVENTS and cursor.place[FOUND] == capacity < _LAST_CAPACITY):
             break
         capacity *= 8
-    found, last, final_mode = (int(value) for value in info)
-    ended = Instant(last, float(end[hybrid.LAST_TAU]))
+    found, final_mode = int(cursor.place[FOUND]), int(cursor.place[MODE])
+    ended = Instant(int(cursor.place[SAMPLE]), float(cursor.clock[TAU]))
     if status in FAILURES:
-        raise SolverError(f"{model.name}: given up at {motion.start_s + last * motion.dt + ended.tau:.6f} s, where {FAILURES[status]}")
-    changes = (
-        tuple(
-            Change(
-                Instant(int(row[hybrid.EVENT_SAMPLE]), float(tau)),
-                float(row[hybrid.EVENT_SAMPLE] * motion.dt + tau),
-                int(row[hybrid.EVENT_GUARD]),
-                int(row[hybrid.EVENT_FROM]),
-                int(row[hybrid.EVENT_TO]),
-                both[0].copy(),
-                both[1].copy(),
-            )
-            for row, tau, both in zip(table[:found], times[:found], limits[:found], strict=True)
-        )
-        if keep_events
-        else ()
-    )
+        at = motion.start_s + ended.sample * motion.dt + ended.tau
+        raise SolverError(f"{model.name}: given up at {at:.6f} s, where {FAILURES[status]}")
+    changes = _changes(events[:found], times[:found], limits[:found], motion.dt) if keep_events else ()
     first = start.sample if start.tau == 0.0 else start.sample + 1
-    return Trajectory(model, motion.dt, status, first, path, modes, changes, found, extrema[: model.tracked], ended, y, final_mode)
+    return Trajectory(model, motion.dt, status, first, path, modes, changes, found, extrema, ended, cursor.state, final_mode)
+
+
+def cursor_at(start: Instant, mode: int, state: FloatArray) -> Cursor:
+    """Return the cursor of a trajectory that is about to begin; the state is moved in place."""
+    # sample, mode, events, events at one instant, still, not started, steps
+    return Cursor(np.array([start.sample, mode, 0, 0, 1, 0, 0]), np.array([start.tau, np.nan]), state)
+
+
+def follow_on(model: Model, ground: Ground, p: FloatArray, cursor: Cursor, kept: Kept) -> int:
+    """Follow a trajectory on to its end, in slices between which Python may be interrupted; return the status."""
+    status = PAUSED
+    while status == PAUSED:
+        cursor.place[STEPS_LEFT] = SLICE
+        status = hybrid.integrate(*model.pointers, ground, model.shape, p, cursor, kept)
+    return int(status)
+
+
+def _changes(events: IntArray, times: FloatArray, limits: FloatArray, dt: float) -> tuple[Change, ...]:
+    """Return the events from the loop's tables."""
+    rows = zip(events.tolist(), times.tolist(), limits.copy(), strict=True)
+    return tuple(
+        Change(
+            Instant(row[EVENT_SAMPLE], tau),
+            row[EVENT_SAMPLE] * dt + tau,
+            row[EVENT_GUARD],
+            row[EVENT_FROM],
+            row[EVENT_TO],
+            before,
+            after,
+        )
+        for row, tau, (before, after) in rows
+    )

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from seisblock.bodies.sliding_base import sliding_base
 from seisblock.dynamics import follow, follow_many
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
+from seisblock.solvers.slide import model as slide
 from tests.dynamics.toy_models import BALL, FLIP, SLED
 
 pytestmark = pytest.mark.kernel
@@ -28,6 +30,18 @@ def test_rows_are_the_single_trajectories_bit_by_bit():
         first = alone.changes[0].time if alone.changes else np.nan
         np.testing.assert_equal(many.first_change[row], first)
     assert many.n_changes.tolist() == [1, 1, 0]
+
+
+def test_a_row_left_out_of_one_trajectory_is_zero_whatever_the_one_before_read():
+    """Rows share their room: the vertical motion of the first must not act on the second, for which its factor is zero."""
+    motion = Motion.from_arrays(np.sin(np.arange(40.0)), 0.02, vertical=np.full(40, -9.0))
+    base = slide.parameters(sliding_base(0.3), 9.8)
+    gains = np.array([[8.0, 0.0, 1.0], [8.0, 0.0, 0.0]])
+    many = follow_many(slide.SLIDE, motion, [base, base], np.zeros(4), slide.STICK, gains=gains)
+    alone = follow(slide.SLIDE, motion, base, np.zeros(4), slide.STICK, gains=gains[1])
+    assert alone.n_changes > 0
+    assert many.first_change[1] == alone.changes[0].time
+    np.testing.assert_array_equal(many.final[1], alone.final)
 
 
 def test_tally_counts_guards_by_the_mode_they_lead_to():

@@ -7,7 +7,7 @@ import pytest
 
 from seisblock._jit import kernel
 from seisblock.dynamics import follow
-from seisblock.dynamics.hybrid import SKIP
+from seisblock.dynamics.contract import SKIP
 from seisblock.records import Motion
 from tests.dynamics.toy_models import SLED, STICK
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock._jit import kernel
-from seisblock.dynamics.hybrid import CONSTANT, OFF, RESET, SERIES
+from seisblock.dynamics.contract import CONSTANT, OFF, RESET, SERIES
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.series import sine_cosine
 

@@ -21,7 +21,7 @@ import numpy as np
 from seisblock._jit import kernel, types
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.dynamics.arrays import MATRIX, VECTOR
-from seisblock.dynamics.hybrid import OFF, RESET, SERIES
+from seisblock.dynamics.contract import OFF, RESET, SERIES
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.series import product, quotient, sine_cosine
 from seisblock.typing import FloatArray, IntArray

@@ -17,7 +17,7 @@ import numpy as np
 
 from seisblock._jit import kernel
 from seisblock.bodies.two_layer import TwoLayerBlock
-from seisblock.dynamics.hybrid import CONSTANT, RESET, SERIES, SKIP
+from seisblock.dynamics.contract import CONSTANT, RESET, SERIES, SKIP
 from seisblock.dynamics.model import Model
 from seisblock.typing import FloatArray
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.dynamics import Instant, follow
-from seisblock.dynamics.hybrid import STOPPED
+from seisblock.dynamics.status import STOPPED
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
 from seisblock.records.given import check_call

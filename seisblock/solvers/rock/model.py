@@ -29,7 +29,7 @@ import numpy as np
 from seisblock._jit import kernel
 from seisblock.bodies.block import LEFT, RIGHT, Block, Restitution, restitutions
 from seisblock.dynamics import Model
-from seisblock.dynamics.hybrid import CONSTANT, RESET, SERIES, SKIP
+from seisblock.dynamics.contract import CONSTANT, RESET, SERIES, SKIP
 from seisblock.typing import FloatArray
 
 REST, TO_RIGHT, TO_LEFT, BEYOND_RIGHT, BEYOND_LEFT = range(5)  # odd: about the right corner; above TO_LEFT: beyond alpha

@@ -27,7 +27,7 @@ import math
 from seisblock._jit import kernel, types
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.dynamics.arrays import MATRIX, VECTOR
-from seisblock.dynamics.hybrid import CONSTANT, OFF, RESET, SERIES, SKIP
+from seisblock.dynamics.contract import CONSTANT, OFF, RESET, SERIES, SKIP
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.polynomial import ROUND_OFF
 

@@ -21,7 +21,7 @@ import numpy as np
 
 from seisblock._jit import kernel
 from seisblock.bodies.spring_block import CORNERS, SpringBlock
-from seisblock.dynamics.hybrid import OFF, RESET, SERIES
+from seisblock.dynamics.contract import OFF, RESET, SERIES
 from seisblock.dynamics.model import Model
 from seisblock.typing import FloatArray
 

@@ -1,0 +1,75 @@
+"""The one place where numba options live: how a kernel is compiled, cached, passed on, and switched off."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from seisblock._jit import cache
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+announce: Callable[[str], None] | None = None
+"""Called with one line when compiling takes a while, or afresh; the command line sets it."""
+
+ENABLED = os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
+"""Whether kernels are compiled; ``NUMBA_DISABLE_JIT=1`` runs them as plain Python."""
+
+
+def types() -> Any:
+    """Return numba's type names, for signatures."""
+    from numba import types as numba_types
+
+    return numba_types
+
+
+def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> Callable[[Function], Function]:
+    """Compile a function for one explicit signature, cached, without the GIL and without ``fastmath``.
+
+    A cache that is damaged, full or read-only costs the time of compiling afresh, and nothing else.
+
+    Parameters
+    ----------
+    signature : numba signature
+        Explicit, so that the kernel compiles once, caches, and can travel as a function pointer.
+    inline : bool
+        Ask LLVM to inline it into every caller.
+    allocates : bool
+        Whether it makes arrays. A kernel that does not (the default; numba then refuses ``np.zeros`` and its like) borrows its
+        arguments and may slice them freely; one that does counts references, atomically and on every path, which costs a
+        short kernel with branches 30 to 60 ns a call.
+    """
+
+    def decorate(function: Function) -> Function:
+        if not ENABLED:
+            return function
+        import numba
+
+        def compiled(cached: bool) -> Function:
+            """Compile, or load what an earlier process compiled."""
+            counting = {} if allocates else {"_nrt": False}
+            made = numba.njit(signature, cache=cached, nogil=True, error_model="numpy", forceinline=inline, **counting)
+            return made(function)  # type: ignore[no-any-return]
+
+        return cache.guarded(compiled, function, say)
+
+    return decorate
+
+
+def say(message: str) -> None:
+    """Say one line to whoever listens."""
+    if announce is not None:
+        announce(message)
+
+
+def pointer(function: Function, signature: Any) -> Function:
+    """Return a kernel as a function pointer of one signature, for kernels that take functions; a kernel itself where none is compiled.
+
+    Numba asks a kernel for its address anew at each call that takes it, 30 us each; a pointer knows it.
+    """
+    if not ENABLED:
+        return function
+    from seisblock._jit.address import Pointer
+
+    return Pointer(function, signature)  # type: ignore[return-value]

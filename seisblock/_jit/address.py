@@ -1,0 +1,39 @@
+"""A compiled kernel with its address, as numba's first-class functions want it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numba import types
+
+
+class Pointer(types.WrapperAddressProtocol):  # type: ignore[misc]
+    """A compiled kernel that numba's calls need not ask again for its type and address.
+
+    Parameters
+    ----------
+    kernel : numba dispatcher
+        Kept alive as long as the pointer.
+    signature : numba signature
+        One of those it was compiled for.
+    """
+
+    def __init__(self, kernel: Any, signature: Any) -> None:
+        self._kernel = kernel
+        self._signature = signature
+        compiled = kernel.get_compile_result(signature)
+        self._address = compiled.library.get_pointer_to_function(compiled.fndesc.llvm_cfunc_wrapper_name)
+        # the attribute by which numba's dispatcher recognises a type without asking
+        self._numba_type_ = types.FunctionType(signature)
+
+    def __wrapper_address__(self) -> int:
+        """Return the address of the C function."""
+        return int(self._address)
+
+    def signature(self) -> Any:
+        """Return the signature."""
+        return self._signature
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the kernel from Python."""
+        return self._kernel(*arguments)

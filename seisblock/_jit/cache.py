@@ -1,0 +1,128 @@
+"""Where compiled kernels are kept between processes, and what happens when they cannot be."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import hashlib
+import os
+import pickle
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import FunctionType
+from typing import Any, TypeVar, cast
+
+Compiled = TypeVar("Compiled")
+
+KERNELS = ("_jit", "dynamics", "measures", "solvers")
+"""Packages that define kernels, or say how they are compiled."""
+
+UNREADABLE = (OSError, EOFError, pickle.PickleError, ValueError, TypeError, LookupError, AttributeError, ImportError, RuntimeError)
+"""What a cached kernel with lost bytes raises, and what a full or read-only disk does; never an error in the kernel itself."""
+
+_given_up = False
+
+
+def _source_digest() -> str:
+    """Return a digest of every file that defines kernels.
+
+    A cached kernel that calls a kernel of another file is not invalidated by numba when that other
+    file changes; a cache directory named after all kernel sources is never stale.
+    """
+    root = Path(__file__).parent.parent
+    # numba keys its entries by the path of the source: two installations do not share them
+    digest = hashlib.sha256(f"{sys.version} {root}".encode())
+    for folder in KERNELS:
+        for path in sorted((root / folder).rglob("*.py")):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+@functools.cache
+def directory() -> Path:
+    """Return the directory of compiled kernels of this very source: ``SEISBLOCK_CACHE_DIR``, else the user's cache."""
+    chosen = os.environ.get("SEISBLOCK_CACHE_DIR")
+    if chosen:
+        return Path(chosen) / _source_digest()
+    import platformdirs
+
+    return platformdirs.user_cache_path("seisblock", appauthor=False) / _source_digest()
+
+
+@functools.cache
+def _writable() -> bool:
+    """Make the cache directory; return whether it can be written."""
+    try:
+        directory().mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    return os.access(directory(), os.W_OK)
+
+
+@functools.cache
+def _said(say: Callable[[str], None], message: str) -> None:
+    """Say a line, once in a process."""
+    say(message)
+
+
+@contextlib.contextmanager
+def _numba_keeps_in(place: Path) -> Iterator[None]:
+    """Let numba cache in one place and, should that be impossible, nowhere; what the caller's own kernels use stays as it was."""
+    import numba
+
+    wanted = {"CACHE_DIR": str(place), "CACHE_LOCATOR_CLASSES": "UserProvidedCacheLocator"}
+    before = {name: getattr(numba.config, name, "") for name in wanted}
+    try:
+        for name, value in wanted.items():
+            setattr(numba.config, name, value)
+        yield
+    finally:
+        for name, value in before.items():
+            setattr(numba.config, name, value)
+
+
+def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], say: Callable[[str], None]) -> Compiled:
+    """Compile one kernel with the help of the cache as far as it goes.
+
+    Parameters
+    ----------
+    compiled : callable
+        Told whether to use the cache; returns the compiled kernel.
+    function : function
+        The kernel's source.
+    say : callable
+        Told, once, what takes a while and why.
+    """
+    global _given_up
+    place = directory()
+    if not _writable():
+        _said(say, f"{place}: cannot be written: compiling the kernels afresh; SEISBLOCK_CACHE_DIR names another folder")
+        _given_up = True
+    if _given_up:
+        return compiled(False)
+    if not any(place.iterdir()):
+        _said(say, "compiling the kernels, once; a few seconds...")
+    with _numba_keeps_in(place):
+        try:
+            return compiled(True)
+        except UNREADABLE as error:
+            _said(say, f"{place}: {_reason(error)}: compiling afresh what cannot be kept there or read from there")
+        try:
+            _remove(cast(FunctionType, function))
+            return compiled(True)
+        except UNREADABLE:
+            _given_up = True
+    return compiled(False)
+
+
+def _reason(error: BaseException) -> str:
+    """Return what is wrong with the cache, in words."""
+    return error.strerror.lower() if isinstance(error, OSError) and error.strerror else "damaged"
+
+
+def _remove(function: FunctionType) -> None:
+    """Remove what is kept of one kernel."""
+    stem = f"{Path(function.__code__.co_filename).stem}.{function.__qualname__}-{function.__code__.co_firstlineno}"
+    for path in directory().rglob(f"{stem}.*.nb[ci]"):
+        path.unlink(missing_ok=True)

@@ -1,0 +1,108 @@
+"""What the engine's loop is given and what it leaves behind, as named tuples of arrays."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from seisblock._jit import types
+from seisblock.dynamics.arrays import BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX, VECTOR
+from seisblock.typing import FloatArray, IntArray
+
+_t = types()
+
+
+class Ground(NamedTuple):
+    """What shakes.
+
+    Parameters
+    ----------
+    acceleration : (rows, n) array, m/s^2
+        Ground acceleration at the samples, linear between them.
+    gains : (rows,) array
+        Factor on each row, so that scaling a record copies nothing; a zero leaves the row unread.
+    dt : float, s
+    """
+
+    acceleration: FloatArray
+    gains: FloatArray
+    dt: float
+
+
+class Shape(NamedTuple):
+    """How large a model is: scratch rows beside the states, guards, tracked states, order, and 1 where parameters end in floors."""
+
+    scratch: int
+    guards: int
+    tracked: int
+    order: int
+    floored: int
+
+
+class Cursor(NamedTuple):
+    """Where a trajectory is; the loop moves it on, and goes on from it when it is called again.
+
+    Parameters
+    ----------
+    place : (7,) array of int
+        See ``SAMPLE`` to ``STEPS_LEFT``.
+    clock : (2,) array, s
+        ``TAU``: time after the sample. ``FIRST_EVENT``: time of the first event after sample 0, NaN before it.
+    state : (n_states,) array
+    """
+
+    place: IntArray
+    clock: FloatArray
+    state: FloatArray
+
+
+SAMPLE, MODE, FOUND, AT_ONE_INSTANT, STILL, STARTED, STEPS_LEFT = range(7)
+"""A cursor's integers: sample, mode, events so far, events since time last moved, whether the state does not move, whether the
+trajectory has begun, and how many steps may be taken before the loop pauses."""
+
+TAU, FIRST_EVENT = range(2)
+
+
+class Kept(NamedTuple):
+    """What a trajectory leaves behind; what has no rows is not kept.
+
+    Parameters
+    ----------
+    path, modes : (n, n_states), (n,) arrays
+        State and mode at each sample reached.
+    events, times, limits : (m, 4), (m,), (m, 2, n_states) arrays
+        Sample, guard, mode before and after (``EVENT_SAMPLE`` to ``EVENT_TO``); seconds after that sample; both limits of the state.
+        With no rows events are counted, without a bound.
+    extrema : (n_tracked, 4) array
+        Highest value, its time, lowest value, its time (s after sample 0), of the first states.
+    tally : (n_guards, n_modes) array of int
+        How often each guard led to each mode; negative modes are counted from the end.
+    """
+
+    path: FloatArray
+    modes: IntArray
+    events: IntArray
+    times: FloatArray
+    limits: FloatArray
+    extrema: FloatArray
+    tally: IntArray
+
+
+EVENT_SAMPLE, EVENT_GUARD, EVENT_FROM, EVENT_TO = range(4)
+
+
+class Scratch(NamedTuple):
+    """Room for one step: series of states and guards, ground motion (value, slope), and three polynomials."""
+
+    c: FloatArray
+    g: FloatArray
+    f: FloatArray
+    q: FloatArray
+    d: FloatArray
+    rate: FloatArray
+
+
+GROUND = _t.NamedTuple((READ_ONLY_MATRIX, VECTOR, _t.float64), Ground)
+SHAPE = _t.NamedUniTuple(_t.int64, 5, Shape)
+CURSOR = _t.NamedTuple((INTEGERS, VECTOR, VECTOR), Cursor)
+KEPT = _t.NamedTuple((MATRIX, INTEGERS, INTEGER_TABLE, VECTOR, BLOCK, MATRIX, INTEGER_TABLE), Kept)
+SCRATCH = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR, VECTOR), Scratch)

@@ -1,0 +1,84 @@
+"""One step of the engine: the ground motion over it, how long it may be, which guard ends it, and the state at its end."""
+
+from __future__ import annotations
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.arguments import GROUND, SCRATCH
+from seisblock.dynamics.arrays import MATRIX, VECTOR
+from seisblock.dynamics.contract import OFF
+from seisblock.dynamics.extrema import keep, keep_turning_points, may_turn
+from seisblock.dynamics.polynomial import NEVER, evaluate_row, first_crossing, lower_bound_of_row
+
+_t = types()
+
+TRUNCATION = 1.1e-16
+"""Largest last term of a full series, relative to the state."""
+
+
+@kernel(_t.float64(MATRIX, _t.int64, _t.int64, _t.float64, VECTOR, _t.int64))
+def step_length(c, n_states, order, h, p, floors):
+    """Return the part of `h` over which a full series is converged to round-off; `floors` says where they stand in `p`, or -1."""
+    top = 1.0
+    for _ in range(order - 1):
+        top *= h
+    for i in range(n_states):
+        size = abs(c[i, 0]) + h * (abs(c[i, 1]) + h * (abs(c[i, 2]) + h * abs(c[i, 3])))
+        if floors >= 0:
+            size = max(size, p[floors + i])
+        tail = top * max(abs(c[i, order - 1]), abs(c[i, order]) * h)
+        if tail > TRUNCATION * size:
+            # a state that starts from zero has its size in its later terms
+            power = h**3
+            for k in range(4, order - 1):
+                power *= h
+                size += abs(c[i, k]) * power
+        if tail > TRUNCATION * size:
+            cut = 0.9 * h * (TRUNCATION * size / tail) ** (1.0 / (order - 1)) if size > 0.0 else 0.5 * h
+            top *= (cut / h) ** (order - 1)
+            h = cut
+    return h
+
+
+@kernel(_t.void(GROUND, _t.int64, _t.float64, MATRIX), inline=True)
+def read(ground, sample, tau, f):
+    """Write the ground motion, value and slope, `tau` after a sample."""
+    acceleration, gains = ground.acceleration, ground.gains
+    per_dt = 1.0 / ground.dt
+    for row in range(acceleration.shape[0]):
+        if gains[row] != 0.0:
+            slope = gains[row] * (acceleration[row, sample + 1] - acceleration[row, sample]) * per_dt
+            f[row, 0] = gains[row] * acceleration[row, sample] + slope * tau
+            f[row, 1] = slope
+
+
+@kernel(_t.Tuple((_t.int64, _t.float64))(SCRATCH, _t.int64, _t.int64, _t.float64), inline=True)
+def first_to_fire(scratch, n_guards, degree, h):
+    """Return the guard that fires first within a step, -1 for none, and when: the end of the step."""
+    g = scratch.g
+    fired = -1
+    for k in range(n_guards):
+        if g[k, 0] == OFF or lower_bound_of_row(g, k, degree, h) > 0.0:
+            continue
+        at = first_crossing(g[k], degree, h, scratch.q, scratch.d)
+        if at != NEVER and (fired < 0 or at < h):
+            fired = k
+            h = at
+            if at == 0.0:
+                break
+    return fired, h
+
+
+@kernel(_t.boolean(SCRATCH, _t.int64, _t.float64, _t.float64, _t.int64, VECTOR, MATRIX), inline=True)
+def move(scratch, degree, h, now, n_tracked, y, extrema):
+    """Move the state on by a step that begins at `now`, and its extrema with it; return whether it stays finite."""
+    c = scratch.c
+    for i in range(n_tracked):
+        if may_turn(c, i, degree, h, extrema):
+            keep_turning_points(c, i, degree, h, now, extrema, scratch.rate, scratch.q, scratch.d)
+    size = 0.0
+    for i in range(y.size):
+        y[i] = evaluate_row(c, i, degree, h)
+        size += abs(y[i])
+    for i in range(n_tracked):
+        keep(extrema, i, y[i], now + h)
+    return size < OFF

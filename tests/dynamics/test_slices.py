@@ -1,0 +1,62 @@
+"""The loop comes back to Python now and then; nothing else tells that it did."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from seisblock._jit import ENABLED
+from seisblock.dynamics import follow, follow_many
+from seisblock.dynamics import model as following
+from seisblock.errors import SolverError
+from seisblock.records import Motion
+from tests.dynamics.toy_models import BALL, SLED
+
+pytestmark = pytest.mark.kernel
+
+NOISE = Motion.from_arrays(np.random.default_rng(7).normal(size=400), 0.02)
+
+
+@pytest.fixture(params=[1, 2, 7])
+def short_slices(request, monkeypatch):
+    """Slices of so many steps instead of many thousands."""
+
+    def cut():
+        monkeypatch.setattr(following, "SLICE", request.param)
+        monkeypatch.setattr("seisblock.dynamics.ensemble.SLICE", request.param)
+
+    return cut
+
+
+@pytest.mark.parametrize(
+    ("model", "motion", "p", "start"),
+    [(BALL, Motion.from_arrays(np.zeros(301), 0.01), [9.8, 0.7, 1e-6], [1.0, 0.0]), (SLED, NOISE, [1.5], [0.0, 0.0])],
+    ids=["ball", "sled"],
+)
+def test_where_the_loop_pauses_changes_no_bit(model, motion, p, start, short_slices):
+    """Path, modes, events, extrema and end of a trajectory in slices of a few steps are those of one in a single slice."""
+    whole = follow(model, motion, p, start, 0)
+    short_slices()
+    parts = follow(model, motion, p, start, 0)
+    for field in ("states", "modes", "extrema", "final"):
+        np.testing.assert_array_equal(getattr(parts, field)[: whole.end.sample], getattr(whole, field)[: whole.end.sample])
+    assert (parts.end, parts.status, parts.n_changes) == (whole.end, whole.status, whole.n_changes)
+    assert [dataclasses.astuple(c)[:5] for c in parts.changes] == [dataclasses.astuple(c)[:5] for c in whole.changes]
+
+
+def test_rows_go_on_where_they_paused(short_slices):
+    """Many trajectories in slices that end inside a row are those in a single slice."""
+    limits, gains = np.array([[0.3], [1.5], [99.0], [2.0]]), np.array([[1.0, 0.0, 0.0]])
+    whole = follow_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    short_slices()
+    parts = follow_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    for field in ("final", "final_mode", "n_changes", "end_time", "first_change", "extrema", "tally"):
+        np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
+
+
+@pytest.mark.skipif(not ENABLED, reason="a quarter of a million steps in plain Python")
+def test_events_without_end_inside_one_sample_are_given_up():
+    """A ball that hardly loses speed bounces for ever within one long sample: an error with its time, whether events are kept or not."""
+    one_sample = Motion.from_arrays(np.zeros(2), 1e7)
+    with pytest.raises(SolverError, match="without end"):
+        follow(BALL, one_sample, [9.8, 1.0, 0.0], [1e-3, 0.0], 0, keep_path=False, keep_events=False)
