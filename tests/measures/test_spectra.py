@@ -10,8 +10,11 @@ from seisblock.measures import fourier_amplitude, response_spectrum
 
 
 def test_step_of_acceleration_doubles():
-    """An undamped oscillator under a sudden constant a reaches 2 a/w^2, the velocity a/w and the absolute acceleration 2 a."""
-    spectrum = response_spectrum(np.full(1001, 3.0), 0.01, [0.3, 1.0, 5.0], damping=0.0)
+    """An undamped oscillator under a sudden constant a reaches 2 a/w^2, the velocity a/w and the absolute acceleration 2 a.
+
+    The constant ends after whole periods, when the oscillator is back where it began.
+    """
+    spectrum = response_spectrum(np.full(1001, 3.0), 0.01, [0.25, 1.0, 5.0], damping=0.0)
     omega = 2 * math.pi / spectrum.period_s
     np.testing.assert_allclose(spectrum.sd_m, 6 / omega**2, rtol=3e-3)
     np.testing.assert_allclose(spectrum.sv_m_s, 3 / omega, rtol=3e-3)
@@ -37,6 +40,37 @@ def test_short_and_long_periods():
     assert found.sa_m_s2[0] == pytest.approx(np.abs(a).max(), rel=2e-3)
     ground = np.cumsum(np.cumsum(a)) * 1e-4
     assert found.sd_m[1] == pytest.approx(np.abs(ground).max(), rel=0.05)
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.05, 0.5])
+@pytest.mark.parametrize("period", [0.05, 0.3, 2.0, 10.0])
+def test_the_oscillator_swings_on_after_the_record(period, damping):
+    """A half sine that ends the record counts as much as one with rest behind it, for every response."""
+    pulse = np.sin(math.pi * np.arange(101) / 100)
+    cut = response_spectrum(pulse, 0.01, [period], damping=damping)
+    whole = response_spectrum(np.concatenate((pulse, np.zeros(3000))), 0.01, [period], damping=damping)
+    for name in ("sa_m_s2", "sv_m_s", "sd_m"):
+        np.testing.assert_allclose(getattr(cut, name), getattr(whole, name), rtol=2e-5)
+
+
+def test_what_the_record_leaves_in_a_slow_oscillator():
+    """A half sine of 1 s and 1 m/s^2 gives a 10 s oscillator its largest swing long after the record: 0.98 m, not 0.32 m."""
+    pulse = np.sin(math.pi * np.arange(1001) / 1000)
+    found = response_spectrum(pulse, 0.001, [10.0], damping=0.0).sd_m[0]
+    # free swing after a half sine of duration d: 2 r / (1 - r^2) cos(pi / 2 r) / w^2 with r = T / 2 d
+    ratio = 5.0
+    expected = 2 * ratio / (ratio**2 - 1) * math.cos(math.pi / (2 * ratio)) * (10 / (2 * math.pi)) ** 2
+    assert found == pytest.approx(expected, rel=1e-5)
+
+
+@pytest.mark.parametrize("period", [0.02, 0.0731, 0.4, 1.0])
+def test_no_maximum_hides_between_points(period):
+    """Weak shaking of high frequency: 64 times as many points on the same straight lines find nothing that was hidden, to 1e-4."""
+    wave = np.random.default_rng(4).standard_normal(400) * np.tile([1.0, -1.0], 200)
+    fine = np.interp(np.arange(399 * 64 + 1) / 64, np.arange(400), wave)
+    coarse, exact = response_spectrum(wave, 0.01, [period]), response_spectrum(fine, 0.01 / 64, [period])
+    for name in ("sa_m_s2", "sv_m_s", "sd_m"):
+        np.testing.assert_allclose(getattr(coarse, name), getattr(exact, name), rtol=1e-4)
 
 
 @pytest.mark.parametrize(("periods", "damping"), [([0.0], 0.05), ([-1.0], 0.05), ([np.nan], 0.05), ([1.0], 1.0), ([1.0], -0.1)])
