@@ -187,7 +187,16 @@ def restitutions(block: Block, given: Restitution) -> tuple[float, float]:
 
 
 def from_slenderness(slenderness: float, frequency_parameter: float, gravity: float = STANDARD_GRAVITY) -> Block:
-    """Return the homogeneous rectangular block of a given alpha, rad, and p = sqrt(3 g/(4 R)), rad/s ([Housner1963]_)."""
+    """Return the homogeneous rectangular block of a given slenderness and frequency parameter ([Housner1963]_).
+
+    Parameters
+    ----------
+    slenderness : float, rad
+        alpha, between 0 and pi/2.
+    frequency_parameter : float, rad/s
+        p = sqrt(3 g/(4 R)), positive.
+    gravity : float, m/s^2
+    """
     for name, value in (("slenderness", slenderness), ("frequency parameter", frequency_parameter)):
         if not (math.isfinite(value) and value > 0.0):
             raise BodyError(f"the {name} must be positive, found {value}")

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from seisblock.bodies.toml import length, lengths, masses, of_kind
+from seisblock.bodies.toml import length, lengths, masses, of_kind, read_table
 from seisblock.errors import BodyError
 from seisblock.units import STANDARD_GRAVITY
 
@@ -159,3 +160,51 @@ def contact(table: Mapping[str, Any]) -> Mapping[str, float]:
     if unknown:
         raise BodyError(f"{table.get('source', 'body')}: [contact] has unknown entries {', '.join(sorted(unknown))}")
     return {key: float(value) for key, value in values.items()}
+
+
+def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:
+    """Return the two-layer block of a TOML file, or a bundled one such as ``chozusha``.
+
+    Parameters
+    ----------
+    name : str or Path
+        ``kind = "two-layer"``, see :func:`two_layer_block`.
+    side : "short" or "long"
+        Which side lies along the motion, where the file gives both.
+
+    Raises
+    ------
+    BodyError
+        If there is no such body, something is missing, or it is of another kind.
+
+    Examples
+    --------
+    >>> load_two_layer("chozusha", side="long").width
+    2.5
+    """
+    return two_layer_block(read_table(name), side)
+
+
+def load_contact(name: str | Path) -> Contact:
+    """Return the friction and restitution of a two-layer block that a TOML file, or a bundled body, brings along.
+
+    Parameters
+    ----------
+    name : str or Path
+        With a table ``contact`` of ``mu`` and whatever else :class:`Contact` takes.
+
+    Raises
+    ------
+    BodyError
+        If there is no such body, or it says nothing of friction.
+
+    Examples
+    --------
+    >>> load_contact("chozusha").mu
+    0.18
+    """
+    table = read_table(name)
+    found = contact(table)
+    if "mu" not in found:
+        raise BodyError(f"{table.get('name', name)} brings no friction of its own: make a Contact(mu=...)")
+    return Contact(**found)

@@ -111,10 +111,10 @@ def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, .
     """Return the pile that the options of the body describe."""
     from dataclasses import replace
 
-    from seisblock.bodies.pile.toml import read_pile
+    from seisblock.bodies.pile.toml import load_pile
     from seisblock.errors import BodyError
 
-    body = read_pile(stones, reinforced=reinforced, mu=mu)
+    body = load_pile(stones, reinforced=reinforced, mu=mu)
     for name in without:
         if name not in body.names:
             raise BodyError(f"--without names {name!r}, but the pile {body.name} has {', '.join(body.names)}")

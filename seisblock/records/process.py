@@ -70,6 +70,17 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
 def scale(record: Record, factor: float) -> Record:
     """Multiply every component by one factor.
 
+    Parameters
+    ----------
+    record : Record
+    factor : float
+        Finite.
+
+    Returns
+    -------
+    Record
+        With the factor named in ``history``.
+
     Raises
     ------
     ParameterError

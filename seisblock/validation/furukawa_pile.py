@@ -7,7 +7,7 @@ from functools import cache, partial
 import numpy as np
 
 from seisblock.bodies.pile.pile import Pile
-from seisblock.bodies.pile.toml import read_pile
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, overturning_ratio
 from seisblock.measures import ground_history
 from seisblock.records.motion import Motion
@@ -78,14 +78,14 @@ def _component(rng: np.random.Generator, pga: float, pgv: float) -> FloatArray:
 @cache
 def share_fallen(level: str, reinforced: bool) -> float:
     """Return the share of twelve motions of a level under which the sao falls."""
-    pile = read_pile("wagata", reinforced=reinforced).without("mizubachi")
+    pile = load_pile("wagata", reinforced=reinforced).without("mizubachi")
     runs = in_threads(lambda seed: solve_stack(pile, kobe_like(level, seed), stop_at_fall=True).outcome.overturned, range(MOTIONS))
     return float(np.mean(["sao" in fallen for fallen in runs]))
 
 
 def threshold(reinforced: bool, frequency: float, pga: float) -> float:
     """Return H/B of the most squat sao that a sine fells; more than any when none falls."""
-    pile: Pile = read_pile("wagata", reinforced=reinforced).without("mizubachi")
+    pile: Pile = load_pile("wagata", reinforced=reinforced).without("mizubachi")
     study = criterion_study(pile, frequencies=(frequency,), pgas=(pga,))
     found = study.thresholds[0].ratio
     return RATIOS[-1] + NEXT_HEIGHT if found is None else found

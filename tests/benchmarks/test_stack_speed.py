@@ -8,7 +8,7 @@ import pytest
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.bodies.pile.toml import read_pile
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.records import Motion
 from seisblock.solvers.stack.solve import solve_stack
 
@@ -27,7 +27,7 @@ def test_one_block_on_four_points(benchmark):
 
 def test_five_stones_on_25_points_each(benchmark):
     """The paper's pile of five stones on 5 x 5 points each: 40 simulated seconds per second."""
-    response = benchmark(solve_stack, read_pile("wagata"), SHAKING)
+    response = benchmark(solve_stack, load_pile("wagata"), SHAKING)
     assert response.outcome.max_tilt_rad["sao"] > 0.005
     assert benchmark.stats is None or response.time[-1] / benchmark.stats.stats.min > 40.0
 
@@ -42,7 +42,7 @@ def test_side_by_side_with_mujoco(benchmark, solver):
     pytest.importorskip("mujoco", reason="an extra: pip install seisblock[mujoco]")
     from tests.crosscheck.mujoco_pile import falls
 
-    pile = read_pile("wagata", mu=0.8).without("mizubachi")
+    pile = load_pile("wagata", mu=0.8).without("mizubachi")
     if solver == "seisblock":
         response = benchmark(solve_stack, pile, SHAKING, points=2)
         assert not response.outcome.overturned_any

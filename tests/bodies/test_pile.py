@@ -8,7 +8,7 @@ import pytest
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.bodies.pile.toml import read_pile
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.errors import BodyError, ParameterError
 from seisblock.units import SUN
 
@@ -22,7 +22,7 @@ def pile(*stones, **more):
 
 def test_wagata_is_the_papers():
     """The bundled gravestone has the sizes of table 1, H/B 2.6, and chudai 6 sun behind gedai's front edge."""
-    wagata = read_pile("wagata")
+    wagata = load_pile("wagata")
     sizes = {stone.name: tuple(round(side / SUN, 9) for side in stone.size) for stone in wagata.stones}
     assert sizes == {"gedai": (28, 28, 5), "mizubachi": (16, 5, 9), "chudai": (20, 20, 10), "jodai": (14, 14, 9), "sao": (8, 8, 20.8)}
     place = dict(zip(wagata.names, wagata.centres(), strict=True))
@@ -34,20 +34,20 @@ def test_wagata_is_the_papers():
 
 def test_dowels_make_one_body_of_two_stones():
     """Reinforced, jodai and sao move as one; plain, every stone moves by itself."""
-    assert list(read_pile("wagata").bodies()) == [(0,), (1,), (2,), (3,), (4,)]
-    assert list(read_pile("wagata", reinforced=True).bodies()) == [(0,), (1,), (2,), (3, 4)]
+    assert list(load_pile("wagata").bodies()) == [(0,), (1,), (2,), (3,), (4,)]
+    assert list(load_pile("wagata", reinforced=True).bodies()) == [(0,), (1,), (2,), (3, 4)]
 
 
 def test_a_stone_may_be_left_out_or_fixed():
     """Without the mizubachi four stones are left; fixed, it is no body of its own."""
-    assert read_pile("wagata").without("mizubachi").names == ("gedai", "chudai", "jodai", "sao")
-    fixed = replace(read_pile("wagata"), fixed=("gedai", "mizubachi"))
+    assert load_pile("wagata").without("mizubachi").names == ("gedai", "chudai", "jodai", "sao")
+    fixed = replace(load_pile("wagata"), fixed=("gedai", "mizubachi"))
     assert list(fixed.bodies()) == [(2,), (3,), (4,)]
 
 
 def test_the_lantern_stands():
     """The bundled lantern is a pile that can stand, 2 m high."""
-    lantern = read_pile("lantern.toml")
+    lantern = load_pile("lantern.toml")
     assert lantern.centres()[-1][2] + 0.5 * lantern.stones[-1].height == pytest.approx(2.01)
 
 
@@ -105,7 +105,7 @@ def test_unreadable_files_are_refused(text, message, tmp_path):
     path = tmp_path / "stones.toml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(BodyError, match=message):
-        read_pile(path)
+        load_pile(path)
 
 
 def test_dowels_that_are_not_there_are_refused(tmp_path):
@@ -113,7 +113,7 @@ def test_dowels_that_are_not_there_are_refused(tmp_path):
     path = tmp_path / "stones.toml"
     path.write_text("kind = 'pile'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1\nheight = 1", encoding="utf-8")
     with pytest.raises(BodyError, match="has no dowels"):
-        read_pile(path, reinforced=True)
+        load_pile(path, reinforced=True)
 
 
 def test_contact_is_per_mass_or_physical():

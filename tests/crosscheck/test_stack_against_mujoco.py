@@ -8,7 +8,7 @@ import pytest
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.bodies.pile.toml import read_pile
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.records import Motion
 from seisblock.solvers.stack.solve import solve_stack
 
@@ -56,5 +56,5 @@ def test_the_pile(mu, hertz):
     With the paper's 0.438 the stones slide at 1.5 and 2 Hz, and MuJoCo's softened friction has not converged: its own threshold goes
     from 9.9 to 6.4 m/s^2 when its step is halved.
     """
-    pile = read_pile("wagata", mu=mu).without("mizubachi")
+    pile = load_pile("wagata", mu=mu).without("mizubachi")
     assert ours(pile, hertz) == pytest.approx(theirs(pile, hertz), rel=0.03)

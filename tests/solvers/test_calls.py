@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.pile.toml import read_pile
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.errors import ComponentError, KindError, ParameterError
@@ -27,7 +27,7 @@ def jump(block, motion):
     return solve_jump(block, motion, contact=Contact(0.18, 0.17, 0.95, 0.85))
 
 
-SOLVERS = [(solve_slide, 0.2), (solve_rock, BLOCK), (jump, LAYERS), (solve_uplift, SPRINGS), (solve_stack, read_pile("wagata"))]
+SOLVERS = [(solve_slide, 0.2), (solve_rock, BLOCK), (jump, LAYERS), (solve_uplift, SPRINGS), (solve_stack, load_pile("wagata"))]
 calls = pytest.mark.parametrize(("solve", "body"), SOLVERS, ids=["slide", "rock", "jump", "uplift", "stack"])
 
 

@@ -9,7 +9,7 @@ import pytest
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.bodies.pile.toml import read_pile
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
 from seisblock.solvers.stack.outcome import CREATED_AT_MOST
@@ -44,7 +44,7 @@ def test_a_block_at_rest_stays():
 
 def test_a_plumb_pile_at_rest_stays_for_100_s():
     """The five-stone pile drifts by less than 0.1 mm in 100 s."""
-    response = solve_stack(read_pile("wagata"), Motion.from_arrays(np.zeros(10_001), 0.01))
+    response = solve_stack(load_pile("wagata"), Motion.from_arrays(np.zeros(10_001), 0.01))
     drift = max(float(np.ptp(response[f"{name}_{axis}"])) for name in response.body.names for axis in "xyz")
     assert drift < 1e-5
     assert all(stone.state == "standing" for stone in response.outcome.stones)
@@ -84,8 +84,8 @@ def test_slow_tilt_overturns_at_the_exact_angle():
 def test_mirrored_shaking_gives_the_mirror_image(hertz):
     """Shaking to the other side moves every stone to the other side, to the last bit while they stand."""
     motion = sine(6.0, hertz, 3.0)
-    there = solve_stack(read_pile("wagata"), motion, stop_at_fall=True)
-    back = solve_stack(read_pile("wagata"), Motion(-motion.acceleration, motion.dt), stop_at_fall=True)
+    there = solve_stack(load_pile("wagata"), motion, stop_at_fall=True)
+    back = solve_stack(load_pile("wagata"), Motion(-motion.acceleration, motion.dt), stop_at_fall=True)
     assert there.outcome.overturned == back.outcome.overturned
     for name in there.body.names:
         np.testing.assert_array_equal(there[f"{name}_x"], -back[f"{name}_x"])
@@ -108,7 +108,7 @@ def test_energy_never_grows_and_momentum_is_kept(reinforced):
     """What friction and dashpots have taken never falls, through rocking, falling and coming to rest; momentum is the impulse."""
     rng = np.random.default_rng(3)
     shaking = rng.normal(size=(3, 800)) * np.array([[6.0], [6.0], [3.0]]) * np.hanning(800)
-    response = solve_stack(read_pile("wagata", reinforced=reinforced), Motion(np.cumsum(shaking, axis=1) * 0.2, 0.01))
+    response = solve_stack(load_pile("wagata", reinforced=reinforced), Motion(np.cumsum(shaking, axis=1) * 0.2, 0.01))
     outcome = response.outcome
     assert outcome.created_j < 1e-6 * outcome.lost_j
     assert outcome.momentum_error < 1e-12
@@ -175,7 +175,7 @@ def test_vertical_and_transverse_motion_can_be_left_out():
 def test_halving_the_step_changes_little():
     """The default step has converged: half of it gives the same rocking to 1 %."""
     motion = sine(4.0, 2.0, 2.0)
-    body = read_pile("wagata")
+    body = load_pile("wagata")
     coarse = solve_stack(body, motion)
     fine = solve_stack(body, motion, step=0.5 * coarse.outcome.step_s)
     assert fine.outcome.max_tilt_rad["sao"] == pytest.approx(coarse.outcome.max_tilt_rad["sao"], rel=0.01)
@@ -217,6 +217,6 @@ def test_stones_that_fall_on_each_other_create_no_energy():
     for seed in range(4):
         motion = kobe_like("7", seed)
         for name in ("lantern", "wagata"):
-            outcome = solve_stack(read_pile(name), motion).outcome
+            outcome = solve_stack(load_pile(name), motion).outcome
             assert outcome.created_j < 1e-4 * outcome.lost_j
             assert outcome.overturned_any

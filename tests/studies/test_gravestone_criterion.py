@@ -7,7 +7,7 @@ import pytest
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.bodies.pile.toml import read_pile
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.criteria.gravestones import PLAIN, overturning_level
 from seisblock.errors import ParameterError, RecordFormatError
 from seisblock.records import Motion
@@ -90,7 +90,7 @@ def test_one_stone_falls_where_the_rigid_block_does():
 
 def test_a_dowelled_top_is_one_rigid_block():
     """Sao and jodai as one body: its mass, its centre of gravity and its inertia are those of both stones."""
-    pile = read_pile("wagata", reinforced=True)
+    pile = load_pile("wagata", reinforced=True)
     block = rigid_top(pile, 5)
     jodai, sao = pile.stones[-2:]
     mass = jodai.mass + sao.mass

@@ -18,7 +18,7 @@ _PILE_KEYS = {"source", "name", "kind", "mu", "density", "reinforced", "fixed", 
 _STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "bottom"}
 
 
-def read_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = None) -> Pile:
+def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = None) -> Pile:
     """Return a pile of stones from a TOML file, or a bundled one by its name (``wagata``, ``lantern``).
 
     Parameters
@@ -39,7 +39,7 @@ def read_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
 
     Examples
     --------
-    >>> read_pile("wagata").names
+    >>> load_pile("wagata").names
     ('gedai', 'mizubachi', 'chudai', 'jodai', 'sao')
     """
     table = read_table(name)

@@ -1,1 +1,5 @@
 """The two-layer block: rocking, impact, jump, landing, rocking-sliding."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

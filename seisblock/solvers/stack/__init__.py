@@ -1,1 +1,5 @@
 """A pile of stones in three dimensions, by discrete elements."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

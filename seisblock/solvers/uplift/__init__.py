@@ -1,1 +1,5 @@
 """A block on corner springs: modes, harmonic uplift, response to a record."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,172 @@
+# The public names: what a user's script imports from seisblock, read by type checkers and, at run time, by lazy_loader.
+
+from . import bodies, criteria, errors, measures, readers, records, results, solvers, studies, units, validation
+from .bodies.block import Block, from_slenderness
+from .bodies.cemetery.cemetery import Cemetery, Stone
+from .bodies.cemetery.table import read_cemetery
+from .bodies.inset import Inset
+from .bodies.library import load_block
+from .bodies.pile.contact import PileContact
+from .bodies.pile.pile import Pile
+from .bodies.pile.stone import PileStone
+from .bodies.pile.toml import load_pile
+from .bodies.sliding_base import SlidingBase
+from .bodies.spring_block import SpringBlock
+from .bodies.two_layer import Contact, TwoLayerBlock, load_contact, load_two_layer
+from .criteria.card import overturning_card
+from .errors import (
+    BodyError,
+    ComponentError,
+    InputError,
+    KindError,
+    OutputError,
+    ParameterError,
+    RecordError,
+    RecordFormatError,
+    RecordNotFoundError,
+    SeisblockError,
+    SolverError,
+    UnitError,
+)
+from .measures.intensity import jma_class, jma_intensity
+from .measures.spectra import ResponseSpectrum, response_spectrum
+from .measures.summary import ComponentMeasures, Conventions, RecordMeasures, measure
+from .readers.read import read, read_all
+from .records.motion import Motion, motion_of
+from .records.process import crop, demean, highpass, rotate, scale, scale_to_pga, towards
+from .records.record import Component, Record
+from .results import Channel, Event, Phase, Response, Status
+from .samples import Sample, list_samples, sample_path
+from .solvers.jump.solve import JumpOutcome, solve_jump
+from .solvers.rock.outcome import RockOutcome
+from .solvers.rock.solve import Verdict, rock_verdict, solve_rock
+from .solvers.slide.solve import SlideOutcome, solve_slide
+from .solvers.stack.outcome import StackOutcome
+from .solvers.stack.solve import solve_stack
+from .solvers.uplift.harmonic import uplift_thresholds
+from .solvers.uplift.minima import UpliftMinimum, uplift_minima
+from .solvers.uplift.modes import natural_modes
+from .solvers.uplift.solve import UpliftOutcome, solve_uplift
+from .studies.cemetery.rate import Rate, overturning_rate, rate_curve
+from .studies.gravestone_criterion import CriterionStudy, criterion_study
+from .studies.inverse.estimate import ShakingEstimate, estimate_shaking
+from .studies.inverse.factors import ScaleFactors, jumped, scale_factors, slid
+from .studies.inverse.survey import Survey, counted_survey, marked_survey
+from .studies.rocking.margin import Margin, find_margin
+from .studies.rocking.perturb import Perturbation, Spread, perturb
+from .studies.rocking.spectra import RockingSpectrum, rocking_spectrum
+from .studies.sliding import SlidePoint, slide_study
+
+__version__: str
+
+__all__ = [
+    "Block",
+    "bodies",
+    "BodyError",
+    "Cemetery",
+    "Channel",
+    "Component",
+    "ComponentError",
+    "ComponentMeasures",
+    "Contact",
+    "Conventions",
+    "counted_survey",
+    "criteria",
+    "criterion_study",
+    "CriterionStudy",
+    "crop",
+    "demean",
+    "errors",
+    "estimate_shaking",
+    "Event",
+    "find_margin",
+    "from_slenderness",
+    "highpass",
+    "InputError",
+    "Inset",
+    "jma_class",
+    "jma_intensity",
+    "jumped",
+    "JumpOutcome",
+    "KindError",
+    "list_samples",
+    "load_block",
+    "load_contact",
+    "load_pile",
+    "load_two_layer",
+    "Margin",
+    "marked_survey",
+    "measure",
+    "measures",
+    "Motion",
+    "motion_of",
+    "natural_modes",
+    "OutputError",
+    "overturning_card",
+    "overturning_rate",
+    "ParameterError",
+    "perturb",
+    "Perturbation",
+    "Phase",
+    "Pile",
+    "PileContact",
+    "PileStone",
+    "Rate",
+    "rate_curve",
+    "read",
+    "read_all",
+    "read_cemetery",
+    "readers",
+    "Record",
+    "RecordError",
+    "RecordFormatError",
+    "RecordMeasures",
+    "RecordNotFoundError",
+    "records",
+    "Response",
+    "response_spectrum",
+    "ResponseSpectrum",
+    "results",
+    "rock_verdict",
+    "rocking_spectrum",
+    "RockingSpectrum",
+    "RockOutcome",
+    "rotate",
+    "Sample",
+    "sample_path",
+    "scale",
+    "scale_factors",
+    "scale_to_pga",
+    "ScaleFactors",
+    "SeisblockError",
+    "ShakingEstimate",
+    "slid",
+    "slide_study",
+    "SlideOutcome",
+    "SlidePoint",
+    "SlidingBase",
+    "solve_jump",
+    "solve_rock",
+    "solve_slide",
+    "solve_stack",
+    "solve_uplift",
+    "SolverError",
+    "solvers",
+    "Spread",
+    "SpringBlock",
+    "StackOutcome",
+    "Status",
+    "Stone",
+    "studies",
+    "Survey",
+    "towards",
+    "TwoLayerBlock",
+    "UnitError",
+    "units",
+    "uplift_minima",
+    "uplift_thresholds",
+    "UpliftMinimum",
+    "UpliftOutcome",
+    "validation",
+    "Verdict",
+]

@@ -1,0 +1,61 @@
+from .card import Row, overturning_card
+from .gravestones import (
+    DOWELLED,
+    PLAIN,
+    GravestoneFit,
+    judge,
+    outside_fit,
+    overturning_frequency,
+    overturning_level,
+    overturning_pga,
+    overturning_ratio,
+)
+from .intensity import intensity_from_velocity
+from .overturning import (
+    housner_acceleration,
+    housner_acceleration_as_printed,
+    ishiyama_acceleration,
+    ishiyama_velocity,
+    static_acceleration,
+    tsutsui_sine_velocity,
+    tsutsui_velocity,
+    velocity_step,
+)
+from .pulses import half_sine_ratio, one_sine_ratio, rectangular_ratio
+from .sliding import friction_that_holds, friction_that_stops, pulse_slip, slip_acceleration, slip_limits, steady_slip
+from .uplift import SquareBaseModes, harmonic_uplift_ratio, square_base_modes
+
+__all__ = [
+    "DOWELLED",
+    "PLAIN",
+    "friction_that_holds",
+    "friction_that_stops",
+    "GravestoneFit",
+    "half_sine_ratio",
+    "harmonic_uplift_ratio",
+    "housner_acceleration",
+    "housner_acceleration_as_printed",
+    "intensity_from_velocity",
+    "ishiyama_acceleration",
+    "ishiyama_velocity",
+    "judge",
+    "one_sine_ratio",
+    "outside_fit",
+    "overturning_card",
+    "overturning_frequency",
+    "overturning_level",
+    "overturning_pga",
+    "overturning_ratio",
+    "pulse_slip",
+    "rectangular_ratio",
+    "Row",
+    "slip_acceleration",
+    "slip_limits",
+    "square_base_modes",
+    "SquareBaseModes",
+    "static_acceleration",
+    "steady_slip",
+    "tsutsui_sine_velocity",
+    "tsutsui_velocity",
+    "velocity_step",
+]

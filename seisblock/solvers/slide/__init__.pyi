@@ -1,0 +1,3 @@
+from .solve import SlideOutcome, solve_slide
+
+__all__ = ["SlideOutcome", "solve_slide"]
