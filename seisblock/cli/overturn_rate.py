@@ -16,7 +16,7 @@ from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, INSET, LENGTH
 
 if TYPE_CHECKING:
-    from seisblock.studies.cemetery.judgement import FrequencyKind
+    from seisblock.studies.cemetery.shaking import FrequencyKind
 
 KINDS: dict[str, FrequencyKind] = {"pga-pgv": "pga_pgv", "fourier": "fourier", "pulse-width": "pulse_width"}
 """Definitions of the equivalent frequency, as they are spelled here and in the library."""
@@ -199,8 +199,8 @@ def _edges(inset: Inset | None, criterion: str) -> tuple[Inset, list[str]]:
 
 def _groups(source: Source, asked: dict[str, Any]) -> list[tuple[Any, list[Any]]]:
     """Return the shakings to judge, under the record they belong to, or None."""
-    from seisblock.studies.cemetery.judgement import Shaking, shakings_of
     from seisblock.studies.cemetery.rate import FREQUENCIES
+    from seisblock.studies.cemetery.shaking import Shaking, shakings_of
 
     pga, frequency = asked["pga"], asked["frequency"]
     if not source.record:

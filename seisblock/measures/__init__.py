@@ -7,22 +7,26 @@ from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensi
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
 from seisblock.measures.spectra import ResponseSpectrum, default_periods, fourier_amplitude, response_spectrum
 from seisblock.measures.summary import ComponentMeasures, Conventions, RecordMeasures, measure
+from seisblock.measures.usual_filters import USUAL_HIGHPASS_HZ, FilterRange, filter_range
 
 __all__ = [
     "ComponentMeasures",
     "Conventions",
     "Duration",
     "EquivalentFrequency",
+    "FilterRange",
     "GroundHistory",
     "HorizontalPeak",
     "Pulse",
     "RecordMeasures",
     "ResponseSpectrum",
+    "USUAL_HIGHPASS_HZ",
     "arias_intensity",
     "block_threshold",
     "default_periods",
     "dominant_frequency",
     "duration_above",
+    "filter_range",
     "fourier_amplitude",
     "ground_history",
     "jma_class",

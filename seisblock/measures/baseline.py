@@ -58,7 +58,12 @@ def ground_history(acceleration: FloatArray, dt: float, *, highpass_hz: float | 
         If the corner is negative or beyond half the sampling rate.
     """
     filtered = highpass_samples(acceleration, dt, highpass_hz) if highpass_hz else acceleration
-    velocity = integrate(filtered, dt)
+    return ground_history_of(filtered, dt)
+
+
+def ground_history_of(acceleration: FloatArray, dt: float) -> GroundHistory:
+    """Return the history of samples that need no filter: :func:`ground_history` without its first step ([Furukawa2009]_ section 3(5)e)."""
+    velocity = integrate(acceleration, dt)
     # the trapezoidal mean of a quadratic velocity, plus its correction: the displacement then ends at zero exactly
-    drift = float(integrate_twice(filtered, dt)[-1]) / ((filtered.size - 1) * dt)
-    return GroundHistory(filtered, velocity - drift, integrate_twice(filtered, dt, -drift))
+    drift = float(integrate_twice(acceleration, dt)[-1]) / ((acceleration.size - 1) * dt)
+    return GroundHistory(acceleration, velocity - drift, integrate_twice(acceleration, dt, -drift))

@@ -19,6 +19,7 @@ from seisblock.measures.frequency import (
 from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
 from seisblock.measures.spectra import SMOOTHING_HZ
+from seisblock.measures.usual_filters import FilterRange, filter_range
 from seisblock.records.process import pick
 from seisblock.records.record import Component, Record
 from seisblock.units import STANDARD_GRAVITY
@@ -29,6 +30,9 @@ the 100 gal from which the criteria of [Furukawa2009]_ are fitted."""
 
 IMPLAUSIBLE_PGA = 50.0
 """A peak beyond this (m/s^2, about 5 g) has hardly been recorded on the ground: the unit is probably wrong."""
+
+_ROUND_OFF = 1e-10
+"""A velocity below this share of PGA times duration is round-off: what the high-pass leaves of an offset."""
 
 CITATIONS = ("Furukawa2009", "JMA1996", "Arias1970", "TrifunacBrady1975", "Parzen1961")
 """What the numbers of :func:`measure` rest on."""
@@ -56,6 +60,8 @@ class ComponentMeasures:
         Arias intensity, and the time between 5 and 95 % of it.
     jma_intensity : float or None
         Of the whole record, repeated here so that nobody misses it.
+    usual_highpass : FilterRange or None
+        How far PGV and PGA/(2 pi PGV) move with the usual filters; None when by no more than 5 %.
     """
 
     component: str
@@ -69,6 +75,7 @@ class ComponentMeasures:
     arias_m_s: float
     significant_duration_s: float
     jma_intensity: float | None
+    usual_highpass: FilterRange | None = None
 
 
 @dataclass(frozen=True)
@@ -173,7 +180,11 @@ def measure(
         jma_class=None if intensity is None else jma_class(intensity),
         horizontal=peak_horizontal(record),
         conventions=rules,
-        warnings=(*_intensity_warnings(record, intensity), *(text for m in measured for text in _component_warnings(m))),
+        warnings=(
+            *_intensity_warnings(record, intensity),
+            *_baseline_warnings(record, rules),
+            *(text for m in measured for text in _component_warnings(m)),
+        ),
     )
 
 
@@ -185,6 +196,7 @@ def _measure_component(
     pga, index = peak_acceleration(a)
     history = ground_history(a, dt, highpass_hz=rules.velocity_highpass_hz)
     pgv = peak_velocity(history, dt)
+    pgv = pgv if pgv > _ROUND_OFF * pga * record.duration_s else 0.0
     pulse = peak_pulse(a, dt)
     return ComponentMeasures(
         component=component.code,
@@ -202,6 +214,7 @@ def _measure_component(
         arias_m_s=arias_intensity(a, dt, gravity=rules.gravity_m_s2),
         significant_duration_s=significant_duration(a, dt),
         jma_intensity=intensity,
+        usual_highpass=filter_range(a, dt, pga, pgv),
     )
 
 
@@ -214,6 +227,17 @@ def _intensity_warnings(record: Record, intensity: float | None) -> list[str]:
     if not any(np.any(c.acceleration) for c in record.components):
         return ["no JMA intensity: the record is zero throughout"]
     return [f"no JMA intensity: the record is shorter than 0.3 s ({record.duration_s:g} s)"]
+
+
+def _baseline_warnings(record: Record, rules: Conventions) -> list[str]:
+    """Say when the record is too short for the high-pass behind its velocities."""
+    corner = rules.velocity_highpass_hz
+    if not corner or record.duration_s * corner >= 1.0:
+        return []
+    return [
+        f"the record ({record.duration_s:g} s) is shorter than the corner period of the high-pass behind PGV ({1 / corner:g} s): "
+        "an offset cannot be told from slow motion; where the level is known to be right, choose no high-pass"
+    ]
 
 
 def _component_warnings(m: ComponentMeasures) -> list[str]:

@@ -7,8 +7,9 @@ import pytest
 
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.present.figures.cemetery import figure_14, figure_16, figure_20, overturn_rate_figure
-from seisblock.studies.cemetery.judgement import Method, Shaking, curve_of, judge_cemetery
+from seisblock.studies.cemetery.judgement import Method, curve_of, judge_cemetery
 from seisblock.studies.cemetery.rate import overturning_rate
+from seisblock.studies.cemetery.shaking import Shaking
 from seisblock.validation.furukawa_surveys import SURVEYS
 
 AOYAMA = read_cemetery("aoyama.csv")

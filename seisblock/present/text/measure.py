@@ -8,7 +8,7 @@ from typing import Any
 from rich.console import Group
 from rich.text import Text
 
-from seisblock.measures import RecordMeasures, ground_history
+from seisblock.measures import FilterRange, RecordMeasures, ground_history
 from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, seconds, table
 from seisblock.records import Record
 from seisblock.records.process import pick
@@ -88,6 +88,18 @@ def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
         towards = "" if worst.azimuth_deg is None else f" towards {worst.azimuth_deg:.0f}° (clockwise from north)"
         size = f"{acceleration(worst.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)}"
         yield f"Largest horizontal vector {size} at {seconds(worst.time_s)} s{towards}"
+    for m in answer.components:
+        if m.usual_highpass is not None:
+            yield f"{m.component}: {usual_filters(m.usual_highpass, gal=gal)}"
+
+
+def usual_filters(found: FilterRange, *, gal: bool) -> str:
+    """Return how far PGV and f move with the usual filters, in words."""
+    unit, speed = ("kine", KINE) if gal else ("m/s", 1.0)
+    low, high = (number(v / speed, 3) for v in found.pgv_m_s)
+    slow, fast = (number(f, 3) for f in found.pga_pgv_hz)
+    corners = " or ".join(f"{hz:g}" for hz in found.highpass_hz)
+    return f"PGV {low} to {high} {unit} and f {slow} to {fast} Hz with the usual high-passes ({corners} Hz, with or without delay)"
 
 
 def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) -> tuple[list[str], Iterator[list[Any]]]:

@@ -8,6 +8,7 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.present.text.measure import usual_filters
 from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, table
 from seisblock.records import Record
 from seisblock.studies.cemetery.judgement import CemeteryRate
@@ -45,7 +46,7 @@ def tables(
         if record is not None:
             yield record_line(record)
         yield _rates(title, results, gal=gal, confidence=confidence)
-        yield from (Text(sentence) for sentence in _dowels(results))
+        yield from (Text(sentence) for sentence in (*_filters(results, gal=gal), *_dowels(results)))
     if not groups:
         yield _curve(title, curve, gal=gal)
 
@@ -78,6 +79,15 @@ def _ratio(each: CemeteryRate) -> str:
     """Return the least H/B that falls: that of the criterion, else that of the stoutest stone that fell."""
     value = each.least_overturned_ratio if each.threshold_ratio is None else each.threshold_ratio
     return NOTHING if value is None else f"{value:.2f}"
+
+
+def _filters(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
+    """Yield how far frequency and rate move with the usual filters, a sentence per component."""
+    for each in results:
+        if each.usual_highpass is not None and each.rate_range is not None and not each.of:
+            low, high = each.rate_range
+            rate = f"rate {low:.2f}" if low == high else f"rate {low:.2f} to {high:.2f}"
+            yield f"{each.component}: {usual_filters(each.usual_highpass, gal=gal)}; {rate}"
 
 
 def _dowels(results: Sequence[CemeteryRate]) -> Iterator[str]:

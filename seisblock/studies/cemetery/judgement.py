@@ -12,16 +12,15 @@ from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import WORN, Inset
 from seisblock.criteria.gravestones import DOWELLED, DOWELLED_REMARK, PLAIN, GravestoneFit, outside_fit
 from seisblock.errors import ParameterError
-from seisblock.measures import Conventions, measure
-from seisblock.records import Motion, Record, motion_of
+from seisblock.measures import FilterRange
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
 from seisblock.studies.cemetery.rate import CONFIDENCE, CURVE_PGA, FREQUENCIES, CurvePoint, rate_curve, rate_of, remarks, threshold_ratio
+from seisblock.studies.cemetery.shaking import Shaking
 from seisblock.studies.runs import Progress
 from seisblock.typing import BoolArray, FloatArray
 from seisblock.units import STANDARD_GRAVITY
 
 Criterion = Literal["furukawa", "rigid", "simulate"]
-FrequencyKind = Literal["pga_pgv", "fourier", "pulse_width"]
 
 LARGER = "larger"
 """Name of the result of the horizontal that overturns more stones."""
@@ -65,24 +64,6 @@ class Method:
         return ("Furukawa2009",) if self.criterion == "furukawa" else ("Furukawa2009", "Housner1963")
 
 
-@dataclass(frozen=True, eq=False)
-class Shaking:
-    """What shakes a cemetery: the numbers of a criterion, and the motion behind them where there is one.
-
-    Parameters
-    ----------
-    pga, frequency : float, m/s^2 and Hz
-    component : str or None
-        Direction of a record; None for bare numbers.
-    motion : Motion or None
-    """
-
-    pga: float
-    frequency: float
-    component: str | None = None
-    motion: Motion | None = None
-
-
 @dataclass(frozen=True)
 class Reinforcement:
     """What becomes of the same cemetery when stones get dowels; keys as in :class:`CemeteryRate`."""
@@ -123,6 +104,10 @@ class CemeteryRate:
         What lies outside the range of (9), (10), a sentence each; none where they are not used.
     of : str or None
         Which component ``larger`` is.
+    usual_highpass : FilterRange or None
+        How far PGV and frequency move with the usual filters; None when by no more than 5 %, or where the rate does not rest on a PGV.
+    rate_range : two floats or None
+        The least and the largest rate at those frequencies.
     """
 
     component: str | None
@@ -140,43 +125,8 @@ class CemeteryRate:
     curve: tuple[CurvePoint, ...]
     outside_fit: tuple[str, ...] = ()
     of: str | None = None
-
-
-def shakings_of(
-    record: Record,
-    components: Sequence[str],
-    *,
-    kind: FrequencyKind = "pga_pgv",
-    frequency: float | None = None,
-    conventions: Conventions | None = None,
-) -> list[Shaking]:
-    """Return PGA and equivalent frequency of each component of a record ([Furukawa2009]_ section 3(5)e).
-
-    Parameters
-    ----------
-    record : Record
-        Prepared as it shall be judged.
-    components : sequence of str
-        Horizontal codes, or azimuths.
-    kind : "pga_pgv", "fourier" or "pulse_width"
-        Definition of the equivalent frequency; the paper's choice is PGA/(2 pi PGV), both of one component.
-    frequency : float, Hz
-        Overrides it.
-    conventions : Conventions
-        Filter behind the PGV.
-
-    Raises
-    ------
-    ParameterError
-        If a component has no such frequency.
-    """
-    found = []
-    for m in measure(record, components, conventions=conventions).components:
-        f = getattr(m.equivalent_frequency_hz, kind) if frequency is None else frequency
-        if f is None or not m.pga_m_s2 > 0.0:
-            raise ParameterError(f"component {m.component} has no equivalent frequency {kind}: choose another kind, or give a frequency")
-        found.append(Shaking(m.pga_m_s2, f, m.component, motion_of(record, m.component)))
-    return found
+    usual_highpass: FilterRange | None = None
+    rate_range: tuple[float, float] | None = None
 
 
 def overturned(cemetery: Cemetery, shaking: Shaking, method: Method) -> BoolArray:
@@ -234,6 +184,7 @@ def judge_cemetery(
         Told how many points of a simulated curve are done, and how many there are.
     """
     falls = overturned(cemetery, shaking, method)
+    moves = None if method.criterion == "simulate" else shaking.usual_highpass
     found, ratios = rate_of(falls, method.confidence), cemetery.ratios
     return CemeteryRate(
         shaking.component,
@@ -250,6 +201,8 @@ def judge_cemetery(
         None if after is None else _reinforcement(after, shaking, method, found.fallen),
         curve_of(cemetery, method, shaking, progress=progress),
         outside_fit(shaking.pga, shaking.frequency, ratios) if method.criterion == "furukawa" else (),
+        usual_highpass=moves,
+        rate_range=None if moves is None else _rate_range(cemetery, shaking, method, moves.pga_pgv_hz),
     )
 
 
@@ -270,6 +223,12 @@ def warnings_of(cemetery: Cemetery, shakings: Sequence[Shaking], method: Method,
     if fitted and method.fits[1] == DOWELLED and (cemetery.reinforced.any() or after is not None):
         found.append(DOWELLED_REMARK)
     return list(dict.fromkeys(found))
+
+
+def _rate_range(cemetery: Cemetery, shaking: Shaking, method: Method, frequencies: Sequence[float]) -> tuple[float, float]:
+    """Return the least and the largest rate at some frequencies and that of the shaking itself."""
+    rates = [float(overturned(cemetery, replace(shaking, frequency=f), method).mean()) for f in (shaking.frequency, *frequencies)]
+    return min(rates), max(rates)
 
 
 def _threshold(cemetery: Cemetery, shaking: Shaking, method: Method) -> float | None:
