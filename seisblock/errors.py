@@ -2,11 +2,27 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from seisblock.words import Said, said
+
 
 class SeisblockError(Exception):
-    """Root of every error that seisblock raises on purpose."""
+    """Root of every error that seisblock raises on purpose.
+
+    Parameters
+    ----------
+    message : str
+        What, where, expected, found and the remedy: a template with a field for each value, or a text that was said.
+    values : any
+        Of the template's fields; another error's ``said`` among them is told along with it.
+    """
 
     exit_code = 3
+
+    def __init__(self, message: str, /, **values: Any) -> None:
+        self.said = message if isinstance(message, Said) and not values else said(message, **values)
+        super().__init__(self.said)
 
 
 class InputError(SeisblockError, ValueError):

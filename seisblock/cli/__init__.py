@@ -16,10 +16,14 @@ import click
 from click.shell_completion import CompletionItem
 
 from seisblock import __version__, _jit
+from seisblock.cli.command import lang_option, plainly
+from seisblock.cli.help import Context, rows_of
+from seisblock.cli.language import answering
 from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, printable
 from seisblock.cli.talk import say
 from seisblock.errors import OutputError, SeisblockError
 from seisblock.ledger import ledger
+from seisblock.words import noted, plain_text, said, tell
 
 COMMANDS: dict[str, tuple[str, str]] = {
     "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
@@ -50,6 +54,18 @@ BROKEN_PIPE = 141
 class SeisblockGroup(click.Group):
     """A group that loads commands lazily and turns errors into one sentence and an exit code."""
 
+    context_class = Context
+
+    def get_help_option(self, ctx: click.Context) -> click.Option | None:
+        """Return ``--help``, see :func:`plainly`."""
+        return plainly(super().get_help_option(ctx))
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options, then the commands."""
+        with formatter.section(tell("Options")):
+            formatter.write_dl([row for _, row in rows_of(self.get_params(ctx), ctx)])
+        self.format_commands(ctx, formatter)
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names in the order in which a user meets them."""
         return list(COMMANDS)
@@ -64,14 +80,14 @@ class SeisblockGroup(click.Group):
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Complete the names of commands without importing them."""
-        names = [CompletionItem(name, help=text) for name, (_, text) in COMMANDS.items() if name.startswith(incomplete)]
+        names = [CompletionItem(name, help=tell(text)) for name, (_, text) in COMMANDS.items() if name.startswith(incomplete)]
         return [*names, *click.Command.shell_complete(self, ctx, incomplete)]
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the list of commands without importing them."""
-        with formatter.section("Commands"):
-            formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
-        with formatter.section("Examples"):
+        with formatter.section(tell("Commands")):
+            formatter.write_dl([(name, tell(text)) for name, (_, text) in COMMANDS.items()])
+        with formatter.section(tell("Examples")):
             for line in EXAMPLES:
                 formatter.write(f"  {line}\n")
 
@@ -79,21 +95,22 @@ class SeisblockGroup(click.Group):
         """Run the command; errors of the user become a message on stderr and an exit code."""
         if os.environ.get("NO_COLOR"):
             extra.setdefault("color", False)
-        return super().main(args, prog_name or "seisblock", **extra)
+        with printable(), answering(sys.argv[1:] if args is None else args):
+            return super().main(args, prog_name or "seisblock", **extra)
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""
         _jit.announce = say
         try:
-            with printable(), ending_in_order(), ledger():
+            with ending_in_order(), ledger():
                 result = super().invoke(ctx)
                 sys.stdout.flush()
                 return result
         except SeisblockError as error:
-            click.secho(f"seisblock: {error}", fg="red", err=True)
+            click.secho(f"seisblock: {plain_text(tell(error.said))}", fg="red", err=True)
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
-            click.echo("\nseisblock: interrupted; no half-written file is left", err=True)
+            click.echo(f"\nseisblock: {tell('interrupted; no half-written file is left')}", err=True)
             ctx.exit(INTERRUPTED)
         except BrokenPipeError:
             # the reader went away (| head): nothing to say, and nothing may be flushed at exit
@@ -103,14 +120,15 @@ class SeisblockGroup(click.Group):
             ctx.exit(TERMINATED)
         except OSError as error:
             discard_stdout()
-            click.secho(f"seisblock: cannot write {error.filename or 'the answer'}: {error.strerror or error}", fg="red", err=True)
+            why = tell("cannot write {file}: {error}", file=error.filename or said("the answer"), error=error.strerror or str(error))
+            click.secho(f"seisblock: {why}", fg="red", err=True)
             ctx.exit(OutputError.exit_code)
         finally:
             _jit.announce = None
 
 
 @click.group(cls=SeisblockGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
-@click.version_option(__version__, prog_name="seisblock")
+@click.version_option(__version__, prog_name="seisblock", help=noted("Show the version and exit."))
 def main() -> None:
     """Tell what ground motion does to objects that nobody bolted down.
 
@@ -118,5 +136,7 @@ def main() -> None:
     plain CSV, or anything ObsPy reads. Left out, a bundled sample record is used.
     """
 
+
+main.params.append(lang_option())
 
 __all__ = ["COMMANDS", "main"]

@@ -7,7 +7,10 @@ from typing import Any
 
 import click
 
-SECTIONS = ("Record", "Body", "Solver", "Output")
+from seisblock.cli.help import Context, rows_of
+from seisblock.words import LANGUAGES, noted, tell
+
+SECTIONS = (noted("Record options"), noted("Body options"), noted("Solver options"), noted("Output options"), noted("Other options"))
 """Headings of ``--help``, in this order; an option names the one it belongs to."""
 
 
@@ -28,28 +31,46 @@ class Command(click.Command):
         Lines a user can paste.
     """
 
+    context_class = Context
+
     def __init__(self, *args: Any, examples: Sequence[str] = (), **kwargs: Any) -> None:
         self.examples = tuple(examples)
         super().__init__(*args, **kwargs)
+        self.params.append(lang_option())
+
+    def get_help_option(self, ctx: click.Context) -> click.Option | None:
+        """Return ``--help``, described in English until it is told: click keeps the option for the next call."""
+        return plainly(super().get_help_option(ctx))
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options section by section."""
-        groups: dict[str, list[tuple[str, str]]] = {name: [] for name in (*SECTIONS, "Other")}
-        for parameter in self.get_params(ctx):
-            row = parameter.get_help_record(ctx)
-            if row is not None:
-                groups[getattr(parameter, "section", "Other")].append(row)
+        groups: dict[str, list[tuple[str, str]]] = {name: [] for name in SECTIONS}
+        for parameter, row in rows_of(self.get_params(ctx), ctx):
+            groups[f"{getattr(parameter, 'section', 'Other')} options"].append(row)
         for name, rows in groups.items():
             if rows:
-                with formatter.section(f"{name} options"):
+                with formatter.section(tell(name)):
                     formatter.write_dl(rows)
 
     def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the examples."""
         if self.examples:
-            with formatter.section("Examples"):
+            with formatter.section(tell("Examples")):
                 for line in self.examples:
                     formatter.write(f"  {line}\n")
+
+
+def lang_option() -> click.Option:
+    """Return the option that every command has; what it asks for is known before the line is parsed, see ``cli.language``."""
+    text = "Language of all that is said, printed and drawn. [default: of the locale, else en]"
+    return Option(["--lang"], type=click.Choice(LANGUAGES), expose_value=False, section="Output", help=text)
+
+
+def plainly(option: click.Option | None) -> click.Option | None:
+    """Return ``--help`` with its English description."""
+    if option is not None:
+        option.help = noted("Show this message and exit.")
+    return option
 
 
 def option(*declarations: str, section: str = "Solver", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:

@@ -15,8 +15,8 @@ from seisblock.errors import OutputError
 from seisblock.present.document import Answer, to_json
 from seisblock.present.faces import figure_of, film_of
 from seisblock.present.files import refuse_collisions
-from seisblock.present.words import language
 from seisblock.results import Response
+from seisblock.words import language
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -74,7 +74,7 @@ def emit(
         _animate(animation, output)
         say(f"wrote {output.animate}")
     if output.plot is not None and figure is not None:
-        _draw(figure, output.plot, language(output.lang))
+        _draw(figure, output.plot, language())
         if output.plot == STDOUT:
             return
         say(f"wrote {output.plot}")
@@ -112,7 +112,7 @@ def _animate(animation: Callable[[Path, Filming], None], output: Output) -> None
     from seisblock.present.films.animation import Filming
 
     assert output.animate is not None
-    lang = language(output.lang)
+    lang = language()
     if lang != "en" and japanese_font() is None and output.animate.suffix.lower() != ".html":
         say(MISSING)
         lang = "en"

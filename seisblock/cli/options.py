@@ -14,7 +14,6 @@ from click.shell_completion import CompletionItem
 from seisblock.cli.command import option
 from seisblock.cli.talk import quietly
 from seisblock.cli.types import WINDOW
-from seisblock.present.words import LANGUAGES
 from seisblock.units import STANDARD_GRAVITY
 
 Function = Callable[..., Any]
@@ -47,7 +46,6 @@ class Output:
     plot: Path | None
     animate: Path | None
     slow: float
-    lang: str | None
     gal: bool
     quiet: bool
 
@@ -148,7 +146,6 @@ _OUTPUT_OPTIONS = (
         section="Output",
         help="Play the animation this many times slower than life. [default: 1]",
     ),
-    option("--lang", type=click.Choice(LANGUAGES), section="Output", help="Language of figures. [default: of the locale, else en]"),
     option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables. [default: gal]"),
     option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors."),
 )

@@ -13,7 +13,7 @@ from seisblock.cli.options import Source, gravity_option, record_options
 from seisblock.cli.talk import quietly, say, warn
 from seisblock.cli.types import LENGTH
 from seisblock.errors import InputError
-from seisblock.present.words import LANGUAGES, language
+from seisblock.words import language
 
 DEFAULT_BODIES = ("gravestone", "chozusha")
 
@@ -66,7 +66,6 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     section="Output",
     help="The page to write, .html.  [required]",
 )
-@option("--lang", type=click.Choice(LANGUAGES), section="Output", help="Language of the page. [default: of the locale, else en]")
 @option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
 def report(
     source: Source,
@@ -78,7 +77,6 @@ def report(
     drop: float,
     gravity: float,
     output: Path,
-    lang: str | None,
     quiet: bool,
 ) -> None:
     """Write one self-contained page: the record, its measures, and how bodies slide, rock, jump, lift and overturn under it.
@@ -100,7 +98,7 @@ def report(
         records = load(source)
         if len(records) != 1:
             raise InputError(f"a report is about one record, found {len(records)}: give one, or run the command for each")
-        chosen = language(lang)
+        chosen = language()
         _check_fonts(chosen)
         with progress("reporting") as tell:
             found = assess(records[0], subjects, components=components(records[0], source), drop=drop, gravity=gravity, progress=tell)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
+from typing import Any
 
 import click
+
+from seisblock.words import plain_text, said, tell
 
 _quiet = False
 
@@ -27,13 +30,13 @@ def is_quiet() -> bool:
     return _quiet
 
 
-def say(message: str) -> None:
-    """Say one line on stderr."""
+def say(text: str, /, **values: Any) -> None:
+    """Say one line on stderr: a template with its values, or a text that was said below."""
     if not _quiet:
-        click.secho(message, dim=True, err=True)
+        click.secho(plain_text(tell(text, **values)), dim=True, err=True)
 
 
-def warn(message: str) -> None:
+def warn(text: str, /, **values: Any) -> None:
     """Say one line that should not be overlooked."""
     if not _quiet:
-        click.secho(f"warning: {message}", fg="yellow", err=True)
+        click.secho(plain_text(tell("warning: {message}", message=said(text, **values) if values else text)), fg="yellow", err=True)

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import re
 from functools import cache
-
-LANGUAGES = ("en", "ja")
 
 LABELS = {
     "t (s)": "時刻 t (s)",
@@ -146,21 +143,6 @@ PHRASES = {
     "record": "記録",
 }
 """Phrases that are replaced inside a text, the longest first."""
-
-LOCALE_VARIABLES = ("LC_ALL", "LC_MESSAGES", "LANG")
-
-
-def language(asked: str | None = None) -> str:
-    """Return the language of figures and reports: the one asked for, else Japanese in a Japanese locale, else English.
-
-    Parameters
-    ----------
-    asked : "en", "ja" or None
-    """
-    if asked:
-        return asked
-    chosen = next((os.environ[name] for name in LOCALE_VARIABLES if os.environ.get(name)), "")
-    return "ja" if chosen.lower().startswith("ja") else "en"
 
 
 def translate(text: str, lang: str) -> str:

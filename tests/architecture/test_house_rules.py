@@ -28,6 +28,7 @@ LIGHT = (
     "seisblock.cli.options",
     "seisblock.cli.types",
     "seisblock.errors",
+    "seisblock.words",
     "seisblock.units",
     "seisblock.references",
     "seisblock.results",

@@ -6,27 +6,7 @@ from matplotlib.figure import Figure
 
 from seisblock.cli import main
 from seisblock.present.figures import fonts
-from seisblock.present.words import LABELS, PHRASES, language, translate
-
-
-@pytest.mark.parametrize(
-    ("environment", "asked", "expected"),
-    [
-        ({"LANG": "ja_JP.UTF-8"}, None, "ja"),
-        ({"LC_ALL": "en_US.UTF-8", "LANG": "ja_JP.UTF-8"}, None, "en"),
-        ({"LC_MESSAGES": "ja_JP", "LANG": "C"}, None, "ja"),
-        ({"LANG": "C.UTF-8"}, "ja", "ja"),
-        ({"LANG": "ja_JP.UTF-8"}, "en", "en"),
-        ({}, None, "en"),
-    ],
-)
-def test_language(environment, asked, expected, monkeypatch):
-    """The option prevails, then LC_ALL, LC_MESSAGES, LANG."""
-    for name in ("LC_ALL", "LC_MESSAGES", "LANG"):
-        monkeypatch.delenv(name, raising=False)
-    for name, value in environment.items():
-        monkeypatch.setenv(name, value)
-    assert language(asked) == expected
+from seisblock.present.words import LABELS, PHRASES, translate
 
 
 def test_labels_are_replaced_whole_and_phrases_inside():

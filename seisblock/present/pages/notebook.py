@@ -12,8 +12,8 @@ from seisblock.present.document import plain
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.embed import picture
 from seisblock.present.text.tables import number
-from seisblock.present.words import language
 from seisblock.results import Response
+from seisblock.words import language
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
