@@ -17,9 +17,9 @@ from seisblock.dynamics import follow_many
 from seisblock.errors import ParameterError
 from seisblock.records.given import Factor
 from seisblock.records.motion import Motion
-from seisblock.solvers.slide.model import BACKWARD, CONTACT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, parameters
+from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
-from seisblock.solvers.slide.solve import check
+from seisblock.solvers.slide.solve import check, refuse_lift_off
 from seisblock.units import STANDARD_GRAVITY
 
 SLIDING_MODES = [FORWARD, BACKWARD, LEVEL + FORWARD, LEVEL + BACKWARD]
@@ -200,6 +200,8 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
     p = [parameters(base, gravity) for base, _ in rows]
     gains = [check(motion, scale, gravity) for _, scale in rows]
     many = follow_many(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
+    for row in np.flatnonzero(many.final_mode == UNDEFINED)[:1]:
+        refuse_lift_off(motion, float(many.end_time[row]))
     entered = many.tally.sum(axis=1) - many.tally[:, FOOT]
     numbers = zip(
         rows,
@@ -210,7 +212,7 @@ def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: 
         many.first_change.tolist(),
         entered[:, SLIDING_MODES].sum(axis=1).tolist(),
         (many.tally[:, :, LEVEL:].sum(axis=(1, 2)) > 0).tolist(),
-        (many.tally[:, CONTACT].sum(axis=1) > 0).tolist(),
+        (many.tally[:, :, [FLIGHT, LEVEL + FLIGHT]].sum(axis=(1, 2)) > 0).tolist(),
         strict=True,
     )
     points = []

@@ -9,6 +9,7 @@ from seisblock.bodies.sliding_base import sliding_base
 from seisblock.records import Motion
 from seisblock.solvers.slide.solve import SLIDING, solve_slide
 from seisblock.studies.sliding import slide_study
+from seisblock.units import STANDARD_GRAVITY
 
 QUICK = settings(max_examples=40, deadline=None, derandomize=True)
 seeds = st.integers(0, 10_000)
@@ -161,3 +162,13 @@ def test_study_gives_the_single_answers(seed, kappa, slope, scale):
             "slides_at_end",
         ):
             assert getattr(point, name) == getattr(alone, name), name
+
+
+@QUICK
+@given(seeds, kappas, st.floats(-16.0, 16.0), st.floats(1.0, 1e4))
+def test_no_motion_up_and_down_is_given_up(seed, kappa, slope, peak):
+    """On a slope shaken up and down only, contact and both limits end at one instant, however hard the shaking: the object flies."""
+    up = noise(seed, peak=peak).horizontal
+    motion = Motion.from_arrays(np.zeros(up.size), 0.01, vertical=up)
+    outcome = solve_slide(sliding_base(0.3, kappa=kappa, slope_deg=slope), motion, vertical=1.0).outcome
+    assert outcome.lifted_off == bool((up < -STANDARD_GRAVITY).any())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import numpy as np
 import pytest
 
@@ -48,20 +50,40 @@ def test_a_base_in_free_fall_keeps_contact():
         assert not solve_slide(0.2, motion, vertical=1.0, gravity=round(gal / 100.0, 6)).outcome.lifted_off
 
 
-@pytest.mark.parametrize("one_way", [False, True])
 @pytest.mark.parametrize("scale", [5.0, 6.4, 6.6, 9.0])
-def test_contact_is_lost_exactly_where_the_base_falls_faster_than_g(one_way, scale):
-    """The object lifts off if and only if g + y'' becomes negative, two-way and one-way, stuck or sliding."""
+def test_contact_is_lost_exactly_where_the_base_falls_faster_than_g(scale):
+    """The object lifts off if and only if g + y'' becomes negative, stuck or sliding; one way only, flight is refused there."""
     motion = shaking()
     falls = (G + scale * motion.vertical).min() < 0.0
     for mu in (0.1, 0.9, 5.0):
-        assert solve_slide(sliding_base(mu, one_way=one_way), motion, vertical=scale).outcome.lifted_off == falls
+        assert solve_slide(sliding_base(mu), motion, vertical=scale).outcome.lifted_off == falls
+        with pytest.raises(ParameterError, match="not defined in the air") if falls else contextlib.nullcontext():
+            assert not solve_slide(sliding_base(mu, one_way=True), motion, vertical=scale).outcome.lifted_off
 
 
-def test_one_way_object_held_back_still_lifts_off():
-    """Pushed where it cannot slide, a one-way object loses contact all the same when the base falls for one sample."""
-    motion = Motion.from_arrays(np.full(9, 5.0), 0.01, vertical=[0, 0, 0, -4.0, -10.0, -4.0, 0, 0, 0])
-    assert solve_slide(sliding_base(0.5, one_way=True), motion, vertical=1.0).outcome.lifted_off
+def test_a_one_way_object_held_back_lifts_off_all_the_same():
+    """Pushed where it cannot slide, a one-way object loses contact when the base falls: refused with the time, in studies too."""
+    motion = Motion.from_arrays(np.full(9, 5.0), 0.01, vertical=[0, 0, 0, -4.0, -10.0, -4.0, 0, 0, 0], name="EW")
+    at = 0.03 + 0.01 * (G - 4.0) / 6.0
+    with pytest.raises(ParameterError, match=f"EW: at {at:.3f} s the base falls away"):
+        solve_slide(sliding_base(0.5, one_way=True), motion, vertical=1.0)
+    with pytest.raises(ParameterError, match=f"EW: at {at:.3f} s the base falls away"):
+        slide_study([0.4, 0.5], motion, one_way=True, vertical=[0.5, 1.0])
+
+
+@pytest.mark.parametrize("slope", [10.0, -10.0])
+@pytest.mark.parametrize("before", [0.0, -4.0])
+def test_an_object_flies_where_drive_and_normal_force_vanish_together(slope, before):
+    """On a slope shaken up and down only, both are zero as the base begins to fall faster than g, stuck or sliding: it lifts off there."""
+    t = np.arange(0.0, 3.0, 0.01)
+    motion = Motion.from_arrays(np.where(t < 0.1, np.sign(slope) * before, 0.0), 0.01, vertical=15.0 * np.sin(8.0 * t))
+    response = solve_slide(sliding_base(0.3, kappa=0.5, slope_deg=slope), motion, vertical=1.0)
+    lifts = [event.time_s for event in response.events if event.name == "lift-off"]
+    k = np.flatnonzero(motion.vertical < -G)[0]
+    share = (G + motion.vertical[k - 1]) / (motion.vertical[k - 1] - motion.vertical[k])
+    assert lifts[0] == pytest.approx((k - 1 + share) * 0.01, abs=1e-12)
+    assert len(lifts) == 4
+    assert response.outcome.slips and response.outcome.lifted_off
 
 
 def test_one_way_never_goes_back():

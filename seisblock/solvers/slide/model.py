@@ -17,6 +17,8 @@ Events
     Equality sticks. Whenever the relative velocity is zero static friction is tested: stick, or slip at once the other way.
     The relative speed is kept at the foot (a body that the slope holds at rest cannot go back and forth over it without end: what
     pushes it uphill along the level ground lets it stick on the slope). Landing is plastic, with a Coulomb impulse against the sliding.
+    Where drive and normal force vanish together, as on a slope whose base falls at g, the object flies. One-way sliding
+    ([Newmark1965]_) says nothing of flight: lost contact ends it.
 All modes are cubics within a sample, so the trajectory of a piecewise linear record is exact.
 """
 
@@ -38,6 +40,9 @@ SLIP, SPEED, GAP, GAP_SPEED = range(4)
 
 STICK, FORWARD, BACKWARD, FLIGHT = range(4)
 """Modes on the slope (or on a level base without one)."""
+
+UNDEFINED = -1
+"""A one-way object has lost contact."""
 
 LEVEL = 4
 """Added to a mode beyond the foot of the slope."""
@@ -121,13 +126,25 @@ def series(mode, y, f, p, order, c, g):
     return 3
 
 
+@kernel(_t.boolean(_t.float64, _t.float64), inline=True)
+def _leaves(normal, normal_rate):
+    """Whether contact ends: the normal force is negative, or zero and about to be."""
+    return normal < 0.0 or (normal == 0.0 and normal_rate < 0.0)
+
+
+@kernel(_t.int64(_t.int64, VECTOR), inline=True)
+def _lift(level, p):
+    """Return the mode of an object that loses contact."""
+    return UNDEFINED if p[ONE_WAY] > 0.0 else level + FLIGHT
+
+
 @kernel(_t.int64(_t.int64, VECTOR, MATRIX, VECTOR), inline=True)
 def _settle(level, y, f, p):
     """Return the mode that follows when the relative velocity has become zero: stick, slip either way, or flight."""
-    drive, _, normal, _ = _loads(level > 0, f, p)
+    drive, _, normal, normal_rate = _loads(level > 0, f, p)
     y[SPEED] = 0.0
-    if normal < 0.0:
-        return level + FLIGHT
+    if _leaves(normal, normal_rate):
+        return _lift(level, p)
     if _excess(drive, p[STATIC], normal) > 0.0:
         return level + FORWARD
     if _excess(drive, -p[STATIC], normal) < 0.0 and p[ONE_WAY] == 0.0:
@@ -147,7 +164,7 @@ def _land(level, y, f, p):
     if y[SPEED] > impulse:
         y[SPEED] -= impulse
         return level + FORWARD
-    if y[SPEED] < -impulse and p[ONE_WAY] == 0.0:
+    if y[SPEED] < -impulse:
         y[SPEED] += impulse
         return level + BACKWARD
     return _settle(level, y, f, p)
@@ -179,11 +196,14 @@ def reset(mode, guard, y, f, p):
     level = LEVEL if mode >= LEVEL else 0
     phase = mode % LEVEL
     if guard == CONTACT:
-        return level + FLIGHT
+        return _lift(level, p)
     if guard == FOOT:
         y[SLIP] = p[DOWNHILL] * p[FOOT_AT]
         return LEVEL - level + phase
     if phase == STICK:
+        _, _, normal, normal_rate = _loads(level > 0, f, p)
+        if _leaves(normal, normal_rate):
+            return _lift(level, p)
         return level + (FORWARD if guard == LIMIT_FORWARD else BACKWARD)
     if phase == FLIGHT:
         return _land(level, y, f, p)
@@ -196,7 +216,7 @@ SLIDE = Model(
     reset,
     ("slip", "speed", "gap", "gap speed"),
     ("limit forward", "limit backward", "contact", "foot"),
-    ("stick", "slip forward", "slip backward", "flight") * 2,
+    (*("stick", "slip forward", "slip backward", "flight") * 2, "one way, in the air"),
     tracked=1,
     skip=skip,
 )

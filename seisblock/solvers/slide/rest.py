@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from seisblock.solvers.slide.model import COSINE, DOWNHILL, FLIGHT, FOOT_AT, GRAVITY, KINETIC, LEVEL, ONE_WAY, SINE, SLIP, STICK
+from seisblock.solvers.slide.model import COSINE, DOWNHILL, FLIGHT, FOOT_AT, GRAVITY, KINETIC, LEVEL, SINE, SLIP, STICK
 
 NEVER = math.inf
 """Slip of a body that kinetic friction does not stop."""
@@ -57,5 +57,4 @@ def _landed(u: float, v: float, gap: float, gap_speed: float, level: int, p: Seq
     impact = math.sqrt(gap_speed * gap_speed + 2.0 * normal * gap)
     t = (gap_speed + impact) / normal
     u, v = u + v * t + 0.5 * along * t * t, v + along * t
-    left = math.copysign(max(abs(v) - p[KINETIC] * impact, 0.0), v)
-    return u, 0.0 if p[ONE_WAY] and left < 0.0 else left
+    return u, math.copysign(max(abs(v) - p[KINETIC] * impact, 0.0), v)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from seisblock.errors import ParameterError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import UP, Motion
 from seisblock.results import Channel, Event, Phase, Response, Status
-from seisblock.solvers.slide.model import BACKWARD, CONTACT, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, parameters
+from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
 from seisblock.typing import FloatArray, IntArray
 from seisblock.units import STANDARD_GRAVITY
@@ -95,7 +96,7 @@ def solve_slide(
     Raises
     ------
     ParameterError
-        If a number lies outside its range.
+        If a number lies outside its range, or the base falls away from an object that may slide one way only.
     ComponentError
         If the vertical motion is asked of a record without one.
 
@@ -122,6 +123,8 @@ def solve_slide(
     gains = check(motion, vertical, gravity)
     p = parameters(base, gravity)
     trajectory = follow(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
+    if trajectory.final_mode == UNDEFINED:
+        refuse_lift_off(motion, trajectory.end_time)
     time, states, modes = trajectory.table()
     outcome = _outcome(trajectory, motion, states, p)
     options = {
@@ -157,6 +160,14 @@ def check(motion: Motion, vertical: Factor, gravity: float) -> tuple[float, floa
     return 1.0, 0.0, vertical_gain(motion, vertical)
 
 
+def refuse_lift_off(motion: Motion, time: float) -> NoReturn:
+    """Refuse an object that can slide one way only and loses contact, s after sample 0; [Newmark1965]_ says nothing of it."""
+    raise ParameterError(
+        f"{motion.name or 'motion'}: at {motion.start_s + time:.3f} s the base falls away faster than the object; sliding in one direction "
+        "only is not defined in the air: leave the vertical motion out, or let it slide both ways"
+    )
+
+
 def _outcome(trajectory: Trajectory, motion: Motion, states: FloatArray, p: tuple[float, ...]) -> SlideOutcome:
     """Return the numbers of a trajectory."""
     changes = trajectory.changes
@@ -177,7 +188,7 @@ def _outcome(trajectory: Trajectory, motion: Motion, states: FloatArray, p: tupl
         reversals=sum(_slides(c.source) for c in begins),
         path_m=float(np.abs(np.diff(states[:, SLIP])).sum()),
         fell_off_slope=any(_left_slope(c) for c in changes),
-        lifted_off=any(c.guard == CONTACT for c in changes),
+        lifted_off=any(c.target % LEVEL == FLIGHT for c in changes),
         slides_at_end=moving,
     )
 
@@ -227,12 +238,12 @@ def _events(changes: tuple[Change, ...], start_s: float) -> tuple[Event, ...]:
 def _event_name(change: Change) -> str:
     """Say what an event was."""
     before, after = change.source % LEVEL, change.target % LEVEL
-    if change.guard == CONTACT:
-        return "lift-off"
     if change.guard == FOOT:
         return "foot passed downhill" if change.target > LEVEL else "foot passed uphill"
     if before == FLIGHT:
         return "landing"
+    if after == FLIGHT:
+        return "lift-off"
     if before == STICK:
         return "slip start"
     return "stop" if after == STICK else "reversal"
