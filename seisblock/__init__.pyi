@@ -49,10 +49,10 @@ from .solvers.uplift.modes import natural_modes
 from .solvers.uplift.solve import UpliftOutcome, solve_uplift
 from .studies.cemetery.rate import Rate, overturning_rate, rate_curve
 from .studies.gravestone_criterion import CriterionStudy, criterion_study
-from .studies.inverse.estimate import ShakingEstimate, estimate_shaking
+from .studies.inverse.estimate import Assumptions, ShakingEstimate, estimate_shaking
 from .studies.inverse.factors import ScaleFactors, jumped, scale_factors, slid
 from .studies.inverse.survey import Survey, counted_survey, marked_survey
-from .studies.rocking.margin import Margin, find_margin
+from .studies.rocking.margin import FactorRange, Margin, find_margin
 from .studies.rocking.perturb import Perturbation, Spread, perturb
 from .studies.rocking.spectra import RockingSpectrum, rocking_spectrum
 from .studies.sliding import SlidePoint, slide_study
@@ -60,6 +60,7 @@ from .studies.sliding import SlidePoint, slide_study
 __version__: str
 
 __all__ = [
+    "Assumptions",
     "Block",
     "bodies",
     "BodyError",
@@ -79,6 +80,7 @@ __all__ = [
     "errors",
     "estimate_shaking",
     "Event",
+    "FactorRange",
     "find_margin",
     "from_slenderness",
     "highpass",

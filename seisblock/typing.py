@@ -1,7 +1,8 @@
-"""Names for the array types that travel through the package."""
+"""Names for the types that travel through the whole package."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
@@ -12,4 +13,7 @@ ComplexArray: TypeAlias = NDArray[np.complex128]
 IntArray: TypeAlias = NDArray[np.int64]
 BoolArray: TypeAlias = NDArray[np.bool_]
 
-__all__ = ["ArrayLike", "BoolArray", "ComplexArray", "FloatArray", "IntArray"]
+Progress: TypeAlias = Callable[[int, int], None]
+"""Told now and then how many runs, or pictures, are done, and how many there are in all."""
+
+__all__ = ["ArrayLike", "BoolArray", "ComplexArray", "FloatArray", "IntArray", "Progress"]

@@ -117,7 +117,7 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
     from seisblock.present.document import Answer
     from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
     from seisblock.studies.cemetery.rate import FREQUENCIES
-    from seisblock.studies.inverse.estimate import Model, contour, estimate_shaking, groups_of, remarks_of
+    from seisblock.studies.inverse.estimate import Assumptions, contour, estimate_shaking, groups_of, remarks_of
     from seisblock.studies.inverse.survey import counted_survey, marked_survey, parse_rate
 
     stones = read_cemetery(cemetery)
@@ -126,10 +126,10 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
     survey = marked_survey(stones) if rate is None else counted_survey(stones, *parse_rate(rate))
     inset, criterion = asked["inset"] or WORN, asked["criterion"]
     limits = partial(rigid_limits, inset=inset, gravity=asked["gravity"]) if criterion == "rigid" else fitted_limits
-    model = Model(asked["common_error"], asked["stone_error"], asked["confidence"], limits)
+    assumptions = Assumptions(asked["common_error"], asked["stone_error"], asked["confidence"], limits)
     frequencies = asked["frequency"] or (None, *FREQUENCIES)
-    estimates = [estimate_shaking(part, f, model, stones=name) for name, part in groups_of(survey) for f in frequencies]
-    line = contour(survey, model)
+    estimates = [estimate_shaking(part, f, assumptions, stones=name) for name, part in groups_of(survey) for f in frequencies]
+    line = contour(survey, assumptions)
     warnings = [FITTED_EDGES] if asked["inset"] is not None and criterion == "furukawa" else []
     warnings += dict.fromkeys(text for each in estimates for text in remarks_of(each))
     parameters = {
@@ -137,9 +137,9 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
         "stones": stones.size,
         "rate": rate,
         "unknown_stones": 0 if rate else stones.size - survey.judged,
-        "confidence": model.level,
-        "common_error_ln_pga": model.common_error,
-        "stone_error_ln_pga": model.stone_error,
+        "confidence": assumptions.level,
+        "common_error_ln_pga": assumptions.common_error,
+        "stone_error_ln_pga": assumptions.stone_error,
         "criterion": criterion,
         "inset": inset if criterion == "rigid" else None,
         "prior": "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given",
@@ -158,12 +158,12 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
     def tables() -> Any:
         from seisblock.present.text.infer import estimate_tables
 
-        return estimate_tables(stones.name, estimates, gal=output.gal, level=model.level)
+        return estimate_tables(stones.name, estimates, gal=output.gal, level=assumptions.level)
 
     def figure() -> Any:
         from seisblock.present.figures.infer import estimate_figure
 
-        return estimate_figure(stones.name, survey, model, estimates)
+        return estimate_figure(stones.name, survey, assumptions, estimates)
 
     def csv(path: Path) -> None:
         from seisblock.present.files import write_table

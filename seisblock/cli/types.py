@@ -96,7 +96,7 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
         return value
 
 
-class Window(click.ParamType):  # type: ignore[type-arg]
+class WindowType(click.ParamType):  # type: ignore[type-arg]
     """A stretch of time ``T0:T1`` in seconds from the record's first sample; either end may be left out."""
 
     name = "t0:t1"
@@ -122,4 +122,4 @@ INSET = InsetType()
 FLOATS = Floats()
 LENGTHS = Floats(unit=parse_length)
 MASSES = Floats(unit=parse_mass)
-WINDOW = Window()
+WINDOW = WindowType()

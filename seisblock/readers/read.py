@@ -11,12 +11,12 @@ from seisblock.errors import ParameterError
 from seisblock.readers.assemble import assemble, continues
 from seisblock.readers.dispatch import Options, parts_of
 from seisblock.readers.siblings import with_siblings
-from seisblock.readers.source import Blob, Source, digest, load
+from seisblock.readers.source import Blob, Location, digest, fetch
 from seisblock.records import Record
 
 
 def read(
-    source: Source | Sequence[Source],
+    source: Location | Sequence[Location],
     *,
     format: str | None = None,  # noqa: A002 - the word users know from obspy
     units: str | None = None,
@@ -69,14 +69,14 @@ def read(
     (('NS', 'EW', 'UD'), 0.01, 6000)
     """
     options = Options(format, units, dt, station, level)
-    sources: list[Source] = [source] if isinstance(source, (str, PathLike)) else list(source)
+    sources: list[Location] = [source] if isinstance(source, (str, PathLike)) else list(source)
     if not sources:
         raise ParameterError("no file was named: give at least one record")
     return _record_of([_open(s, options) for s in sources], options)
 
 
 def read_all(
-    sources: Iterable[Source],
+    sources: Iterable[Location],
     *,
     format: str | None = None,  # noqa: A002
     units: str | None = None,
@@ -120,9 +120,9 @@ class Opened:
     parts: list[Record]
 
 
-def _open(source: Source, options: Options) -> Opened:
+def _open(source: Location, options: Options) -> Opened:
     """Return a source with its bytes and the parts in them."""
-    blob = load(source)
+    blob = fetch(source)
     return Opened(str(source), blob, parts_of(blob, options))
 
 

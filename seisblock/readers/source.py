@@ -14,7 +14,7 @@ from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError
 from seisblock.ledger import reading
 from seisblock.samples import find_sample, list_samples
 
-Source: TypeAlias = "str | PathLike[str]"
+Location: TypeAlias = "str | PathLike[str]"
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Blob:
         return self.name.replace("\\", "/").rsplit("/", 1)[-1]
 
 
-def load(source: Source) -> Blob:
+def fetch(source: Location) -> Blob:
     """Return the bytes of a file, or of the bundled sample of that name.
 
     Raises
@@ -55,7 +55,7 @@ def load(source: Source) -> Blob:
     return Blob(name, data, path)
 
 
-def locate(source: Source) -> Path:
+def locate(source: Location) -> Path:
     """Return the path of a file, or of the bundled sample of that name."""
     name = str(source)
     path = Path(name)

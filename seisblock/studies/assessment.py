@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -19,6 +19,7 @@ from seisblock.solvers.rock.solve import solve_rock
 from seisblock.solvers.slide.solve import solve_slide
 from seisblock.solvers.uplift.solve import solve_uplift
 from seisblock.studies.rocking.margin import Margin, find_margin, flagged
+from seisblock.typing import Progress
 from seisblock.units import STANDARD_GRAVITY
 
 
@@ -81,7 +82,7 @@ def assess(
     components: Sequence[str] | None = None,
     drop: float = 0.0,
     gravity: float = STANDARD_GRAVITY,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Assessment:
     """Apply every model that a body allows to every horizontal component.
 

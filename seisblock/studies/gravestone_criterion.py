@@ -22,8 +22,8 @@ from seisblock.criteria.gravestones import GravestoneFit
 from seisblock.errors import ParameterError, RecordFormatError
 from seisblock.records.motion import Motion
 from seisblock.solvers.stack.solve import solve_stack
-from seisblock.studies.runs import Progress, in_threads
-from seisblock.typing import FloatArray
+from seisblock.studies.runs import in_threads
+from seisblock.typing import FloatArray, Progress
 from seisblock.units import GAL, STANDARD_GRAVITY
 
 FREQUENCIES_HZ = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)

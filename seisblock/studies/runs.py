@@ -8,11 +8,10 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
+from seisblock.typing import Progress
+
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
-
-Progress = Callable[[int, int], None]
-"""Called now and then with the number of runs done and the number in all."""
 
 CHUNK = 128
 """Runs handed out at a time."""

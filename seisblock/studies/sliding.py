@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from typing import Any
@@ -20,12 +20,10 @@ from seisblock.records.motion import Motion
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
 from seisblock.solvers.slide.solve import check, refuse_lift_off
+from seisblock.typing import Progress
 from seisblock.units import STANDARD_GRAVITY
 
 SLIDING_MODES = [FORWARD, BACKWARD, LEVEL + FORWARD, LEVEL + BACKWARD]
-
-Progress = Callable[[int, int], None]
-"""Called with the number of runs done and the number in all."""
 
 SAMPLES_AT_ONCE = 4_000_000
 """Samples times runs that one thread takes before it says how far it is."""

@@ -18,7 +18,7 @@ from seisblock.criteria.gravestones import DOWELLED, ON_THE_LINE, PLAIN, Gravest
 from seisblock.studies.cemetery.rate import overturning_rate
 from seisblock.units import GAL
 from seisblock.validation.case import Case
-from seisblock.validation.furukawa_surveys import SURVEYS, Survey
+from seisblock.validation.furukawa_surveys import SURVEYS, SurveyedRate
 
 GRAVITY_GAL = 980.0
 """The paper's g."""
@@ -185,12 +185,12 @@ def _table_6() -> Iterator[Case]:
     )  # fmt: skip
 
 
-def _rate(survey: Survey, reinforced: bool) -> float:
+def _rate(survey: SurveyedRate, reinforced: bool) -> float:
     """Return the rate that the rebuilt survey of Aoyama gives at a station."""
     return overturning_rate(aoyama().dowelled() if reinforced else aoyama(), survey.pga, survey.frequency).rate
 
 
-def scatter(surveys: tuple[Survey, ...] = SURVEYS) -> float:
+def scatter(surveys: tuple[SurveyedRate, ...] = SURVEYS) -> float:
     """Return how far the surveyed rates lie from the curves, as an rms of ln PGA."""
     residuals = [math.log(float(overturning_level(s.frequency)) / _quantile(s.rate) / s.pga) for s in surveys]
     return math.sqrt(sum(r * r for r in residuals) / len(residuals))

@@ -9,7 +9,7 @@ from seisblock.units import GAL, KINE
 
 
 @dataclass(frozen=True)
-class Survey:
+class SurveyedRate:
     """One row of table 6; the scan's lost digits follow from f = PGA/(2 pi PGV).
 
     Parameters
@@ -43,11 +43,11 @@ class Survey:
 
 
 SURVEYS = (
-    Survey("Hakuta", 720, 36, 3.18, 0.05, 0.10, 0.02),
-    Survey("Kofu", 725, 42, 2.75, 0.30, 0.35, 0.08),
-    Survey("Yonago", 280, 27, 1.65, 0.07, 0.10, 0.04),
-    Survey("Nichinan", 629, 36, 2.78, 0.40, 0.20, 0.05),
-    Survey("Hino", 927, 113, 1.31, 0.90, 1.0, None),
-    Survey("Sakaiminato", 213, 90, 0.38, 0.36, None, None),
+    SurveyedRate("Hakuta", 720, 36, 3.18, 0.05, 0.10, 0.02),
+    SurveyedRate("Kofu", 725, 42, 2.75, 0.30, 0.35, 0.08),
+    SurveyedRate("Yonago", 280, 27, 1.65, 0.07, 0.10, 0.04),
+    SurveyedRate("Nichinan", 629, 36, 2.78, 0.40, 0.20, 0.05),
+    SurveyedRate("Hino", 927, 113, 1.31, 0.90, 1.0, None),
+    SurveyedRate("Sakaiminato", 213, 90, 0.38, 0.36, None, None),
 )
 """Its six rows, in the order printed. The last row's estimates, 0.05 and 0, contradict the other rows and are left out."""

@@ -181,3 +181,13 @@ def test_files_answer_one_question():
     if long:
         warnings.warn(f"files of more than {LONGEST} lines: {long}", stacklevel=1)
     assert max(lengths.values()) < 2 * LONGEST
+
+
+def test_one_name_means_one_thing():
+    """No two public classes share a name."""
+    found = {}
+    for path in sources():
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                found.setdefault(node.name, []).append(path.relative_to(PACKAGE).as_posix())
+    assert {name: files for name, files in found.items() if len(files) > 1} == {}

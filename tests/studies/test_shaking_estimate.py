@@ -14,7 +14,7 @@ from seisblock.criteria.intensity import intensity_from_velocity
 from seisblock.errors import BodyError, ParameterError
 from seisblock.measures import jma_class
 from seisblock.studies.cemetery.limits import fitted_limits
-from seisblock.studies.inverse.estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, Model, contour, estimate_shaking, groups_of
+from seisblock.studies.inverse.estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, Assumptions, contour, estimate_shaking, groups_of
 from seisblock.studies.inverse.survey import (
     COMMON_ERROR,
     STONE_ERROR,
@@ -26,7 +26,7 @@ from seisblock.studies.inverse.survey import (
 )
 
 AOYAMA = read_cemetery("aoyama.csv")
-SHARP = Model(stone_error=0.02)
+SHARP = Assumptions(stone_error=0.02)
 
 
 def marked(cemetery: Cemetery, falls) -> Cemetery:
@@ -179,8 +179,8 @@ def test_intensity_goes_with_pgv():
         (lambda: parse_rate("35%"), ParameterError, "write both numbers"),
         (lambda: parse_rate("0.35"), ParameterError, "write both numbers"),
         (lambda: estimate_shaking(counted_survey(AOYAMA, 3, 4), 0.0), ParameterError, "frequency must be positive"),
-        (lambda: estimate_shaking(counted_survey(AOYAMA, 3, 4), 1.0, Model(common_error=0.0)), ParameterError, "common error"),
-        (lambda: Model(level=90.0), ParameterError, "level of the intervals must lie between 0 and 1"),
+        (lambda: estimate_shaking(counted_survey(AOYAMA, 3, 4), 1.0, Assumptions(common_error=0.0)), ParameterError, "common error"),
+        (lambda: Assumptions(level=90.0), ParameterError, "level of the intervals must lie between 0 and 1"),
         (lambda: intensity_from_velocity(0.0), ParameterError, "peak velocity must be positive"),
     ],
 )

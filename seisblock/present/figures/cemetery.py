@@ -15,7 +15,7 @@ from seisblock.records import Record
 from seisblock.studies.cemetery.judgement import LARGER, CemeteryRate, Reinforcement
 from seisblock.studies.cemetery.rate import FREQUENCIES, CurvePoint, overturning_rate, rate_curve
 from seisblock.units import GAL
-from seisblock.validation.furukawa_surveys import SURVEYS, Survey
+from seisblock.validation.furukawa_surveys import SURVEYS, SurveyedRate
 
 LINES = (
     ("#08214a", "-"),
@@ -143,7 +143,7 @@ def figure_14(cemetery: Cemetery) -> Figure:
     return figure
 
 
-def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence[Survey] = ()) -> Figure:
+def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence[SurveyedRate] = ()) -> Figure:
     """Return the rate curves: fig. 16, fig. 17 reinforced, and figs. 18, 19 with surveyed rates ([Furukawa2009]_).
 
     Parameters
@@ -151,7 +151,7 @@ def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence
     cemetery : Cemetery
     reinforced : bool
         All stones with a dowel.
-    surveys : sequence of Survey
+    surveys : sequence of SurveyedRate
         Points to draw; :data:`seisblock.validation.furukawa_surveys.SURVEYS` for figs. 18 and 19.
     """
     kind = "reinforced" if reinforced else "not reinforced"
@@ -165,7 +165,7 @@ def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence
     return figure
 
 
-def figure_20(cemetery: Cemetery, surveys: Sequence[Survey] = SURVEYS) -> Figure:
+def figure_20(cemetery: Cemetery, surveys: Sequence[SurveyedRate] = SURVEYS) -> Figure:
     """Return surveyed rates against those of the curves, without a dowel and with one ([Furukawa2009]_ fig. 20)."""
     figure, (axis,) = new_figure(1, width=4.8, height=4.6, title=f"rates: curves of {cemetery.name}, and surveys")
     axis.plot([0, 1], [0, 1], color=INPUT, linewidth=0.9)

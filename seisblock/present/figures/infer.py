@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure, threshold
 from seisblock.records import Record
-from seisblock.studies.inverse.estimate import Model, ShakingEstimate, contour
+from seisblock.studies.inverse.estimate import Assumptions, ShakingEstimate, contour
 from seisblock.studies.inverse.survey import Survey, likelihood
 from seisblock.typing import FloatArray
 from seisblock.units import GAL
@@ -31,19 +31,19 @@ FINE = tuple(np.geomspace(0.3, 4.0, 31).tolist())
 """Frequencies of the contour, Hz."""
 
 
-def estimate_figure(name: str, survey: Survey, model: Model, estimates: Sequence[ShakingEstimate]) -> Figure:
+def estimate_figure(name: str, survey: Survey, assumptions: Assumptions, estimates: Sequence[ShakingEstimate]) -> Figure:
     """Return the figure: the trade-off of PGA and frequency with its bands, and the likelihood over PGA at some frequencies.
 
     Parameters
     ----------
     name : str
-    survey, model : Survey, Model
+    survey, assumptions : Survey, Assumptions
     estimates : sequence of ShakingEstimate
         Those with a frequency are drawn as points with their intervals.
     """
     title = f"{name}: {survey.fell} of {survey.judged} stones fell"
     figure, (left, right) = new_figure(1, columns=2, width=9.6, height=4.2, title=title)
-    _trade_off(left, survey, model)
+    _trade_off(left, survey, assumptions)
     chosen = [each for each in estimates if each.stones == estimates[-1].stones and each.frequency_hz is not None]
     for each in chosen:
         ends = [end / GAL for end in each.pga_interval_m_s2 if end is not None]
@@ -51,14 +51,14 @@ def estimate_figure(name: str, survey: Survey, model: Model, estimates: Sequence
         left.plot([at] * len(ends), ends, color=ACCENT, linewidth=1.0, marker="_", markersize=6, zorder=3)
         if each.pga_m_s2 is not None:
             left.plot([at], [each.pga_m_s2 / GAL], "o", color=ACCENT, markersize=4, zorder=4)
-    _likelihoods(right, survey, model, chosen)
+    _likelihoods(right, survey, assumptions, chosen)
     return figure
 
 
-def _trade_off(axis: Axes, survey: Survey, model: Model) -> None:
+def _trade_off(axis: Axes, survey: Survey, assumptions: Assumptions) -> None:
     """Draw the bands of PGA against frequency."""
     for level, shade in zip(sorted(LEVELS, reverse=True), ("0.88", "0.76"), strict=True):
-        line = contour(survey, replace(model, level=level), FINE)
+        line = contour(survey, replace(assumptions, level=level), FINE)
         low, high = ([math.nan if e.pga_interval_m_s2[i] is None else e.pga_interval_m_s2[i] for e in line] for i in (0, 1))
         _band(axis, np.array(low, dtype=np.float64) / GAL, np.array(high, dtype=np.float64) / GAL, shade, f"{100 * level:g} %")
         if level == max(LEVELS) and line[0].pga_m_s2 is not None:
@@ -84,11 +84,11 @@ def _band(axis: Axes, low: FloatArray, high: FloatArray, shade: str, name: str) 
         axis.fill_between(FINE, low, high, color=shade, linewidth=0, label=name)
 
 
-def _likelihoods(axis: Axes, survey: Survey, model: Model, chosen: Sequence[ShakingEstimate]) -> None:
+def _likelihoods(axis: Axes, survey: Survey, assumptions: Assumptions, chosen: Sequence[ShakingEstimate]) -> None:
     """Draw the likelihood over PGA at the frequencies chosen, or at three."""
     frequencies = [each.frequency_hz for each in chosen if each.frequency_hz is not None] or [1.0, 2.0, 3.0]
     for index, f in enumerate(frequencies):
-        found = likelihood(survey, f, common_error=model.common_error, stone_error=model.stone_error, limits=model.limits)
+        found = likelihood(survey, f, common_error=assumptions.common_error, stone_error=assumptions.stone_error, limits=assumptions.limits)
         share = index / max(len(frequencies) - 1, 1)
         colour = ACCENT if len(frequencies) == 1 else str(round(0.15 + 0.55 * share, 2))
         dashes = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)))[index % 3]

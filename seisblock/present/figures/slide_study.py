@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from seisblock.criteria.sliding import friction_that_holds, friction_that_stops
 from seisblock.present.figures import canvas
-from seisblock.present.text.slide_study import PLANE, SYMBOLS, Layout, Points, panels_of, value_of
+from seisblock.present.text.slide_study import PLANE, SYMBOLS, Arrangement, Points, panels_of, value_of
 from seisblock.records import Record, motion_of
 
 SLIP_LABEL = "largest slip (m)"
@@ -28,7 +28,7 @@ def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length
     panels = [
         (record, title, part)
         for record, points in zip(records, studies, strict=True)
-        for title, part in panels_of(points, Layout.of(points))
+        for title, part in panels_of(points, Arrangement.of(points))
     ]
     made, axes = canvas.new_figure(1, columns=len(panels), width=2.0 + 4.5 * len(panels), height=4.6, sharey=True)
     for axis, (record, title, part) in zip(axes, panels, strict=True):
@@ -45,12 +45,14 @@ def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length
 
 def _curves(axis: Any, points: Points, slope_length: float | None) -> None:
     """Draw curves as in [Fujino1978]_ fig. 7 (slip), figs. 9 and 10 (beta), fig. 15 (slip on a slope)."""
-    layout = Layout.of(points)
+    arrangement = Arrangement.of(points)
     ratio = any(point.beta is not None for point in points)
-    names = list(dict.fromkeys(layout.name(point) for point in points))
+    names = list(dict.fromkeys(arrangement.name(point) for point in points))
     for index, name in enumerate(names):
-        mine = sorted((point for point in points if layout.name(point) == name), key=lambda point: float(getattr(point, layout.x)))
-        x = [getattr(point, layout.x) for point in mine]
+        mine = sorted(
+            (point for point in points if arrangement.name(point) == name), key=lambda point: float(getattr(point, arrangement.x))
+        )
+        x = [getattr(point, arrangement.x) for point in mine]
         y = [value_of(point, ratio) for point in mine]
         share = index / max(len(names) - 1, 1)
         colour = canvas.ACCENT if len(names) == 1 else _shade(share)
@@ -60,7 +62,7 @@ def _curves(axis: Any, points: Points, slope_length: float | None) -> None:
         axis.axhline(1.0, color=canvas.INPUT, linewidth=0.7)
     if slope_length is not None and not ratio:
         axis.axhline(slope_length, color=canvas.THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label="foot of the slope")
-    canvas.label(axis, x=SYMBOLS[layout.x], y="β (1)" if ratio else SLIP_LABEL)
+    canvas.label(axis, x=SYMBOLS[arrangement.x], y="β (1)" if ratio else SLIP_LABEL)
     canvas.legend(axis, loc="best", bbox_to_anchor=None, borderaxespad=0.5, ncols=1 if len(names) < 6 else 2)
 
 

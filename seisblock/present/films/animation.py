@@ -18,15 +18,13 @@ from PIL import Image
 
 from seisblock.errors import OutputError
 from seisblock.present.files import replacing
+from seisblock.typing import Progress
 
 FRAMES_PER_SECOND = 20
 """Default rate; a .gif counts in hundredths of a second, so 20, 25 and 50 play at true speed."""
 
 MOST_FRAMES = 1200
 """A longer answer plays faster than it was, rather than filling the disk."""
-
-Progress = Callable[[int, int], None]
-"""Called with the number of pictures drawn and of all."""
 
 
 @dataclass(frozen=True)

@@ -25,14 +25,14 @@ PLANE = 8
 
 
 @dataclass(frozen=True)
-class Layout:
+class Arrangement:
     """Which parameter runs along x, which makes the curves, and which are left for titles."""
 
     x: str
     curves: tuple[str, ...]
 
     @classmethod
-    def of(cls, points: Points) -> Layout:
+    def of(cls, points: Points) -> Arrangement:
         """Put the parameter with most values on x; of equals, the one that the paper's figures have there."""
         kinetic = "kappa" if len({p.kappa for p in points}) <= len({p.mu_kinetic for p in points}) else "mu_kinetic"
         counts = {name: len({getattr(p, name) for p in points}) for name in ("mu", "slope_deg", "vertical", kinetic)}
@@ -48,37 +48,37 @@ def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any
     """Yield, for each record and direction, the largest slip and, with vertical motion, the ratio beta as in [Fujino1978]_ fig. 9."""
     for record, points in zip(records, studies, strict=True):
         yield record_line(record)
-        layout = Layout.of(points)
-        for title, part in panels_of(points, layout):
-            yield _pivot(f"{title}: largest slip (mm)", part, layout, lambda point: millimetres(point.max_slip_m))
+        arrangement = Arrangement.of(points)
+        for title, part in panels_of(points, arrangement):
+            yield _pivot(f"{title}: largest slip (mm)", part, arrangement, lambda point: millimetres(point.max_slip_m))
             if any(point.beta is not None for point in part):
                 yield _pivot(
                     f"{title}: beta, largest slip with vertical motion over that without",
                     part,
-                    layout,
+                    arrangement,
                     lambda point: NOTHING if point.beta is None else f"{point.beta:.3f}",
                 )
 
 
-def panels_of(points: Points, layout: Layout) -> list[tuple[str, Points]]:
+def panels_of(points: Points, arrangement: Arrangement) -> list[tuple[str, Points]]:
     """Return the points of each direction; the worst directions of a sweep are one part."""
     names = list(dict.fromkeys(point.component for point in points))
-    per_direction = len({tuple(getattr(p, key) for key in (layout.x, *layout.curves)) for p in points})
+    per_direction = len({tuple(getattr(p, key) for key in (arrangement.x, *arrangement.curves)) for p in points})
     if len(points) == per_direction and len(names) > 1:
         return [("worst direction", points)]
     return [(name, [point for point in points if point.component == name]) for name in names]
 
 
-def _pivot(title: str, points: Points, layout: Layout, cell: Callable[[SlidePoint], str]) -> Any:
+def _pivot(title: str, points: Points, arrangement: Arrangement, cell: Callable[[SlidePoint], str]) -> Any:
     """Return one table: x runs down, the curves stand side by side; long ones are thinned."""
-    xs = list(dict.fromkeys(getattr(point, layout.x) for point in points))
-    names = list(dict.fromkeys(layout.name(point) for point in points))
-    values = {(getattr(point, layout.x), layout.name(point)): cell(point) for point in points}
+    xs = list(dict.fromkeys(getattr(point, arrangement.x) for point in points))
+    names = list(dict.fromkeys(arrangement.name(point) for point in points))
+    values = {(getattr(point, arrangement.x), arrangement.name(point)): cell(point) for point in points}
     rows, columns = _thinned(xs, MOST_ROWS), _thinned(names, MOST_COLUMNS)
     left_out = len(rows) < len(xs) or len(columns) < len(names)
     return table(
         title,
-        (SYMBOLS[layout.x], *(name or "slip" for name in columns)),
+        (SYMBOLS[arrangement.x], *(name or "slip" for name in columns)),
         [[f"{x:g}", *(values.get((x, name), NOTHING) for name in columns)] for x in rows],
         caption=f"{len(rows)} of {len(xs)} rows, {len(columns)} of {len(names)} columns; --csv and --json hold all" if left_out else "",
     )

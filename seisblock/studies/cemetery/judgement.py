@@ -16,8 +16,7 @@ from seisblock.measures import FilterRange
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
 from seisblock.studies.cemetery.rate import CONFIDENCE, CURVE_PGA, FREQUENCIES, CurvePoint, rate_curve, rate_of, remarks, threshold_ratio
 from seisblock.studies.cemetery.shaking import Shaking
-from seisblock.studies.runs import Progress
-from seisblock.typing import BoolArray, FloatArray
+from seisblock.typing import BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 
 Criterion = Literal["furukawa", "rigid", "simulate"]

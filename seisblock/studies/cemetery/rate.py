@@ -26,7 +26,7 @@ CURVE_PGA = tuple(round(0.5 * i, 1) for i in range(1, 37))
 MOST_STEPS = 200
 """Steps to a threshold H/B; a rigid block under a fast pulse needs some fifty."""
 
-IMPLAUSIBLE_PGA = 20.0 * GAL
+SLIGHTEST_PGA = 20.0 * GAL
 """A PGA below this, m/s^2, was probably given in another unit than gal: not even H/B = 40 would fall."""
 
 
@@ -233,6 +233,6 @@ def remarks(cemetery: Cemetery, pga: float, frequency: float, *, fitted: bool = 
     fitted : bool
         Whether the range of the fit matters.
     """
-    if pga < IMPLAUSIBLE_PGA:
+    if pga < SLIGHTEST_PGA:
         return (f"a PGA of {pga / GAL:.3g} gal overturns nothing: was m/s^2 given where gal is meant?",)
     return outside_fit(pga, frequency, cemetery.ratios) if fitted else ()

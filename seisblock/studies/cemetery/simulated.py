@@ -19,8 +19,8 @@ from seisblock.records import Motion
 from seisblock.solvers.rock.solve import rock_verdict
 from seisblock.studies.cemetery.limits import require_loose
 from seisblock.studies.cemetery.rate import CurvePoint
-from seisblock.studies.runs import Progress, in_threads
-from seisblock.typing import BoolArray
+from seisblock.studies.runs import in_threads
+from seisblock.typing import BoolArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 
 SIMULATED_PGA = tuple(float(i) for i in range(1, 14))

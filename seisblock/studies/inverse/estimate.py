@@ -75,7 +75,7 @@ class ShakingEstimate:
 
 
 @dataclass(frozen=True)
-class Model:
+class Assumptions:
     """What an estimate rests on.
 
     Parameters
@@ -98,7 +98,9 @@ class Model:
             raise ParameterError(f"the level of the intervals must lie between 0 and 1, found {self.level}")
 
 
-def estimate_shaking(survey: Survey, frequency: float | None = None, model: Model | None = None, *, stones: str = "") -> ShakingEstimate:
+def estimate_shaking(
+    survey: Survey, frequency: float | None = None, assumptions: Assumptions | None = None, *, stones: str = ""
+) -> ShakingEstimate:
     """Return what a survey says of the shaking ([Furukawa2009]_ eqs. (9), (10) read backwards; [Midorikawa1999]_).
 
     Flat prior in ln PGA; see :mod:`seisblock.studies.inverse.survey` for the errors. Where no stone fell, the upper bound is the
@@ -109,7 +111,7 @@ def estimate_shaking(survey: Survey, frequency: float | None = None, model: Mode
     survey : Survey
     frequency : float or None, Hz
         Equivalent frequency, positive; None averages over 0.5 to 3 Hz.
-    model : Model
+    assumptions : Assumptions
     stones : str
         Name of the group; by default from the stones themselves.
 
@@ -130,7 +132,7 @@ def estimate_shaking(survey: Survey, frequency: float | None = None, model: Mode
     >>> round(found.pga_m_s2, 1)
     7.0
     """
-    rules = model or Model()
+    rules = assumptions or Assumptions()
     if frequency is not None and not (math.isfinite(frequency) and frequency > 0.0):
         raise ParameterError(f"the equivalent frequency must be positive, found {frequency} Hz")
     band = [frequency] if frequency is not None else np.geomspace(*BAND, BAND_STEPS).tolist()
@@ -173,10 +175,10 @@ def groups_of(survey: Survey) -> Iterator[tuple[str, Survey]]:
     yield name, survey
 
 
-def contour(survey: Survey, model: Model | None = None, frequencies: Sequence[float] | None = None) -> list[ShakingEstimate]:
+def contour(survey: Survey, assumptions: Assumptions | None = None, frequencies: Sequence[float] | None = None) -> list[ShakingEstimate]:
     """Return the estimates along the trade-off of PGA and frequency: PGA grows with f as a(f) does ([Furukawa2009]_ eq. (8))."""
     chosen = [round(0.1 * i, 1) for i in range(5, 31)] if frequencies is None else frequencies
-    return [estimate_shaking(survey, f, model) for f in chosen]
+    return [estimate_shaking(survey, f, assumptions) for f in chosen]
 
 
 def _averaged(parts: Sequence[Likelihood], shifts: Sequence[float]) -> tuple[FloatArray, FloatArray]:

@@ -20,7 +20,8 @@ from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.jump.solve import solve_jump
 from seisblock.solvers.slide.solve import solve_slide
-from seisblock.studies.runs import Progress, in_threads
+from seisblock.studies.runs import in_threads
+from seisblock.typing import Progress
 
 LIMIT = 3.0
 """Default largest factor."""

@@ -18,7 +18,8 @@ from seisblock.records import Motion
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.solvers.rock.solve import check_options, rock_verdict
-from seisblock.studies.runs import Progress, in_threads
+from seisblock.studies.runs import in_threads
+from seisblock.typing import Progress
 from seisblock.units import STANDARD_GRAVITY
 
 LIMIT = 3.0
@@ -37,7 +38,7 @@ NEAR_STEPS = 41
 
 
 @dataclass(frozen=True)
-class Window:
+class FactorRange:
     """A range of factors with one verdict."""
 
     first: float
@@ -53,7 +54,7 @@ class Margin:
     ----------
     overturned : bool
         Verdict at factor 1.
-    windows : tuple of Window
+    windows : tuple of FactorRange
         From 0 to the limit, alternately safe and unsafe.
     flips : tuple of float
         The factors between them, in rising order.
@@ -64,7 +65,7 @@ class Margin:
     """
 
     overturned: bool
-    windows: tuple[Window, ...]
+    windows: tuple[FactorRange, ...]
     flips: tuple[float, ...]
     nearest_flip: float | None
     step: float
@@ -104,7 +105,7 @@ def find_margin(
     changes = [i for i in range(1, len(factors)) if verdicts[i] != verdicts[i - 1]]
     flips = tuple(in_threads(lambda i: _bisected(overturns, factors[i - 1], factors[i], verdicts[i]), changes))
     edges = (0.0, *flips, limit)
-    windows = tuple(Window(low, high, bool(i % 2)) for i, (low, high) in enumerate(pairwise(edges)))
+    windows = tuple(FactorRange(low, high, bool(i % 2)) for i, (low, high) in enumerate(pairwise(edges)))
     nearest = min(flips, key=lambda flip: abs(np.log(flip))) if flips else None
     at_one = verdicts[factors.index(1.0)] if limit >= 1.0 else overturns(1.0)
     return Margin(at_one, windows, flips, nearest, step, limit)

@@ -13,7 +13,8 @@ from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.records.motion import ACROSS, ALONG
 from seisblock.solvers.rock.solve import check_options, rock_verdict
-from seisblock.studies.runs import Progress, in_threads
+from seisblock.studies.runs import in_threads
+from seisblock.typing import Progress
 from seisblock.units import STANDARD_GRAVITY
 
 CONFIDENCE = 0.95

@@ -13,8 +13,8 @@ from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.rock.solve import check_options, rock_verdict
-from seisblock.studies.runs import Progress, in_threads
-from seisblock.typing import ArrayLike, BoolArray, FloatArray
+from seisblock.studies.runs import in_threads
+from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 
 
