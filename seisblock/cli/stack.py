@@ -124,6 +124,7 @@ def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, .
 
 def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dict[str, Any]) -> None:
     """Follow the pile through the records."""
+    from seisblock.cli.progress import progress
     from seisblock.present.text import stack as shown
     from seisblock.solvers.stack.solve import solve_stack
 
@@ -131,7 +132,9 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
     for record in load(source):
         turned = list(motions(record, source))
         # all components act in every run: without --component one run tells all
-        responses += [solve_stack(body, motion, contact=contact, **asked) for motion in (turned if source.component else turned[:1])]
+        for motion in turned if source.component else turned[:1]:
+            with progress(f"{record.station} {motion.name}".strip()) as tell:
+                responses.append(solve_stack(body, motion, contact=contact, progress=tell, **asked))
     emit(
         response_answer("stack", responses, {**responses[0].options, "pile": body}),
         output,

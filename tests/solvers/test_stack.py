@@ -181,12 +181,33 @@ def test_halving_the_step_changes_little():
     assert fine.outcome.max_tilt_rad["sao"] == pytest.approx(coarse.outcome.max_tilt_rad["sao"], rel=0.01)
 
 
-def test_a_step_too_coarse_is_refused():
-    """A step beyond the stability of the stiffest contact is an error that says what would do."""
-    with pytest.raises(ParameterError, match="too coarse for the stiffest contact"):
-        solve_stack(block(), sine(1.0, 1.0, 0.1), step=0.01)
-    with pytest.raises(ParameterError, match="too coarse"):
-        solve_stack(block(), sine(1.0, 1.0, 0.1), step=-1.0)
+@pytest.mark.parametrize(
+    ("step", "said"),
+    [
+        (0.01, "too coarse for the stiffest contact"),
+        (1e-12, "finer than does any good"),
+        (-1.0, "must be positive"),
+        (math.nan, "positive"),
+    ],
+)
+def test_a_step_that_will_not_do_is_refused(step, said):
+    """Beyond the stability of the stiffest contact, or so fine that the run would not end, it is an error that says what would do."""
+    with pytest.raises(ParameterError, match=said):
+        solve_stack(block(), sine(1.0, 1.0, 0.1), step=step)
+
+
+@pytest.mark.parametrize("points", [1, 1000])
+def test_where_the_run_pauses_changes_no_bit(points, monkeypatch):
+    """Slices of one step, or of a few, end with the same state, rows and books as one slice; progress tells how far it is."""
+    motion, body = sine(6.0, 2.0, 1.0), load_pile("wagata")
+    whole = solve_stack(body, motion)
+    monkeypatch.setattr("seisblock.solvers.stack.solve.POINTS_AT_ONCE", points)
+    told = []
+    parts = solve_stack(body, motion, progress=lambda done, total: told.append((done, total)))
+    assert parts.outcome == whole.outcome
+    for one, other in zip(parts.channels, whole.channels, strict=True):
+        np.testing.assert_array_equal(one.values, other.values)
+    assert told == sorted(told) and told[-1] == (motion.samples - 1, motion.samples - 1)
 
 
 def test_created_energy_is_an_error(monkeypatch):
@@ -194,7 +215,7 @@ def test_created_energy_is_an_error(monkeypatch):
     from seisblock.solvers.stack import outcome as stack_outcome
 
     monkeypatch.setattr(stack_outcome, "CREATED_AT_MOST", -1.0)
-    with pytest.raises(SolverError, match="give a smaller --step"):
+    with pytest.raises(SolverError, match="give a finer time step"):
         solve_stack(block(), sine(1.0, 1.0, 0.1))
     assert CREATED_AT_MOST == 1e-3
 

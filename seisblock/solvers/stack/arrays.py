@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import Joint
 from seisblock.errors import ParameterError
+from seisblock.solvers.stack.arguments import Layout, Memory
 from seisblock.solvers.stack.contact import SLOT
 from seisblock.solvers.stack.frames import AT, BODY, BOX, INERT, INERTIA, INVERSE, MASS, Q, R, X
 from seisblock.solvers.stack.step import ALL_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH, SIGMA
@@ -64,26 +64,15 @@ class PileArrays:
     edges: IntArray
     members: tuple[tuple[int, ...], ...]
 
-    def kernel_constants(self) -> tuple[Any, ...]:
-        """Return what does not change, in the order of ``stack_step.PILE``."""
-        return (
-            self.joints,
-            self.constants,
-            self.grids,
-            self.pairs,
-            self.pair_constants,
-            self.corners,
-            self.counts,
-            self.edges,
-            self.boxes,
-            self.owner,
-            self.inert,
-        )
+    @property
+    def layout(self) -> Layout:
+        """What does not change, as the kernels take it."""
+        return Layout(*(getattr(self, name) for name in Layout._fields))
 
-    def memory(self) -> tuple[Any, ...]:
-        """Return empty memory, in the order of ``stack_step.MEMORY``."""
+    def memory(self) -> Memory:
+        """Return empty memory."""
         n, p, bodies = self.joints.shape[0], self.pairs.shape[0], self.bodies.shape[0]
-        return (
+        return Memory(
             np.zeros((n, self.grids.shape[1], 4, 2)),
             np.zeros((p, 2, MOST_CORNERS, SLOT)),
             np.zeros((p, 2, 2 * ALL_EDGES, SLOT)),

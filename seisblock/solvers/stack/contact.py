@@ -14,13 +14,9 @@ from __future__ import annotations
 import math
 
 from seisblock._jit import kernel, types
+from seisblock.dynamics.arrays import BLOCK, MATRIX, VECTOR
 
 _t = types()
-VECTOR = _t.Array(_t.float64, 1, "C")
-MATRIX = _t.Array(_t.float64, 2, "C")
-BLOCK = _t.Array(_t.float64, 3, "C")
-INTEGERS = _t.Array(_t.int64, 1, "C")
-TABLE = _t.Array(_t.int64, 2, "C")
 
 REL_S, REL_D, REL_V, REL_W = 0, 9, 12, 15
 """Where a relative state keeps the carrier's axes (row-major), its centre, its velocity there, and its relative spin."""

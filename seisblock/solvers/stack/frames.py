@@ -7,7 +7,7 @@ of the ground, which shakes but does not turn: positions and velocities are rela
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
-from seisblock.solvers.stack.contact import INTEGERS, MATRIX, VECTOR
+from seisblock.dynamics.arrays import INTEGERS, MATRIX, VECTOR
 
 _t = types()
 

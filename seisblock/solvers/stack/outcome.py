@@ -10,6 +10,7 @@ import numpy as np
 from seisblock.bodies.pile.stone import GROUND
 from seisblock.errors import SolverError
 from seisblock.results import Channel
+from seisblock.solvers.stack.arguments import Kept
 from seisblock.solvers.stack.arrays import PileArrays
 from seisblock.solvers.stack.frames import AT, MASS, V
 from seisblock.solvers.stack.run import CREATED, FALL_TIME, FALL_X, FALL_Y, IMPULSE, LEAST_COSINE, LOST, WORK
@@ -173,9 +174,7 @@ def channels(pile: PileArrays, track: Track) -> tuple[Channel, ...]:
 def stack_outcome(
     pile: PileArrays,
     track: Track,
-    fates: FloatArray,
-    last_touch: FloatArray,
-    books: FloatArray,
+    kept: Kept,
     bodies: FloatArray,
     *,
     start: float,
@@ -190,16 +189,16 @@ def stack_outcome(
     SolverError
         If the run created energy.
     """
-    masses = pile.inert[:, MASS]
+    masses, books = pile.inert[:, MASS], kept.books
     tall = max(centre[2] + 0.5 * stone.height for centre, stone in zip(pile.body.centres(), pile.body.stones, strict=True))
     scale = float(masses.sum()) * gravity * tall
     if books[CREATED] > CREATED_AT_MOST * scale:
         raise SolverError(
             f"the steps of {step:.3g} s are too coarse for the pile {pile.body.name}: they created {books[CREATED]:.3g} J of energy; "
-            f"give a smaller --step"
+            f"give a finer time step"
         )
     momentum = masses @ bodies[:-1, V : V + 3] - books[IMPULSE : IMPULSE + 3]
-    stones = tuple(_fate(pile, track, i, fates, last_touch, start, ended) for i in range(len(pile.body.stones)))
+    stones = tuple(_fate(pile, track, i, kept, start, ended) for i in range(len(pile.body.stones)))
     fallen = [stone for stone in stones if stone.state == "fallen"]
     return StackOutcome(
         overturned=tuple(stone.name for stone in fallen),
@@ -216,10 +215,11 @@ def stack_outcome(
     )
 
 
-def _fate(pile: PileArrays, track: Track, i: int, fates: FloatArray, last_touch: FloatArray, start: float, ended: float) -> StoneFate:
+def _fate(pile: PileArrays, track: Track, i: int, kept: Kept, start: float, ended: float) -> StoneFate:
     """Return what became of one stone."""
     slip, turn = _slip(pile, track, i)[-1], _turn(track, i)
     b = int(pile.owner[i])
+    fates = kept.fates
     turned = float(turn[-1] - turn[0])
     if b == len(pile.members):
         return StoneFate(pile.body.names[i], "standing", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None, None, None)
@@ -237,11 +237,11 @@ def _fate(pile: PileArrays, track: Track, i: int, fates: FloatArray, last_touch:
         residual_turn_rad=float(math.remainder(turned, 2.0 * math.pi)),
         fell_at_s=float(start + fates[b, FALL_TIME]) if fell else None,
         fell_towards_deg=float(math.degrees(math.atan2(fates[b, FALL_Y], fates[b, FALL_X]))) if fell else None,
-        fell_onto=_lies_on(pile, i, b, last_touch, ended) if fell else None,
+        fell_onto=_lies_on(pile, b, kept.last_touch, ended) if fell else None,
     )
 
 
-def _lies_on(pile: PileArrays, i: int, b: int, last_touch: FloatArray, ended: float) -> str | None:
+def _lies_on(pile: PileArrays, b: int, last_touch: FloatArray, ended: float) -> str | None:
     """Return what a fallen stone touches at the end: the ground before any stone, nothing while it flies."""
     recent = [other for other in range(last_touch.shape[0]) if other != b and last_touch[b, other] >= ended - 0.2]
     if len(pile.members) in recent:

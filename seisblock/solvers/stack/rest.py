@@ -19,6 +19,9 @@ STABLE = 4.0
 SAFETY = 0.7
 """Part of the stable limit that is used."""
 
+FINEST = 1e-3
+"""Smallest part of it that may be asked for: the error of a step falls with its square, so that less only takes longer."""
+
 _AXES = np.eye(3)
 
 
@@ -79,13 +82,20 @@ def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
     Raises
     ------
     ParameterError
-        If the step asked for is too coarse for the stiffest contact: the answer would be wrong.
+        If the step asked for is too coarse for the stiffest contact: the answer would be wrong; or so fine that it would never come.
     """
     limit = stable_step(pile)
-    if step is not None and not 0.0 < step <= limit:
+    if step is not None and not step > 0.0:
+        raise ParameterError(f"the time step must be positive, found {step:g} s")
+    if step is not None and not step <= limit:
         raise ParameterError(
             f"a step of {step:g} s is too coarse for the stiffest contact of the pile {pile.body.name}, stable up to {limit:.3g} s: "
             f"leave it out, or give at most {SAFETY * limit:.2g} s"
+        )
+    if step is not None and step < FINEST * limit:
+        raise ParameterError(
+            f"a step of {step:g} s is finer than does any good: the stiffest contact of the pile {pile.body.name} is stable up to "
+            f"{limit:.3g} s, and a thousandth of that has no error left to lose; leave it out, or give at least {FINEST * limit:.2g} s"
         )
     return max(1, math.ceil(dt / (SAFETY * limit if step is None else step) * (1.0 - 1e-12)))
 

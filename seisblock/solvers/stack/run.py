@@ -2,7 +2,8 @@
 
 The step divides the sampling interval; between samples the acceleration is linear. A row is kept at a sample where some stone has moved
 noticeably since the last row, and at the latest after so many samples. Work done by the ground, energy held and energy lost are booked
-at each sample: what contacts and friction have taken may only grow.
+at each sample: what contacts and friction have taken may only grow. The loop pauses after so many steps and goes on from there, so
+that Python may be interrupted; the answer does not depend on where.
 """
 
 from __future__ import annotations
@@ -10,20 +11,25 @@ from __future__ import annotations
 import math
 
 from seisblock._jit import kernel, types
-from seisblock.solvers.stack.contact import MATRIX, VECTOR
+from seisblock.dynamics.arrays import MATRIX, READ_ONLY_MATRIX, VECTOR
+from seisblock.dynamics.status import NOT_FINITE, PAUSED, RECORD_ENDED, STOPPED
+from seisblock.solvers.stack.arguments import (
+    CURSOR,
+    FELL,
+    KEPT,
+    KEPT_ROWS,
+    LAYOUT,
+    MEMORY,
+    SAMPLE,
+    SETTINGS,
+    SINCE,
+    STEP,
+    STEPS_LEFT,
+)
 from seisblock.solvers.stack.frames import MASS, F, R, V, W, X
-from seisblock.solvers.stack.step import MEMORY, PILE, drift, energy_of, kick, press_all
+from seisblock.solvers.stack.step import drift, energy_of, kick, press_all
 
 _t = types()
-READ_ONLY = _t.Array(_t.float64, 2, "C", readonly=True)
-
-RECORD_ENDED, STOPPED, NOT_FINITE = 0, 1, 4
-"""Statuses, as in :class:`seisblock.results.Status`."""
-
-GRAVITY, DT, STEPS, STOP_AT_FALL, MOVED, LONGEST, QUIET = range(7)
-"""Settings: gravity; sampling interval, s; steps in it; whether to stop at the first fall; movement, m or rad, that makes a row; most
-samples between rows; sample from which the run ends as soon as every stone is still."""
-SETTINGS = 7
 
 LOOK_EVERY = 1e-3
 """How often, s, boxes are looked at for being near each other; a corner at 10 m/s does not outrun their margin."""
@@ -36,10 +42,10 @@ FATE = 6
 """A body's row: least cosine of its tilt, time of its fall (s, negative: none), direction of its upward axis at the fall; and when it has
 fallen: the cosine of its tilt, or the height of its centre, below which it counts as such."""
 
-WORK, LOST, MOST_LOST, CREATED, IMPULSE = 0, 1, 2, 3, 4
-BOOKS = 7
-"""Work of the ground, J; energy lost; its largest value; largest fall below that, which only an error makes; and the impulse (3), N s,
-of the ground's contact and of the frame."""
+WORK, LOST, MOST_LOST, CREATED, IMPULSE, START = 0, 1, 2, 3, 4, 7
+BOOKS = 8
+"""Work of the ground, J; energy lost; its largest value; largest fall below that, which only an error makes; the impulse (3), N s,
+of the ground's contact and of the frame; and the energy held at the start, J."""
 
 
 @kernel(_t.boolean(_t.int64, MATRIX, VECTOR, _t.float64), inline=True)
@@ -103,48 +109,69 @@ def _balance(books, held):
     books[CREATED] = max(books[CREATED], books[MOST_LOST] - books[LOST])
 
 
-@kernel(_t.int64(READ_ONLY, VECTOR, MATRIX, PILE, MEMORY, MATRIX, MATRIX, MATRIX, VECTOR, _t.Array(_t.int64, 1, "C")))
-def run(motion, settings, bodies, pile, memory, fates, rows, last_touch, books, info):
-    """Follow a pile through a motion ([Furukawa2009]_); return a status.
+@kernel(_t.UniTuple(_t.float64, 3)(READ_ONLY_MATRIX, _t.int64, _t.float64), inline=True)
+def _ground(motion, sample, part):
+    """Return the ground acceleration along, across and up, a part of the interval after a sample."""
+    right = min(sample + 1, motion.shape[1] - 1)
+    a0 = motion[0, sample] + part * (motion[0, right] - motion[0, sample])
+    a1 = motion[1, sample] + part * (motion[1, right] - motion[1, sample])
+    a2 = motion[2, sample] + part * (motion[2, right] - motion[2, sample])
+    return a0, a1, a2
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.boolean, SETTINGS, MEMORY, CURSOR, KEPT))
+def _keep_sample(sample, n, last, settings, memory, cursor, kept):
+    """Keep a row at a sample if it is due, and the time of each touch."""
+    place, bodies = cursor
+    time = sample * settings.dt
+    if (
+        sample == 0
+        or last
+        or place[SINCE] >= settings.longest_gap
+        or _moved(n, bodies, kept.rows[max(place[KEPT_ROWS] - 1, 0)], settings.moved)
+    ):
+        _keep(n, bodies, time, kept.rows[place[KEPT_ROWS]])
+        place[KEPT_ROWS] += 1
+        place[SINCE] = 0
+    place[SINCE] += 1
+    for i in range(n + 1):
+        for j in range(n + 1):
+            if memory.touched[i, j] > 0.0:
+                kept.last_touch[i, j] = time
+                memory.touched[i, j] = 0.0
+
+
+@kernel(_t.int64(READ_ONLY_MATRIX, SETTINGS, LAYOUT, MEMORY, CURSOR, KEPT))
+def run(motion, settings, pile, memory, cursor, kept):
+    """Follow a pile through a motion ([Furukawa2009]_) on from its cursor; return a status.
 
     Parameters
     ----------
     motion : (3, n) array, m/s^2
         Ground acceleration along, across, up.
-    settings : (7,) array
-    bodies : (m + 1, 31) array
-        State, the ground last; changed in place.
-    pile, memory : tuples of arrays
-        See ``PILE`` and ``MEMORY`` of ``stack_step``.
-    fates, rows : (m, 6), (samples, 1 + 7 m) arrays
-    last_touch : (m + 1, m + 1) array, s
-        When two bodies last touched; negative: never.
-    books : (7,) array
-    info : (2,) array of int
-        Rows kept, last sample.
+    settings, pile, memory, cursor, kept : named tuples
+        See :mod:`seisblock.solvers.stack.arguments`.
     """
-    inert = pile[10]
-    touched = memory[4]
+    place, bodies = cursor
+    inert, books = pile.inert, kept.books
     n = bodies.shape[0] - 1
-    samples = motion.shape[1]
-    steps = int(settings[STEPS])
-    g = settings[GRAVITY]
-    dt = settings[DT] / steps
+    last = motion.shape[1] - 1
+    g = settings.gravity
+    dt = settings.dt / settings.steps
     look = max(int(LOOK_EVERY / dt), 1)
     total_mass = 0.0
     for i in range(n):
         total_mass += inert[i, MASS]
-    kept, since = 0, 0
-    start = 0.0
-    status = RECORD_ENDED
-    for s in range(samples):
-        inner = steps if s < samples - 1 else 1
-        for k in range(inner):
-            part = k / steps
-            right = min(s + 1, samples - 1)
-            a0 = motion[0, s] + part * (motion[0, right] - motion[0, s])
-            a1 = motion[1, s] + part * (motion[1, right] - motion[1, s])
-            a2 = motion[2, s] + part * (motion[2, right] - motion[2, s])
+    while place[SAMPLE] <= last:
+        s = place[SAMPLE]
+        inner = settings.steps if s < last else 1
+        while place[STEP] < inner:
+            if place[STEPS_LEFT] <= 0:
+                return PAUSED
+            place[STEPS_LEFT] -= 1
+            k = place[STEP]
+            part = k / settings.steps
+            a0, a1, a2 = _ground(motion, s, part)
             springs = press_all(bodies, dt, k % look == 0, pile, memory)
             books[IMPULSE] -= dt * (bodies[n, F] + total_mass * a0)
             books[IMPULSE + 1] -= dt * (bodies[n, F + 1] + total_mass * a1)
@@ -153,38 +180,28 @@ def run(motion, settings, bodies, pile, memory, fates, rows, last_touch, books, 
             if k == 0:
                 kick(n, bodies, inert, a0, a1, a2 + g, 0.5 * dt)
                 held = energy_of(n, bodies, inert, g) + springs
-                start = held if s == 0 else start
+                if s == 0:
+                    books[START] = held
                 books[WORK] -= work
-                _balance(books, held - start)
+                _balance(books, held - books[START])
                 books[WORK] += work
                 if not math.isfinite(held):
-                    info[0] = kept
-                    info[1] = s
                     return NOT_FINITE
                 kick(n, bodies, inert, a0, a1, a2 + g, 0.5 * dt)
             else:
                 kick(n, bodies, inert, a0, a1, a2 + g, dt)
             books[WORK] -= work + _work(n, bodies, inert, a0, a1, a2, 0.5 * dt)
             if k == 0:
-                time = s * settings[DT]
-                if s == 0 or since >= settings[LONGEST] or s == samples - 1 or _moved(n, bodies, rows[max(kept - 1, 0)], settings[MOVED]):
-                    _keep(n, bodies, time, rows[kept])
-                    kept += 1
-                    since = 0
-                since += 1
-                for i in range(n + 1):
-                    for j in range(n + 1):
-                        if touched[i, j] > 0.0:
-                            last_touch[i, j] = time
-                            touched[i, j] = 0.0
-            if s < samples - 1:
+                _keep_sample(s, n, s == last, settings, memory, cursor, kept)
+            if s < last:
                 drift(n, bodies, inert, dt)
-            if _watch(n, bodies, (s + part) * settings[DT], fates) and settings[STOP_AT_FALL] > 0.0:
-                status = STOPPED
-        if status == STOPPED or (s >= settings[QUIET] and _still(n, bodies)):
-            info[0] = kept
-            info[1] = s
-            return status
-    info[0] = kept
-    info[1] = samples - 1
-    return status
+            if _watch(n, bodies, (s + part) * settings.dt, kept.fates) and settings.stop_at_fall:
+                place[FELL] = 1
+            place[STEP] = k + 1
+        if place[FELL] == 1:
+            return STOPPED
+        if s == last or (s >= settings.quiet and _still(n, bodies)):
+            return RECORD_ENDED
+        place[STEP] = 0
+        place[SAMPLE] = s + 1
+    return RECORD_ENDED

@@ -11,7 +11,8 @@ from __future__ import annotations
 import math
 
 from seisblock._jit import kernel, types
-from seisblock.solvers.stack.contact import ALIVE, FACE, MATRIX, REL_D, TABLE, VECTOR, touch
+from seisblock.dynamics.arrays import INTEGER_TABLE, MATRIX, VECTOR
+from seisblock.solvers.stack.contact import ALIVE, FACE, REL_D, touch
 
 _t = types()
 APART = 1e30
@@ -133,7 +134,7 @@ def _lie(rel, a, e, at, through, half, k, dt, slot, y, normal, total):
     touch(rel, y, least, normal, k, dt, slot, total)
 
 
-@kernel(_t.void(_t.int64, VECTOR, MATRIX, TABLE, VECTOR, VECTOR, _t.float64, MATRIX, MATRIX, VECTOR))
+@kernel(_t.void(_t.int64, VECTOR, MATRIX, INTEGER_TABLE, VECTOR, VECTOR, _t.float64, MATRIX, MATRIX, VECTOR))
 def press_edges(n, rel, corners, edges, half, k, dt, slots, work, total):
     """Sum the forces where the carrier's edges pass through the partner (for [Furukawa2009]_).
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 
 import numpy as np
@@ -14,6 +14,7 @@ from seisblock.errors import ParameterError, SolverError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import ACROSS, UP, Motion
 from seisblock.results import Event, Phase, Response, Status
+from seisblock.solvers.stack.arguments import KEPT_ROWS, PLACE, SAMPLE, STEPS_LEFT, Cursor, Kept, Memory, Settings
 from seisblock.solvers.stack.arrays import PileArrays, pile_arrays
 from seisblock.solvers.stack.frames import Q, X, orient
 from seisblock.solvers.stack.outcome import StackOutcome, channels, stack_outcome, stone_track
@@ -34,6 +35,9 @@ AFTERWARDS = 10.0
 MOVED = 1e-5
 LONGEST_GAP = 0.1
 
+POINTS_AT_ONCE = 5_000_000
+"""Contact points that are looked at before Python may be interrupted: about 0.1 s."""
+
 
 def solve_stack(
     body: Pile,
@@ -47,6 +51,7 @@ def solve_stack(
     step: float | None = None,
     stop_at_fall: bool = False,
     tilts: Mapping[str, float] | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Response[StackOutcome]:
     """Follow a pile of stones through a ground motion ([Furukawa2009]_ section 3(1)).
 
@@ -71,6 +76,8 @@ def solve_stack(
         Whether to end at the first fall.
     tilts : mapping of str to float, rad
         Stones let go from a lean about y, turned about the point on which they then stand.
+    progress : callable
+        Told now and then how many samples are done, and how many there are.
 
     Returns
     -------
@@ -83,7 +90,7 @@ def solve_stack(
     BodyError
         If the pile cannot rest on its joints.
     ParameterError
-        If `step` is too coarse to be stable, or an option is out of range.
+        If `step` is too coarse to be stable or finer than does any good, or an option is out of range.
     SolverError
         If the run created energy or left the finite numbers.
     """
@@ -97,24 +104,25 @@ def solve_stack(
     shaking = np.zeros((3, motion.samples + quiet))
     shaking[:, : motion.samples] = motion.acceleration
     shaking[[ACROSS, UP]] *= np.array([[float(across)], [vertical_gain(motion, vertical, needed=False)]])
-    bodies, memory = pile.bodies.copy(), pile.memory()
-    sink(pile, gravity, bodies, memory[0])
-    fates = _fates(pile, bodies)
-    for name, angle in (tilts or {}).items():
-        _lean(pile, bodies, name, angle)
-    rows = np.zeros((shaking.shape[1], 1 + 7 * len(pile.members)))
-    last_touch = np.full((len(bodies), len(bodies)), -1.0)
-    books, info = np.zeros(BOOKS), np.zeros(2, dtype=np.int64)
-    gap = max(1, round(LONGEST_GAP / motion.dt))
-    settings = np.array([gravity, motion.dt, steps, stop_at_fall, MOVED, gap, motion.samples - 1], dtype=np.float64)
-    status = Status(run(shaking, settings, bodies, pile.kernel_constants(), memory, fates, rows, last_touch, books, info))
-    if status == Status.NOT_FINITE:
-        raise SolverError(f"the pile {body.name} left the finite numbers at {info[1] * motion.dt:.3f} s: give a smaller --step")
-    ended = float(info[1]) * motion.dt
-    track = stone_track(pile, rows[: info[0]])
-    outcome = stack_outcome(
-        pile, track, fates, last_touch, books, bodies, start=motion.start_s, ended=ended, gravity=gravity, step=motion.dt / steps
+    memory = pile.memory()
+    cursor = Cursor(np.zeros(PLACE, dtype=np.int64), pile.bodies.copy())
+    sink(pile, gravity, cursor.bodies, memory.stretches)
+    kept = Kept(
+        fates=_fates(pile, cursor.bodies),
+        rows=np.zeros((shaking.shape[1], 1 + 7 * len(pile.members))),
+        last_touch=np.full((len(cursor.bodies), len(cursor.bodies)), -1.0),
+        books=np.zeros(BOOKS),
     )
+    for name, angle in (tilts or {}).items():
+        _lean(pile, cursor.bodies, name, angle)
+    gap = max(1, round(LONGEST_GAP / motion.dt))
+    settings = Settings(gravity, motion.dt, steps, stop_at_fall, MOVED, gap, motion.samples - 1)
+    status = _run(shaking, settings, pile, memory, cursor, kept, progress)
+    ended = float(cursor.place[SAMPLE]) * motion.dt
+    if status == Status.NOT_FINITE:
+        raise SolverError(f"the pile {body.name} left the finite numbers at {ended:.3f} s: give a finer time step")
+    track = stone_track(pile, kept.rows[: cursor.place[KEPT_ROWS]])
+    outcome = stack_outcome(pile, track, kept, cursor.bodies, start=motion.start_s, ended=ended, gravity=gravity, step=motion.dt / steps)
     return Response(
         model="stack",
         outcome=outcome,
@@ -136,6 +144,28 @@ def solve_stack(
         status=status,
         citations=("Furukawa2009",),
     )
+
+
+def _run(
+    shaking: FloatArray,
+    settings: Settings,
+    pile: PileArrays,
+    memory: Memory,
+    cursor: Cursor,
+    kept: Kept,
+    progress: Callable[[int, int], None] | None,
+) -> Status:
+    """Follow the pile to the end, in slices between which Python may be interrupted."""
+    slice_ = max(1, POINTS_AT_ONCE // (pile.grids.shape[0] * pile.points**2 + pile.pairs.shape[0]))
+    layout = pile.layout
+    shaking.flags.writeable = False
+    while True:
+        cursor.place[STEPS_LEFT] = slice_
+        status = Status(run(shaking, settings, layout, memory, cursor, kept))
+        if status != Status.PAUSED:
+            return status
+        if progress is not None:
+            progress(min(int(cursor.place[SAMPLE]), settings.quiet), settings.quiet)
 
 
 def _fates(pile: PileArrays, bodies: FloatArray) -> FloatArray:

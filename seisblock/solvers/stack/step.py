@@ -7,22 +7,13 @@ adds one force and its opposite, so momentum is kept exactly. In the ground's ax
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
-from seisblock.solvers.stack.contact import ALIVE, BLOCK, ENERGY, INTEGERS, MATRIX, OUTSIDE, SUM, TABLE, TOUCHING, VECTOR, press_joint
+from seisblock.dynamics.arrays import INTEGERS, MATRIX, VECTOR
+from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
+from seisblock.solvers.stack.contact import ALIVE, ENERGY, OUTSIDE, SUM, TOUCHING, press_joint
 from seisblock.solvers.stack.frames import AT, MASS, F, L, Q, R, T, V, W, X, act, orient, relative, spin, turn
 from seisblock.solvers.stack.solid import boxes_meet, press_corners, press_edges
 
 _t = types()
-VOLUME = _t.Array(_t.float64, 4, "C")
-GRID = _t.Array(_t.float64, 5, "C")
-TABLES = _t.Array(_t.int64, 3, "C")
-
-PILE = _t.Tuple((TABLE, MATRIX, VOLUME, TABLE, MATRIX, BLOCK, INTEGERS, TABLES, MATRIX, INTEGERS, MATRIX))
-"""What does not change: joints, their constants, their points, pairs of boxes, their constants per corner, corners of the boxes, how many,
-edges of the boxes, boxes, owners of the boxes, inertia of the bodies."""
-
-MEMORY = _t.Tuple((VOLUME, VOLUME, VOLUME, INTEGERS, MATRIX, MATRIX, MATRIX))
-"""What contacts remember: stretches at the points of joints, slots of corners and of edges of each pair in both roles; which pairs their
-joint takes care of; which bodies have touched since it was last cleared; bounds of the boxes; scratch."""
 
 CARRIER, PARTNER, ORBITS, PAIR = range(4)
 """A joint's integers: its boxes, the number of its orbits of points, and the pair of boxes it belongs to."""
@@ -56,11 +47,14 @@ def _seated(sigma, rel, carrier, partner):
     return 1 if rel[8] > COSINE and above > partner[2] + APPROACH * carrier[2] else 0
 
 
-@kernel(_t.void(MATRIX))
-def _forget(slots):
-    """Let the contacts of a pair in one role die."""
-    for i in range(slots.shape[0]):
-        slots[i, ALIVE] = 0.0
+@kernel(_t.void(_t.int64, MEMORY))
+def _forget(pair, memory):
+    """Let the contacts of a pair die."""
+    for role in range(2):
+        for i in range(memory.corner_slots.shape[2]):
+            memory.corner_slots[pair, role, i, ALIVE] = 0.0
+        for i in range(memory.edge_slots.shape[2]):
+            memory.edge_slots[pair, role, i, ALIVE] = 0.0
 
 
 @kernel(_t.void(INTEGERS, MATRIX, _t.int64, _t.int64, VECTOR), inline=True)
@@ -71,12 +65,12 @@ def _mark(owner, touched, c, p, total):
         touched[owner[p], owner[c]] = 1.0
 
 
-@kernel(_t.float64(_t.int64, _t.int64, _t.int64, _t.int64, _t.int64, _t.int64, MATRIX, _t.float64, PILE, MEMORY))
+@kernel(_t.float64(_t.int64, _t.int64, _t.int64, _t.int64, _t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _meet(pair, role, n_corners, first_edge, n_edges, check, bodies, dt, pile, memory):
     """Add the forces of one box's corners and edges on the other; return the energy in their springs, or -1 if the boxes are apart."""
-    _, _, _, pairs, constants, corners, _, edges, boxes, owner, _ = pile
-    _, corner_slots, edge_slots, _, touched, _, work = memory
-    c, p = pairs[pair, role], pairs[pair, 1 - role]
+    corners, boxes, owner, work = pile.corners, pile.boxes, pile.owner, memory.work
+    c, p = pile.pairs[pair, role], pile.pairs[pair, 1 - role]
+    k = pile.pair_constants[pair]
     rel, total, arms, scratch = work[0], work[1], work[2:4], work[8:13]
     relative(c, p, bodies, boxes, owner, arms, rel)
     if check == 1 and not boxes_meet(rel, boxes[c], boxes[p]):
@@ -84,51 +78,48 @@ def _meet(pair, role, n_corners, first_edge, n_edges, check, bodies, dt, pile, m
     for i in range(SUM):
         total[i] = 0.0
     if n_corners > 0:
-        press_corners(n_corners, rel, corners[c], boxes[p], constants[pair], dt, corner_slots[pair, role], scratch[0], scratch[1], total)
+        press_corners(n_corners, rel, corners[c], boxes[p], k, dt, memory.corner_slots[pair, role], scratch[0], scratch[1], total)
     if n_edges > 0:
         press_edges(
             n_edges,
             rel,
             corners[c],
-            edges[c, first_edge:],
+            pile.edges[c, first_edge:],
             boxes[p],
-            constants[pair],
+            k,
             dt,
-            edge_slots[pair, role, 2 * first_edge :],
+            memory.edge_slots[pair, role, 2 * first_edge :],
             scratch,
             total,
         )
-    _mark(owner, touched, c, p, total)
+    _mark(owner, memory.touched, c, p, total)
     act(bodies[owner[c]], bodies[owner[p]], arms, total)
     return total[ENERGY]
 
 
-@kernel(_t.float64(_t.int64, MATRIX, _t.float64, PILE, MEMORY), inline=True)
+@kernel(_t.float64(_t.int64, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
 def _press_joint(j, bodies, dt, pile, memory):
     """Add the forces of a joint, and of what hangs over its border; return the energy in its springs."""
-    joints, constants, points, pairs, _, _, counts, _, boxes, owner, _ = pile
-    stretches, corner_slots, edge_slots, handled, touched, _, work = memory
-    c, p, pair = joints[j, CARRIER], joints[j, PARTNER], joints[j, PAIR]
-    k = constants[j]
+    boxes, owner, handled, work = pile.boxes, pile.owner, memory.handled, memory.work
+    joint, k = pile.joints[j], pile.constants[j]
+    c, p, pair = joint[CARRIER], joint[PARTNER], joint[PAIR]
     rel, total, arms, four = work[0], work[1], work[2:4], work[4:8]
     relative(c, p, bodies, boxes, owner, arms, rel)
     seated = _seated(k[SIGMA], rel, boxes[c], boxes[p])
     for i in range(SUM):
         total[i] = 0.0
-    press_joint(joints[j, ORBITS], rel, points[j], k[SIGMA], boxes[p], k[LEVEL], k[POINT:], seated, dt, stretches[j], four, total)
-    _mark(owner, touched, c, p, total)
+    press_joint(joint[ORBITS], rel, pile.grids[j], k[SIGMA], boxes[p], k[LEVEL], k[POINT:], seated, dt, memory.stretches[j], four, total)
+    _mark(owner, memory.touched, c, p, total)
     act(bodies[owner[c]], bodies[owner[p]], arms, total)
     energy = total[ENERGY]
-    role = 0 if pairs[pair, 0] == c else 1
+    role = 0 if pile.pairs[pair, 0] == c else 1
     if seated == 1 and total[OUTSIDE] > 0.0:
         energy += _meet(pair, role, 0, ON_FACE if k[SIGMA] > 0.0 else 0, ON_FACE, 0, bodies, dt, pile, memory)
-        energy += _meet(pair, 1 - role, counts[p], 0, 0, 0, bodies, dt, pile, memory)
+        energy += _meet(pair, 1 - role, pile.counts[p], 0, 0, 0, bodies, dt, pile, memory)
         handled[pair] = 2
     else:
         if handled[pair] == 2 and seated == 1:
-            for side in range(2):
-                _forget(corner_slots[pair, side])
-                _forget(edge_slots[pair, side])
+            _forget(pair, memory)
         handled[pair] = seated
     return energy
 
@@ -155,34 +146,31 @@ def _near(i, j, bounds):
     )
 
 
-@kernel(_t.float64(MATRIX, _t.float64, _t.boolean, PILE, MEMORY), inline=True)
+@kernel(_t.float64(MATRIX, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def press_all(bodies, dt, look, pile, memory):
     """Add every contact force to the bodies ([Furukawa2009]_); return the energy in the springs, J.
 
     Which boxes are near each other is found anew when asked to `look`, with a margin for what they may move until the next time.
     """
-    joints, _, _, pairs, _, _, counts, _, boxes, owner, _ = pile
-    _, corner_slots, edge_slots, handled, _, bounds, _ = memory
+    pairs, counts, handled = pile.pairs, pile.counts, memory.handled
     energy = 0.0
-    for j in range(joints.shape[0]):
+    for j in range(pile.joints.shape[0]):
         energy += _press_joint(j, bodies, dt, pile, memory)
     if look:
-        _bound(bodies, boxes, owner, bounds)
+        _bound(bodies, pile.boxes, pile.owner, memory.bounds)
     for pair in range(pairs.shape[0]):
         if handled[pair] > 0:
             continue
         i, j = pairs[pair, 0], pairs[pair, 1]
         stored = -1.0
-        if _near(i, j, bounds):
+        if _near(i, j, memory.bounds):
             stored = _meet(pair, 0, counts[i], 0, ALL_EDGES, 1, bodies, dt, pile, memory)
         if stored >= 0.0:
             energy += stored + _meet(pair, 1, counts[j], 0, 0, 0, bodies, dt, pile, memory)
             handled[pair] = -1
         elif handled[pair] == -1:
             handled[pair] = 0
-            for side in range(2):
-                _forget(corner_slots[pair, side])
-                _forget(edge_slots[pair, side])
+            _forget(pair, memory)
     return energy
 
 

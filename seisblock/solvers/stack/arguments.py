@@ -1,0 +1,153 @@
+"""What the pile's kernels are given and what they leave behind, as named tuples of arrays."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from seisblock._jit import types
+from seisblock.dynamics.arrays import BLOCK, FOURFOLD, INTEGER_BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, VECTOR
+from seisblock.typing import FloatArray, IntArray
+
+_t = types()
+
+
+class Layout(NamedTuple):
+    """What does not change; the meaning of columns stands where they are named.
+
+    Parameters
+    ----------
+    joints, constants, grids : (n, 4), (n, 7), (n, orbits, 4, 3) arrays
+        Joints between boxes: integers, constants, and points on the carrier's face.
+    pairs, pair_constants : (p, 2), (p, 5) arrays
+        Boxes that may meet, and the constants of one of their corners.
+    corners, counts, edges : (b, 16, 3), (b,), (b, 12, 2) arrays
+        Corners of each box, how many, and the pairs of corners that make its edges.
+    boxes, owner : (b, 6), (b,) arrays
+        Half sizes and places of the boxes, and the bodies they belong to; the ground last.
+    inert : (m, 19) array
+        Masses, inertia matrices and their inverses.
+    """
+
+    joints: IntArray
+    constants: FloatArray
+    grids: FloatArray
+    pairs: IntArray
+    pair_constants: FloatArray
+    corners: FloatArray
+    counts: IntArray
+    edges: IntArray
+    boxes: FloatArray
+    owner: IntArray
+    inert: FloatArray
+
+
+class Memory(NamedTuple):
+    """What contacts remember from step to step.
+
+    Parameters
+    ----------
+    stretches : (n, orbits, 4, 2) array, m
+        Shear springs at the points of joints.
+    corner_slots, edge_slots : (p, 2, 16, 7), (p, 2, 24, 7) arrays
+        Contacts of corners and of edges of each pair, in both roles.
+    handled : (p,) array of int
+        Which pairs their joint takes care of.
+    touched : (m + 1, m + 1) array
+        Which bodies have touched since it was last cleared.
+    bounds : (b, 6) array, m
+        Centres of the boxes and how far they reach.
+    work : (13, 18) array
+        Scratch.
+    """
+
+    stretches: FloatArray
+    corner_slots: FloatArray
+    edge_slots: FloatArray
+    handled: IntArray
+    touched: FloatArray
+    bounds: FloatArray
+    work: FloatArray
+
+
+class Settings(NamedTuple):
+    """How a run goes.
+
+    Parameters
+    ----------
+    gravity : float, m/s^2
+    dt : float, s
+        Sampling interval.
+    steps : int
+        How many of them are in it.
+    stop_at_fall : bool
+    moved : float, m and rad
+        Movement that makes a row.
+    longest_gap : int
+        Most samples between rows.
+    quiet : int
+        Sample from which the run ends as soon as every stone is still.
+    """
+
+    gravity: float
+    dt: float
+    steps: int
+    stop_at_fall: bool
+    moved: float
+    longest_gap: int
+    quiet: int
+
+
+class Cursor(NamedTuple):
+    """Where a run is; the loop moves it on, and goes on from it when it is called again: integers, and the bodies, the ground last."""
+
+    place: IntArray
+    bodies: FloatArray
+
+
+SAMPLE, STEP, KEPT_ROWS, SINCE, FELL, STEPS_LEFT = range(6)
+"""A cursor's integers: sample, step in it, rows kept, samples since the last of them, whether a stone fell in this sample, and how many
+steps may be taken before the loop pauses."""
+
+PLACE = 6
+
+
+class Kept(NamedTuple):
+    """What a run leaves behind.
+
+    Parameters
+    ----------
+    fates : (m, 6) array
+    rows : (samples, 1 + 7 m) array
+        Time, centres and quaternions where something has moved.
+    last_touch : (m + 1, m + 1) array, s
+        When two bodies last touched; negative: never.
+    books : (8,) array
+        Of energy and momentum.
+    """
+
+    fates: FloatArray
+    rows: FloatArray
+    last_touch: FloatArray
+    books: FloatArray
+
+
+LAYOUT = _t.NamedTuple(
+    (
+        INTEGER_TABLE,
+        MATRIX,
+        FOURFOLD,
+        INTEGER_TABLE,
+        MATRIX,
+        BLOCK,
+        INTEGERS,
+        INTEGER_BLOCK,
+        MATRIX,
+        INTEGERS,
+        MATRIX,
+    ),
+    Layout,
+)
+MEMORY = _t.NamedTuple((FOURFOLD, FOURFOLD, FOURFOLD, INTEGERS, MATRIX, MATRIX, MATRIX), Memory)
+SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.float64, _t.int64, _t.int64), Settings)
+CURSOR = _t.NamedTuple((INTEGERS, MATRIX), Cursor)
+KEPT = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR), Kept)
