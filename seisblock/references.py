@@ -85,6 +85,22 @@ _ALL = (
         doi="10.1061/(ASCE)0733-9399(2001)127:5(473)",
     ),
     Reference(
+        "WangMason1992",
+        "Wang, Y. and Mason, M. T.",
+        1992,
+        "Two-dimensional rigid-body collisions with friction",
+        "Journal of Applied Mechanics, 59(3), 635-642",
+        doi="10.1115/1.2893771",
+    ),
+    Reference(
+        "Moreau1988",
+        "Moreau, J. J.",
+        1988,
+        "Unilateral contact and dry friction in finite freedom dynamics",
+        "Nonsmooth Mechanics and Applications, CISM 302, Springer, 1-82",
+        kind="book",
+    ),
+    Reference(
         "Newmark1965",
         "Newmark, N. M.",
         1965,
@@ -181,4 +197,4 @@ CITED: dict[str, tuple[str, ...]] = {
     "infer": ("Furukawa2009", "Midorikawa1999", "Fujino1978", "Sugimoto2017"),
     "stack": ("Furukawa2009",),
 }
-"""What each command's answers may rely on; one answer's own list stands in its document."""
+"""What each command's answers rely on unless options ask for more; one answer's own list stands in its document."""

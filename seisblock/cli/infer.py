@@ -84,7 +84,15 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 @option("--largest", is_flag=True, help="slid: the largest slip was observed, not the one left at the end.")
 @option("--vertical", is_flag=True, help="slid: let the vertical component act too.")
 @option("--flight-only", is_flag=True, help="jumped: the jump alone was observed, not the rocking-sliding after it.")
-@option("--repeat", is_flag=True, help="jumped: add up every chain of motion in the record. [default: the first]")
+@option("--first", is_flag=True, help="jumped: the first chain of motion in the record counts. [default: all, added up]")
+@option("--repeat", is_flag=True, hidden=True, help="jumped: all chains; since 0.2.0 the default.")
+@option(
+    "--landing",
+    type=click.Choice(["paper", "friction"]),
+    default="paper",
+    show_default=True,
+    help="jumped: how a foot that lands is stopped, whatever friction that takes, or by what friction can bear.",
+)
 @option("--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="jumped: spin after the impact.")
 @option("--limit", type=float, default=3.0, show_default=True, help="slid, jumped: largest factor on a record.")
 @option("--steps", type=click.IntRange(min=1), default=300, show_default=True, help="slid, jumped: steps of the scan up to it.")
@@ -184,8 +192,9 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     if asked["slid"] is not None and asked["mu"] is None:
         raise click.UsageError("--slid needs --mu, the static friction coefficient, for example --mu 0.3")
     observed = asked["jumped"] if asked["slid"] is None else asked["slid"]
-    moves, parameters, citations = _moving_object(asked)
-    records, results, curves = load(source), [], []
+    moves, parameters, citations = _moving_object(source, asked)
+    # a jump goes on beyond the window in which it may start
+    records, results, curves = load(source, several_windows=asked["jumped"] is not None), [], []
     for index, record in enumerate(records):
         for motion in motions(record, source):
             displacement = moves(motion)
@@ -199,7 +208,7 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     def tables() -> Any:
         from seisblock.present.text.infer import factor_tables
 
-        return factor_tables(curves, gal=output.gal)
+        return factor_tables(curves, gal=output.gal, moved="displacement" if asked["slid"] is None else "slip")
 
     def figure() -> Any:
         from seisblock.present.figures.infer import factor_figure
@@ -215,7 +224,7 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     emit(answer, output, tables=tables, figure=figure, csv=csv)
 
 
-def _moving_object(asked: dict[str, Any]) -> tuple[Any, dict[str, Any], tuple[str, ...]]:
+def _moving_object(source: Source, asked: dict[str, Any]) -> tuple[Any, dict[str, Any], tuple[str, ...]]:
     """Return what gives the displacement under a motion, and what it rests on."""
     from functools import partial
 
@@ -231,17 +240,19 @@ def _moving_object(asked: dict[str, Any]) -> tuple[Any, dict[str, Any], tuple[st
 
     chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
     say(f"body: {chosen.block.name}; {chosen.says}")
-    if not asked["repeat"]:
-        say("the first chain of motion in each record counts, as in seisblock jump; --repeat adds up all, --window cuts earlier ones off")
-    options = {"drop": asked["drop"], "spin": asked["spin"], "gravity": asked["gravity"]}
-    moves = partial(study.jumped, chosen.block, contact=chosen.contact, flight_only=asked["flight_only"], repeat=asked["repeat"], **options)
+    if asked["first"]:
+        say("the first chain of motion in each record counts; without --first all are added up, as in seisblock jump")
+    options = {key: asked[key] for key in ("drop", "spin", "gravity", "landing", "first")}
+    moves = partial(study.jumped, chosen.block, contact=chosen.contact, flight_only=asked["flight_only"], windows=source.window, **options)
     told = {
         "block": chosen.block,
         "contact": chosen.contact,
         "flight_only": asked["flight_only"],
-        "repeat": asked["repeat"],
+        "first": asked["first"],
+        "windows_s": [list(window) for window in source.window],
         "drop_m": asked["drop"],
         "spin": asked["spin"],
+        "landing": asked["landing"],
         "gravity_m_s2": asked["gravity"],
     }
     return moves, {"object": "jumped", **told}, ("Sugimoto2017",)

@@ -8,7 +8,7 @@ import click
 
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit, response_answer
-from seisblock.cli.inputs import load, motions, windows
+from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
 from seisblock.cli.types import LENGTH, LENGTHS, MASSES
@@ -53,42 +53,36 @@ DEFAULT_BLOCK = "chozusha"
     show_default=True,
     help="Sign of the ground acceleration that may start a chain.",
 )
-@option("--repeat", is_flag=True, help="Follow chain after chain until the record ends. [default: the first of each window]")
+@option(
+    "--landing",
+    type=click.Choice(["paper", "friction"]),
+    default="paper",
+    show_default=True,
+    help="How a foot that lands is stopped: at once, whatever friction that takes, or by what friction can bear; it then slips on.",
+)
+@option("--first", is_flag=True, help="Follow the first chain of motion only, in each --window, as the paper does. [default: all]")
+@option("--repeat", is_flag=True, hidden=True, help="All chains; since 0.2.0 the default.")
 @option("--tenon", type=LENGTH, section="Output", help="Depth of the tenon's hole: say whether the foot left it, m or with a unit.")
 @gravity_option
 @output_options
-def jump(
-    source: Source, output: Output, gravity: float, drop: float, spin: str, direction: str, repeat: bool, tenon: float | None, **body: Any
-) -> None:
+def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **asked: Any) -> None:
     """Rocking, impact, jump, landing and rocking-sliding of a two-layer block (Sugimoto et al. 2017).
 
-    Each horizontal component is solved by itself. Tilt is positive when the block leans to the component's positive
+    Each horizontal component is solved by itself, chain of motion after chain; what moves when the record ends comes to rest on still
+    ground. --window limits when rocking may start, not the motion. Tilt is positive when the block leans to the component's positive
     direction, displacements of the centroid are relative to the ground.
     """
     from seisblock.cli.bodies.two_layer import two_layer_choice
     from seisblock.present.text import jump as shown
-    from seisblock.records import motion_of
-    from seisblock.solvers.jump.solve import join, solve_jump
+    from seisblock.solvers.jump.solve import solve_jump
 
-    chosen = two_layer_choice(body, default=DEFAULT_BLOCK)
+    if repeat and asked["first"]:
+        raise click.UsageError("give either --first or --repeat, which is the default")
+    chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
     say(f"body: {chosen.block.name}; {chosen.says}")
+    options = {key: asked[key] for key in ("drop", "spin", "direction", "landing", "first", "gravity")}
     responses = [
-        join(
-            motion,
-            [
-                solve_jump(
-                    chosen.block,
-                    motion_of(cut, motion.name),
-                    contact=chosen.contact,
-                    drop=drop,
-                    spin=spin,
-                    direction=direction,
-                    repeat=repeat,
-                    gravity=gravity,
-                )
-                for cut in windows(record, source)
-            ],
-        )
+        solve_jump(chosen.block, motion, contact=chosen.contact, windows=source.window, **options)
         for record in load(source, several_windows=True)
         for motion in motions(record, source)
     ]

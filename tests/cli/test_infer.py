@@ -117,13 +117,25 @@ def test_a_slid_object(run, document):
     assert found["citations"] == ["Fujino1978"]
     told = run("--slid", "35cm", "--mu", 0.3, "elcentro_1940_ns.csv", "--steps", 60).stdout
     assert "no factor up to 3 moves it so far" in " ".join(told.split())
+    told = run("--slid", "5cm", "--mu", 0.2, "--component", "NS", "--steps", 60).stdout
+    assert "NS: 5 cm of slip needs 0.612 times this record (571.5 gal); as recorded it is 44.8 cm." in " ".join(told.split())
 
 
 def test_a_jumped_block(document):
     """The bundled Chozu-sha is taken by name, and what the record does by itself is told beside the factors."""
     (found,) = document("--jumped", "0.04m", "--block", "chozusha", "--component", "EW", "--steps", 60, "--limit", 1.5)["results"]
-    assert found["displacement_at_1_m"] == pytest.approx(0.0461, abs=1e-3)
-    assert any(0.8 < factor["scale"] < 1.0 and not factor["leaps"] for factor in found["scale_factors"])
+    assert found["displacement_at_1_m"] == pytest.approx(0.2154, abs=1e-3)
+    assert found["scale_factors"]
+    (first,) = document("--jumped", "4cm", "--block", "chozusha", "--component", "EW", "--steps", 60, "--limit", 1.5, "--first")["results"]
+    assert first["displacement_at_1_m"] == pytest.approx(0.0461, abs=1e-3)
+    assert any(0.8 < factor["scale"] < 1.0 and not factor["leaps"] for factor in first["scale_factors"])
+
+
+def test_a_jump_goes_on_beyond_its_window(document):
+    """The window says when rocking may start; the chain that starts in it is followed to its end (N4, N5)."""
+    words = ("--jumped", "10cm", "--component", "EW", "--steps", 20, "--limit", 1.5)
+    (inside,) = document(*words, "--window", "26.1:26.2")["results"]
+    assert inside["displacement_at_1_m"] == pytest.approx(0.1743, abs=1e-3)
 
 
 def test_files(run, survey):

@@ -112,9 +112,37 @@ def test_twenty_minutes(tmp_path):
 
 
 def test_windows_fill_the_table():
-    """Each window gives its first chain, as the paper's parts b and d."""
-    chains = answer("--component", "EW", "--window", "25.5:26.09", "--window", "26.1:")["results"][0]["chains"]
-    assert [round(chain["rocking_start_s"], 2) for chain in chains] == [25.55, 26.14]
+    """Each window gives its first chain with --first, as the paper's parts b and d, else every chain that starts in it."""
+    words = ("--component", "EW", "--window", "25.5:26.09", "--window", "26.1:")
+    for more, starts in ((("--first",), [25.55, 26.14]), ((), [25.55, 26.14, 27.09])):
+        chains = answer(*words, *more)["results"][0]["chains"]
+        assert [round(chain["rocking_start_s"], 2) for chain in chains] == starts
+
+
+def test_the_result_is_the_sum_of_all_chains():
+    """Totals, the landing rule and the friction it needs stand beside the chains; stdout begins with the final state (N4)."""
+    (found,) = answer("--component", "EW")["results"]
+    assert found["total_displacement_m"] == pytest.approx(sum(chain["total_displacement_m"] for chain in found["chains"]))
+    assert found["final_displacement_m"] == pytest.approx(found["total_displacement_m"])
+    assert (found["outcome"], found["landing"], len(found["chains"])) == ("jumped", "paper", 3)
+    assert found["friction_needed_at_landing"] == max(chain["friction_needed_at_landing"] for chain in found["chains"])
+    shown = " ".join(run("--component", "EW").stdout.split())
+    assert "EW: jumped 3 times, and in the end stands +215 mm from where it stood, after 3 chains of motion" in shown
+    assert "friction 0.18 is below b/h, 0.47, and would let them slide first; its landings need a friction of 3.64, mu is 0.18" in shown
+    assert "the paper's model ends here" in shown
+
+
+def test_a_landing_that_friction_bears():
+    """--landing friction needs no more friction than there is, and says so in the same keys."""
+    (found,) = answer("--component", "EW", "--landing", "friction")["results"]
+    assert found["landing"] == "friction"
+    assert found["friction_needed_at_landing"] <= 0.17 + 1e-9
+
+
+def test_repeat_is_the_default_now():
+    """--repeat of 0.1.0 is still understood; with --first it contradicts itself."""
+    assert answer("--repeat", "--component", "EW")["results"] == answer("--component", "EW")["results"]
+    assert run("--repeat", "--first").exit_code == 2
 
 
 def test_csv_and_plot(tmp_path):

@@ -24,27 +24,29 @@ def noise(seed: int, peak: float = 9.0, n: int = 600) -> np.ndarray:
     return peak * smooth / np.abs(smooth).max()
 
 
-@given(st.integers(0, 10_000), st.sampled_from([0.0, 0.3]), st.floats(-0.5, 0.5))
-@settings(max_examples=25, deadline=None)
-def test_mirror_image(seed, drop, spin):
+@given(st.integers(0, 10_000), st.sampled_from([0.0, 0.3]), st.floats(-0.5, 0.5), st.sampled_from(["paper", "friction"]))
+@settings(max_examples=40, deadline=None)
+def test_mirror_image(seed, drop, spin, landing):
     """The mirrored motion gives the mirrored chain, bit by bit."""
     a = noise(seed)
-    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), contact=CONTACT, drop=drop, spin=f"ratio={spin}", repeat=True)
-    other = solve_jump(SHORT, Motion.from_arrays(-a, 0.01), contact=CONTACT, drop=drop, spin=f"ratio={spin}", repeat=True)
+    options = {"contact": CONTACT, "drop": drop, "spin": f"ratio={spin}", "landing": landing}
+    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), **options)
+    other = solve_jump(SHORT, Motion.from_arrays(-a, 0.01), **options)
     assert [c.outcome for c in one.outcome.chains] == [c.outcome for c in other.outcome.chains]
     np.testing.assert_array_equal(one["x_G"], -other["x_G"])
     np.testing.assert_array_equal(one["theta"], -other["theta"])
     np.testing.assert_array_equal(one["y_G"], other["y_G"])
 
 
-@given(st.integers(0, 10_000), st.floats(0.25, 8.0))
-@settings(max_examples=20, deadline=None)
-def test_similarity(seed, size):
+@given(st.integers(0, 10_000), st.floats(0.25, 8.0), st.sampled_from(["paper", "friction"]))
+@settings(max_examples=30, deadline=None)
+def test_similarity(seed, size, landing):
     """A block of `size` times the lengths in sqrt(size) times the time tilts by the same angles and goes `size` times as far."""
     a = noise(seed)
     big = TwoLayerBlock(2.08 * size, 2.5 * size, 1.06 * size, 1.84 * size, 1303.7, 160.0)
-    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), contact=CONTACT, spin="ratio=0.19").outcome
-    other = solve_jump(big, Motion.from_arrays(a, 0.01 * np.sqrt(size)), contact=CONTACT, spin="ratio=0.19").outcome
+    options = {"contact": CONTACT, "spin": "ratio=0.19", "landing": landing, "first": True}
+    one = solve_jump(SHORT, Motion.from_arrays(a, 0.01), **options).outcome
+    other = solve_jump(big, Motion.from_arrays(a, 0.01 * np.sqrt(size)), **options).outcome
     assert one.outcome == other.outcome
     for c, d in zip(one.chains, other.chains, strict=True):
         assert d.max_rotation_rad == pytest.approx(c.max_rotation_rad, rel=1e-8, abs=1e-14)
@@ -115,7 +117,7 @@ def test_no_jump_when_spin_outweighs_the_rebound():
 
 def test_repeat_follows_chain_after_chain():
     """Chains follow each other in time, and displacements add up in the history."""
-    response = solve_jump(SHORT, Motion.from_arrays(noise(3, 12.0), 0.01), contact=CONTACT, repeat=True, spin="ratio=0.19")
+    response = solve_jump(SHORT, Motion.from_arrays(noise(3, 12.0), 0.01), contact=CONTACT, spin="ratio=0.19")
     chains = response.outcome.chains
     assert len(chains) > 2
     for before, after in itertools.pairwise(chains):

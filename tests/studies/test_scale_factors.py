@@ -42,13 +42,13 @@ def test_the_slip_of_a_record_gives_its_factor_back(largest):
         assert (again.max_slip_m if largest else abs(again.residual_slip_m)) == pytest.approx(observed, rel=1e-6)
 
 
-@pytest.mark.parametrize("repeat", [False, True])
-def test_the_jump_of_a_record_gives_its_factor_back(repeat):
+@pytest.mark.parametrize("first", [False, True])
+def test_the_jump_of_a_record_gives_its_factor_back(first):
     """The displacement of the Chozu-sha under the record as it is has 1 among its factors."""
     chosen = two_layer_choice({}, default="chozusha")
-    chains = solve_jump(chosen.block, MOTION, contact=chosen.contact, repeat=repeat).outcome.chains
+    chains = solve_jump(chosen.block, MOTION, contact=chosen.contact, first=first).outcome.chains
     observed = abs(sum(chain.total_displacement_m or 0.0 for chain in chains))
-    found = scale_factors(jumped(chosen.block, MOTION, contact=chosen.contact, repeat=repeat), observed, MOTION, limit=1.5, steps=60)
+    found = scale_factors(jumped(chosen.block, MOTION, contact=chosen.contact, first=first), observed, MOTION, limit=1.5, steps=60)
     assert any(f.scale == pytest.approx(1.0, abs=1e-6) and not f.leaps for f in found.scale_factors)
     assert found.displacement_at_1_m == pytest.approx(observed)
 

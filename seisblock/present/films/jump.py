@@ -21,7 +21,7 @@ PEDESTAL = 0.06
 
 def animate_jump(response: Response[JumpOutcome], path: Path | str, filming: Filming) -> None:
     """Write the film of a jump, see :func:`seisblock.present.films.projector.animate_film`."""
-    span = stretch(response.phases, COLOURS, float(response.motion.time[0]), float(response.motion.time[-1]))
+    span = stretch(response.phases, COLOURS, float(response.motion.time[0]), float(max(response.motion.time[-1], response.time[-1])))
     animate_film(lambda times: jump_film(response, times), span, path, filming)
 
 

@@ -45,8 +45,8 @@ def severity(effect: Effect) -> float:
 
 
 def _moved(effect: Effect) -> float:
-    """Return how far a block jumped and slid in all its chains, m."""
-    return math.fsum(chain.total_displacement_m or 0.0 for chain in effect.response.outcome.chains)
+    """Return how far from where it stood a block that jumped is in the end, m."""
+    return float(effect.response.outcome.final_displacement_m)
 
 
 def verdict(effect: Effect, lang: str) -> str:

@@ -67,23 +67,34 @@ def _around(middle: float | None, interval: Interval) -> tuple[float | None, flo
     return interval[0], middle, interval[1]
 
 
-def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool) -> Iterator[Any]:
-    """Yield the factors of each component as a table, and a sentence where there is none."""
+def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, moved: str = "displacement") -> Iterator[Any]:
+    """Yield what each component needs in a sentence, and its factors as a table; `moved` says what was observed."""
     shown: set[int] = set()
     for record, each in found:
         if id(record) not in shown:
             shown.add(id(record))
             yield record_line(record)
-        title = f"{each.component}: {each.observed_m:g} m; as recorded {number(each.displacement_at_1_m)} m"
+        yield Text(_needs(each, moved, gal=gal))
         if each.scale_factors:
             rows = [
                 (f"{f.scale:.4f}", acceleration(f.pga_m_s2, gal=gal), number(f.displacement_m), "leaps across" if f.leaps else "")
                 for f in each.scale_factors
             ]
-            yield table(title, ("factor", f"PGA ({acceleration_unit(gal=gal)})", "moved (m)", ""), rows)
-        else:
-            most = f"at most {number(each.largest_displacement_m)} m, at factor {each.largest_at_scale:g}"
-            yield Text(f"{title}; no factor up to {each.limit:g} moves it so far ({most})")
+            yield table("", ("factor", f"PGA ({acceleration_unit(gal=gal)})", "moved (m)", ""), rows)
+
+
+def _needs(each: ScaleFactors, moved: str, *, gal: bool) -> str:
+    """Return what the observed displacement needs, in words."""
+    size = f"{each.component}: {each.observed_m * 100:.4g} cm of {moved}"
+    alone = f"as recorded it is {each.displacement_at_1_m * 100:.3g} cm"
+    if not each.scale_factors:
+        most = f"at most {each.largest_displacement_m * 100:.3g} cm, at factor {each.largest_at_scale:g}"
+        return f"{size}: no factor up to {each.limit:g} moves it so far ({most}); {alone}."
+    told = [
+        f"{f.scale:.3g} times this record ({acceleration(f.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)})" for f in each.scale_factors
+    ]
+    rest = f", or {', '.join(told[1:4])}" + (f" or {len(told) - 4} more" if len(told) > 4 else "") if len(told) > 1 else ""
+    return f"{size} needs {told[0]}{rest}; {alone}."
 
 
 def factor_columns(found: Sequence[tuple[Record, ScaleFactors]]) -> tuple[list[str], list[list[Any]]]:

@@ -10,8 +10,9 @@ from rich.text import Text
 
 from seisblock.present.text.tables import acceleration, acceleration_unit, record_line, seconds, table
 from seisblock.results import Response
-from seisblock.solvers.jump.chain import JUMPED, Chain
+from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.solvers.jump.solve import JumpOutcome
+from seisblock.solvers.jump.tale import exceeds
 
 Jumps = Sequence[Response[JumpOutcome]]
 
@@ -36,8 +37,12 @@ _LENGTHS: tuple[tuple[str, str], ...] = (
 )
 
 
+MOST_SHOWN = 6
+"""Chains in the table: those that moved the block most, in the order of time."""
+
+
 def tables(responses: Jumps, *, gal: bool, tenon: float | None) -> Iterator[Any]:
-    """Yield the record, a table per component with a column per chain as in [Sugimoto2017]_ table 1, and a sentence per chain."""
+    """Yield, per component, what became of the block, and a table with a column per chain as in [Sugimoto2017]_ table 1."""
     seen: set[int] = set()
     for response in responses:
         record = response.motion.record
@@ -45,16 +50,21 @@ def tables(responses: Jumps, *, gal: bool, tenon: float | None) -> Iterator[Any]
             seen.add(id(record))
             yield record_line(record)
         outcome = response.outcome
-        threshold = acceleration(outcome.rocking_threshold_m_s2, gal=gal)
-        title = f"{response.motion.name}: {response.body.name}, rocks above {threshold} {acceleration_unit(gal=gal)}"
-        for first in range(0, len(outcome.chains), 6):
-            part = outcome.chains[first : first + 6]
-            yield table(title, ["chain", *(str(first + i + 1) for i in range(len(part)))], _cells(part))
-        if not outcome.chains:
-            yield Text(title, style="italic")
+        yield Text(verdict(response))
+        shown = _shown(outcome.chains)
+        if shown:
+            threshold = acceleration(outcome.rocking_threshold_m_s2, gal=gal)
+            title = f"{response.motion.name}: {response.body.name}, rocks above {threshold} {acceleration_unit(gal=gal)}"
+            yield table(title, ["chain", *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown]))
         for sentence in sentences(response, tenon):
             yield Text(sentence)
         yield Text()
+
+
+def _shown(chains: Sequence[Chain]) -> list[int]:
+    """Return which chains the table shows."""
+    by_size = sorted(range(len(chains)), key=lambda i: -abs(chains[i].total_displacement_m or math.inf))
+    return sorted(by_size[:MOST_SHOWN])
 
 
 def _cells(chains: Sequence[Chain]) -> Iterator[list[str]]:
@@ -66,6 +76,7 @@ def _cells(chains: Sequence[Chain]) -> Iterator[list[str]]:
     yield ["impact velocity (rad/s)", *(_or_dash(chain.impact_velocity_rad_s, "{:.3f}") for chain in chains)]
     for heading, key in _LENGTHS:
         yield [heading, *(_or_dash(getattr(chain, key), "{:.1f}", 1e3) for chain in chains)]
+    yield ["friction its landing needs", *(_friction(chain.friction_needed_at_landing) for chain in chains)]
 
 
 def _or_dash(value: float | None, form: str, factor: float = 1.0) -> str:
@@ -74,16 +85,55 @@ def _or_dash(value: float | None, form: str, factor: float = 1.0) -> str:
     return "-" if value is None else form.format(round(value * factor, 6) + 0.0)
 
 
-def sentences(response: Response[JumpOutcome], tenon: float | None = None) -> Iterator[str]:
-    """Yield what happened in words, one sentence per chain."""
-    outcome = response.outcome
+def _friction(needed: float | None) -> str:
+    """Return P_x/P_y of a landing; where the ground would have to pull no friction would do."""
+    return "-" if needed is None else f"{needed:.2f}" if math.isfinite(needed) else "none does"
+
+
+def verdict(response: Response[JumpOutcome]) -> str:
+    """Return what became of the block in the end, and what friction that takes."""
+    outcome, name = response.outcome, response.motion.name or "x"
     if not outcome.chains:
-        yield f"{response.motion.name}: the ground acceleration never exceeds the rocking threshold: the block stays where it is."
-    for number, chain in enumerate(outcome.chains, start=1):
-        told = f"Chain {number}: {chain.outcome}"
+        return f"{name}: the ground acceleration never exceeds the rocking threshold: the block stays where it is."
+    count = len(outcome.chains)
+    after = f"after {count} chains of motion" if count > 1 else "after one chain of motion"
+    if outcome.outcome in (JUMPED, NO_JUMP):
+        jumps = sum(chain.outcome == JUMPED for chain in outcome.chains)
+        did = f"{'jumped' if jumps == 1 else f'jumped {jumps} times'}" if jumps else "rocked without jumping"
+        ends = f"{name}: {did}, and in the end stands {_signed(outcome.final_displacement_m)} from where it stood, {after}"
+    else:
+        ends = f"{name}: {outcome.outcome}, {_signed(outcome.final_displacement_m)} from where it stood, {after}"
+    return f"{ends}{_held(response)}."
+
+
+def _signed(length: float) -> str:
+    """Return a displacement in mm, + in the component's positive direction."""
+    return f"{round(length * 1e3) + 0:+d} mm"
+
+
+def _held(response: Response[JumpOutcome]) -> str:
+    """Return what friction the answer rests on, where that is more than was given."""
+    mu, outcome = response.options["mu"], response.outcome
+    told = []
+    ratio = response.body.width / 2 / response.body.centroid_height
+    if mu < ratio:
+        told.append(f"rocking needs feet that are held: friction {mu:g} is below b/h, {ratio:.2f}, and would let them slide first")
+    needed = outcome.friction_needed_at_landing
+    if exceeds(needed, mu):
+        told.append(f"its landings need a friction of {_friction(needed)}, mu is {mu:g}")
+    return "".join(f"; {text}" for text in told)
+
+
+def sentences(response: Response[JumpOutcome], tenon: float | None = None) -> Iterator[str]:
+    """Yield what happened in words, one sentence per chain that the table shows."""
+    chains = response.outcome.chains
+    shown = _shown(chains)
+    for index in shown:
+        chain = chains[index]
+        told = f"Chain {index + 1}: {chain.outcome}"
         if chain.outcome == JUMPED and chain.total_displacement_m is not None:
             told += (
-                f" {chain.total_displacement_m * 1e3:+.0f} mm along {response.motion.name}, after {chain.rocking_duration_s:.3f} s of "
+                f" {_signed(chain.total_displacement_m)} along {response.motion.name}, after {chain.rocking_duration_s:.3f} s of "
                 f"rocking; the ground stayed above the threshold for {chain.time_above_threshold_s:.3f} s"
             )
         if tenon is not None and chain.foot_rise_m is not None and chain.max_rise_m is not None:
@@ -93,3 +143,12 @@ def sentences(response: Response[JumpOutcome], tenon: float | None = None) -> It
                 f"{tenon * 1e3:g} mm: it {'left' if out else 'did not leave'} its hole"
             )
         yield told + "."
+    if len(shown) < len(chains):
+        least = max(abs(chain.total_displacement_m or 0.0) for i, chain in enumerate(chains) if i not in shown)
+        yield f"{len(chains) - len(shown)} more chains, none of which moved it by more than {least * 1e3:.1f} mm."
+    left = [chain.end_angular_velocity_rad_s or 0.0 for chain in chains if chain.outcome == JUMPED]
+    if left and response.outcome.landing == "paper":
+        yield (
+            "A chain ends when the tilt is back at zero: the paper's model ends here, and makes nothing of the angular velocity left, "
+            f"up to {max(left):.2f} rad/s."
+        )

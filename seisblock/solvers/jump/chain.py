@@ -12,21 +12,25 @@ from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.dynamics import Change, Instant, Trajectory
 from seisblock.records import Motion
 from seisblock.results import Event, Phase
-from seisblock.solvers.jump import flight as flying
+from seisblock.solvers.jump import modes as flying
 from seisblock.solvers.jump import rocking
-from seisblock.solvers.jump.impact import Launch
+from seisblock.solvers.jump.impact import Launch, centroid_rise, foot_rise
+from seisblock.solvers.jump.touch import Touch, is_landing, touch_of
 from seisblock.typing import FloatArray
 
 NO_JUMP = "rocked without jumping"
 JUMPED = "jumped"
 OVERTURNED_ROCKING = "overturned while rocking"
 OVERTURNED_LANDED = "overturned after landing"
-ENDED_ROCKING = "record ended while rocking"
-ENDED_FLYING = "record ended in flight"
-ENDED_LANDED = "record ended after landing"
+ENDED_ROCKING = "still rocking a minute after the record"
+ENDED_FLYING = "still in flight a minute after the record"
+ENDED_LANDED = "still moving a minute after the record"
 
 REST, ROCKING, FLIGHT, LANDED = "rest", "rocking", "flight", "rocking-sliding"
 """Names of the phases."""
+
+SLIPPING = (flying.BACK, flying.FORTH, flying.FLAT_BACK, flying.FLAT_FORTH)
+"""Kinds of motion in which the foot slips."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +52,7 @@ class Chain:
     impact_velocity_rad_s : float
         Angular velocity at the impact, a magnitude.
     max_rise_m : float
-        Largest rise of the centroid in flight above its height at rest.
+        Largest rise of the centroid in flight above its height at rest, whether or not it lands before the top of its path.
     jump_displacement_m, rock_slide_displacement_m, total_displacement_m : float
     time_above_threshold_s : float
         How long the ground acceleration stays above the rocking threshold from the start of the rocking.
@@ -58,6 +62,12 @@ class Chain:
         Leading: on the side towards which the block jumps.
     slid : bool
         Whether the landed foot slipped ([Sugimoto2017]_ eq. (14)).
+    friction_needed_at_landing : float
+        Largest P_x/P_y of its landings; infinite where the ground would have to pull.
+    landing_energy_j : two floats, J
+        Kinetic energy before and after the landing that keeps the largest share of it.
+    end_angular_velocity_rad_s, end_slip_velocity_m_s : float
+        What is left of the foot's motion when the tilt is back at zero, magnitudes: the paper's model ends there.
     """
 
     outcome: str
@@ -79,6 +89,10 @@ class Chain:
     foot_rise_m: float | None = None
     landing_corner: str | None = None
     slid: bool | None = None
+    friction_needed_at_landing: float | None = None
+    landing_energy_j: tuple[float, float] | None = None
+    end_angular_velocity_rad_s: float | None = None
+    end_slip_velocity_m_s: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +139,12 @@ class Followed:
     @property
     def touch(self) -> Change | None:
         """The first landing."""
-        return next((change for change in self.flown.changes if change.source == flying.FLIGHT), None) if self.flown else None
+        return next((change for change in self.flown.changes if is_landing(change)), None) if self.flown else None
+
+    @property
+    def touches(self) -> tuple[Touch, ...]:
+        """What each landing took."""
+        return tuple(touch_of(change, self.block) for change in self.flown.changes if is_landing(change)) if self.flown else ()
 
     @property
     def end(self) -> Instant:
@@ -174,22 +193,25 @@ def _outcome_of_flight(followed: Followed) -> str:
 def _flight_numbers(followed: Followed) -> dict[str, Any]:
     """Return the entries of a chain from the impact on."""
     assert followed.flown is not None and followed.launch is not None
-    flown, go = followed.flown, followed.launch
+    flown, go, touch = followed.flown, followed.launch, followed.touch
     found: dict[str, Any] = {
-        "max_rise_m": go.vertical**2 / (2 * followed.gravity),
-        "foot_rise_m": _foot_rise(followed.block, go, followed.gravity),
+        "max_rise_m": centroid_rise(go.vertical, followed.gravity, math.inf if touch is None else touch.time - followed.rocked.end_time),
+        "foot_rise_m": foot_rise(followed.block, go, followed.gravity),
     }
-    touch = followed.touch
     if touch is None:
         return found
     landing = followed.motion.start_s + touch.time
+    touches = followed.touches
+    worst = max(touches, key=lambda each: each.energy_after_j / each.energy_before_j if each.energy_before_j > 0.0 else 0.0)
     jumped = followed.sign * float(touch.before[flying.X])
     found |= {
         "landing_s": landing,
         "jump_duration_s": landing - followed.impact_s,
         "jump_displacement_m": jumped,
         "landing_corner": "leading" if touch.guard == flying.RIGHT else "trailing",
-        "slid": any(c.target > 0 and flying.kind_of(c.target) in (flying.BACK, flying.FORTH) for c in flown.changes),
+        "friction_needed_at_landing": max(each.friction_needed for each in touches),
+        "landing_energy_j": (worst.energy_before_j, worst.energy_after_j),
+        "slid": any(c.target > 0 and flying.kind_of(c.target) in SLIPPING for c in flown.changes),
     }
     if followed.finished:
         end = followed.motion.start_s + flown.end_time
@@ -201,18 +223,11 @@ def _flight_numbers(followed: Followed) -> dict[str, Any]:
             "rock_slide_displacement_m": total - jumped,
             "total_displacement_m": total,
         }
+        level = next((c for c in flown.changes if c.source != flying.FLIGHT and c.guard == flying.TOUCH), None)
+        if level is not None:
+            found["end_angular_velocity_rad_s"] = abs(float(level.before[flying.OMEGA]))
+            found["end_slip_velocity_m_s"] = abs(float(level.before[flying.VX]))
     return found
-
-
-def _foot_rise(block: TwoLayerBlock, go: Launch, gravity: float) -> float:
-    """Return the largest height of the lower lower corner in flight, m, from where its vertical velocity vanishes."""
-    y, half, spin = block.centroid_height, block.width / 2, abs(go.spin)
-    low, high = 0.0, go.vertical / gravity
-    for _ in range(60):
-        t = 0.5 * (low + high)
-        rate = go.vertical - gravity * t - spin * (half * math.cos(spin * t) - y * math.sin(spin * t))
-        low, high = (t, high) if rate > 0.0 else (low, t)
-    return go.vertical * low - gravity * low**2 / 2 + y * (1 - math.cos(spin * low)) - half * math.sin(spin * low)
 
 
 def _time_above_threshold(followed: Followed) -> float:

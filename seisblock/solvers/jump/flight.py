@@ -1,14 +1,16 @@
 """Flight of the two-layer block, its landing on a lower corner, and the motion about that corner ([Sugimoto2017]_ 3.8-3.11).
 
 Assumptions
-    Landing keeps tilt and angular velocity, and the corner that touches starts with zero slip. Whether it slips is decided once, at
-    landing, by static friction; a corner that slips stays under kinetic friction, and is held where kinetic friction can
-    hold it when its slip comes to rest. The chain ends when the tilt returns to zero, or at pi/2 (overturned).
+    How a corner that lands is stopped is said in :mod:`seisblock.solvers.jump.landing`. Whether one that stands still then slips is
+    decided once, at landing, by static friction; a corner that slips stays under kinetic friction, and is held where kinetic friction can
+    hold it when its slip comes to rest. The chain ends when the tilt returns to zero, or at pi/2 (overturned); by the rule ``friction`` it
+    goes on until the base, flat again, has slid to rest.
 State
     theta (counter-clockwise) and omega; x, vx: displacement of the centroid and its rate in flight, of the foot that touches
     afterwards, both relative to the ground; y, vy: rise of the centroid above its height at rest, and its rate, in flight.
 Modes
-    FLIGHT; then for each corner STICK (no slip), HOLD (slip at rest under kinetic friction), BACK and FORTH (slip to -x, +x).
+    FLIGHT; then for each corner STICK (no slip), HOLD (slip at rest under kinetic friction), BACK and FORTH (slip to -x, +x); FLAT_BACK and
+    FLAT_FORTH when the base slides, the tilt at zero.
 Symbols
     psi = beta + tau with beta = pi/2 - alpha, and tau the tilt towards the corner that touches: the centroid is at
     (-R cos psi, R sin psi) from the right corner. Motion about the left corner is its mirror image.
@@ -19,41 +21,63 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock._jit import kernel, types
-from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.dynamics.contract import OFF, RESET, SERIES
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.series import product, quotient, sine_cosine
-from seisblock.typing import FloatArray, IntArray
-
-THETA, OMEGA, X, VX, Y, VY = range(6)
-PSI, SIN, COS, TAU1, TAU2, SPEED2, SINK, WEIGHT, INERTIA, NORMAL = range(6, 16)
-LEFT, RIGHT = 0, 1
-FLIGHT = 0
-STICK, HOLD, BACK, FORTH = range(4)
-JAMMED, OVERTURNED, END = range(-3, 0)
-ALPHA, RADIUS, HALF_WIDTH, HEIGHT, MASS, CENTROID_INERTIA, GRAVITY, MU, MU_KINETIC, DROP, DT = range(11)
-TOUCH, TOPPLE, LIFT, FRICTION, FRICTION_TOO = range(5)
+from seisblock.solvers.jump.landing import lie_down_by_friction, take_off, touch_down, touch_down_by_friction
+from seisblock.solvers.jump.modes import (
+    ALPHA,
+    BACK,
+    BY_FRICTION,
+    CENTROID_INERTIA,
+    COS,
+    DROP,
+    DT,
+    END,
+    FLAT_BACK,
+    FLAT_FORTH,
+    FLIGHT,
+    FORTH,
+    FRICTION,
+    FRICTION_TOO,
+    GRAVITY,
+    HALF_WIDTH,
+    HEIGHT,
+    HOLD,
+    INERTIA,
+    JAMMED,
+    LEFT,
+    LIFT,
+    MASS,
+    MU,
+    MU_KINETIC,
+    NORMAL,
+    OMEGA,
+    OVERTURNED,
+    PSI,
+    RADIUS,
+    RIGHT,
+    SIN,
+    SINK,
+    SPEED2,
+    STICK,
+    TAU1,
+    TAU2,
+    THETA,
+    TOPPLE,
+    TOUCH,
+    VX,
+    VY,
+    WEIGHT,
+    X,
+    Y,
+    corner_of,
+    kind_of,
+    landed,
+)  # fmt: skip
 
 _t = types()
-
-
-@kernel(_t.int64(_t.int64, _t.int64), inline=True)
-def landed(corner, kind):
-    """Return the mode of a kind of motion about a corner ([Sugimoto2017]_)."""
-    return 1 + 2 * kind + corner
-
-
-@kernel(_t.int64(_t.int64), inline=True)
-def corner_of(mode):
-    """Return the corner that touches ([Sugimoto2017]_)."""
-    return (mode - 1) % 2
-
-
-@kernel(_t.int64(_t.int64), inline=True)
-def kind_of(mode):
-    """Return the kind of motion about the corner ([Sugimoto2017]_)."""
-    return (mode - 1) // 2
 
 
 @kernel(_t.int64(VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX), inline=True)
@@ -88,6 +112,21 @@ def _flight_series(y, f, p, order, c, g):
     return order
 
 
+@kernel(_t.int64(_t.float64, VECTOR, MATRIX, VECTOR, MATRIX, MATRIX), inline=True)
+def _flat_series(slip, y, f, p, c, g):
+    """Write the sliding of a base that lies flat: x'' = -z'' - mu' g sgn(x'), a cubic ([Fujino1978]_ eq. (7))."""
+    for i in range(6):
+        c[i, 0] = y[i]
+        c[i, 1] = c[i, 2] = c[i, 3] = 0.0
+    pull = -f[0, 0] - slip * p[MU_KINETIC] * p[GRAVITY]
+    c[X, 1], c[X, 2], c[X, 3] = y[VX], pull / 2, -f[0, 1] / 6
+    c[VX, 1], c[VX, 2] = pull, -f[0, 1] / 2
+    g[TOUCH, 0] = g[TOPPLE, 0] = g[LIFT, 0] = g[FRICTION_TOO, 0] = OFF
+    for k in range(4):
+        g[FRICTION, k] = slip * c[VX, k]
+    return 3
+
+
 @kernel(SERIES)
 def flight_series(mode, y, f, p, order, c, g):
     """Write the series of the flight, or of the motion about the corner that touches ([Sugimoto2017]_)."""
@@ -95,6 +134,8 @@ def flight_series(mode, y, f, p, order, c, g):
         return _flight_series(y, f, p, order, c, g)
     side = 2 * corner_of(mode) - 1
     kind = kind_of(mode)
+    if kind >= FLAT_BACK:
+        return _flat_series(1.0 if kind == FLAT_FORTH else -1.0, y, f, p, c, g)
     slip = 0.0
     if kind == BACK:
         slip = -side
@@ -160,27 +201,20 @@ def flight_series(mode, y, f, p, order, c, g):
     return order
 
 
-@kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
-def _touch_down(corner, y, p):
-    """Turn the state of the flight into that of the corner that touches: where it is, with zero slip."""
-    side = 2 * corner - 1
-    psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
-    y[X] += side * (p[RADIUS] * np.cos(psi) - p[HALF_WIDTH])
-    y[VX] = 0.0
-    y[Y] = 0.0
-    y[VY] = 0.0
+@kernel(_t.int64(_t.int64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def _unless_jammed(corner, slip, s, c, p):
+    """Return the mode of a foot that slips, `slip` seen from the left corner's side, where eqs. (13) have a solution."""
+    if p[CENTROID_INERTIA] + p[MASS] * p[RADIUS] ** 2 * c * (c - slip * p[MU_KINETIC] * s) <= 0.0:
+        return JAMMED
+    return landed(corner, FORTH if slip * (2 * corner - 1) > 0.0 else BACK)
 
 
-@kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
-def _take_off(corner, y, p):
-    """Turn the state about a corner into that of the flight: position and velocity of the centroid."""
+@kernel(_t.int64(_t.int64, VECTOR, VECTOR), inline=True)
+def _slipping(corner, y, p):
+    """Return the mode of a foot that slips already."""
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
-    tilting = -side * y[OMEGA]
-    y[X] -= side * (p[RADIUS] * np.cos(psi) - p[HALF_WIDTH])
-    y[VX] += side * p[RADIUS] * np.sin(psi) * tilting
-    y[Y] = p[RADIUS] * np.sin(psi) - p[HEIGHT] - p[DROP]
-    y[VY] = p[RADIUS] * np.cos(psi) * tilting
+    return _unless_jammed(corner, side * np.sign(y[VX]), np.sin(psi), np.cos(psi), p)
 
 
 @kernel(_t.int64(_t.int64, VECTOR, MATRIX, VECTOR, _t.float64, _t.int64), inline=True)
@@ -198,28 +232,35 @@ def _held_or_slipping(corner, y, f, p, mu, held):
     if abs(need) <= mu * normal:
         return landed(corner, held)
     # a foot that would have to be pushed forward is left behind
-    slip = -1.0 if need > 0.0 else 1.0
-    if p[CENTROID_INERTIA] + p[MASS] * r * r * c * (c - slip * p[MU_KINETIC] * s) <= 0.0:
-        return JAMMED
-    return landed(corner, FORTH if slip * side > 0.0 else BACK)
+    return _unless_jammed(corner, -1.0 if need > 0.0 else 1.0, s, c, p)
 
 
 @kernel(RESET)
 def flight_reset(mode, guard, y, f, p):
     """Land, stop slipping, slip again, lift off again, or end ([Sugimoto2017]_)."""
     if mode == FLIGHT:
-        _touch_down(guard, y, p)
+        if p[BY_FRICTION] == 0.0:
+            touch_down(guard, y, p)
+        else:
+            touch_down_by_friction(guard, y, p)
+            if y[VX] != 0.0:
+                return _slipping(guard, y, p)
         return _held_or_slipping(guard, y, f, p, p[MU], STICK)
     corner = corner_of(mode)
     if guard == TOUCH:
-        y[THETA] = 0.0
-        return END
+        if p[BY_FRICTION] == 0.0:
+            y[THETA] = 0.0
+            return END
+        lie_down_by_friction(y, p)
+        return END if y[VX] == 0.0 else landed(corner, FLAT_FORTH if y[VX] > 0.0 else FLAT_BACK)
     if guard == TOPPLE:
         return OVERTURNED
     if guard == LIFT:
-        _take_off(corner, y, p)
+        take_off(corner, y, p)
         return FLIGHT
     y[VX] = 0.0
+    if kind_of(mode) >= FLAT_BACK:
+        return END
     if kind_of(mode) == HOLD:
         side = 2 * corner - 1
         return landed(corner, BACK if (guard == FRICTION) == (side > 0) else FORTH)
@@ -242,6 +283,10 @@ FLYING = Model(
         "back right",
         "forth left",
         "forth right",
+        "flat, back",
+        "flat, back",
+        "flat, forth",
+        "flat, forth",
         "jammed",
         "overturned",
         "end",
@@ -249,35 +294,3 @@ FLYING = Model(
     scratch=10,
     tracked=0,
 )
-
-
-def flight_parameters(block: TwoLayerBlock, gravity: float, mu: float, mu_kinetic: float, drop: float, dt: float) -> FloatArray:
-    """Return the parameters of the model ([Sugimoto2017]_); `dt` is the sampling interval, the longest step."""
-    return np.array(
-        [
-            block.slenderness,
-            block.radius,
-            block.width / 2,
-            block.centroid_height,
-            block.mass,
-            block.centroid_inertia,
-            gravity,
-            mu,
-            mu_kinetic,
-            drop,
-            dt,
-        ]
-    )
-
-
-def centroid(block: TwoLayerBlock, drop: float, modes: IntArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return displacement x and rise y of the centroid, (n,), m, from states of this model ([Sugimoto2017]_).
-
-    After landing the state holds the foot's slip; the centroid follows from the tilt about the corner that touches.
-    """
-    side = np.where(modes == FLIGHT, 0, 2 * ((modes - 1) % 2) - 1)
-    psi = np.pi / 2 - block.slenderness - side * states[:, THETA]
-    foot_to_centroid = -side * (block.radius * np.cos(psi) - block.width / 2)
-    risen = block.radius * np.sin(psi) - block.centroid_height - drop
-    flying = side == 0
-    return states[:, X] + foot_to_centroid, np.where(flying, states[:, Y], risen)

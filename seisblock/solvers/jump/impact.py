@@ -108,3 +108,20 @@ def launch(block: TwoLayerBlock, omega: float, ratio: float, restitution_x: floa
         spin=ratio * omega,
         jumps=omega < 0.0 and restitution_y > abs(ratio),
     )
+
+
+def centroid_rise(speed: float, gravity: float, flight_s: float) -> float:
+    """Return the largest rise of a centroid thrown upwards that flies so long, m; before its top or not ([Sugimoto2017]_ eq. (9b))."""
+    top = min(speed / gravity, flight_s)
+    return speed * top - gravity * top**2 / 2
+
+
+def foot_rise(block: TwoLayerBlock, go: Launch, gravity: float) -> float:
+    """Return the largest height of the lower of both lower corners, m, where its velocity upwards vanishes ([Sugimoto2017]_ eq. (8a))."""
+    y, half, spin = block.centroid_height, block.width / 2, abs(go.spin)
+    low, high = 0.0, go.vertical / gravity
+    for _ in range(60):
+        t = 0.5 * (low + high)
+        rate = go.vertical - gravity * t - spin * (half * math.cos(spin * t) - y * math.sin(spin * t))
+        low, high = (t, high) if rate > 0.0 else (low, t)
+    return go.vertical * low - gravity * low**2 / 2 + y * (1 - math.cos(spin * low)) - half * math.sin(spin * low)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -14,23 +15,15 @@ from seisblock.dynamics.status import STOPPED
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
 from seisblock.records.given import check_call
-from seisblock.results import Channel, Event, Phase, Response
-from seisblock.solvers.jump import flight as flying
+from seisblock.results import Response
+from seisblock.solvers.jump import modes as flying
 from seisblock.solvers.jump import rocking
-from seisblock.solvers.jump.chain import (
-    ENDED_FLYING,
-    ENDED_LANDED,
-    ENDED_ROCKING,
-    JUMPED,
-    NO_JUMP,
-    REST,
-    Chain,
-    Followed,
-    chain_of,
-    curves,
-    phases_and_events,
-)
+from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain, Followed, chain_of
+from seisblock.solvers.jump.flight import FLYING
 from seisblock.solvers.jump.impact import launch, spin_ratio
+from seisblock.solvers.jump.landing import RULES
+from seisblock.solvers.jump.still import follow_on
+from seisblock.solvers.jump.tale import warnings_of, with_curves
 from seisblock.units import STANDARD_GRAVITY
 
 DIRECTIONS = ("+", "-", "both")
@@ -44,8 +37,17 @@ class JumpOutcome:
     Parameters
     ----------
     outcome : str
-        Of the last chain, or "did not rock".
+        What became of it in the end: how its last chain ended, "jumped" if it stands again after one that did, or "did not rock".
     chains : tuple of Chain
+        In the order of time.
+    total_displacement_m : float
+        Sum over the chains, signed.
+    final_displacement_m : float
+        Where the centroid is in the end, relative to where it stood; that of the total unless it toppled.
+    landing : "paper" or "friction"
+        The rule by which a corner that lands is stopped.
+    friction_needed_at_landing : float or None
+        Largest P_x/P_y that its landings need, infinite where the ground would have to pull; None when it never landed.
     rocking_threshold_m_s2 : float
         [Sugimoto2017]_ eq. (2).
     spin_ratio : float
@@ -54,8 +56,31 @@ class JumpOutcome:
 
     outcome: str
     chains: tuple[Chain, ...]
+    total_displacement_m: float
+    final_displacement_m: float
+    landing: str
+    friction_needed_at_landing: float | None
     rocking_threshold_m_s2: float
     spin_ratio: float
+
+
+Window = tuple[float | None, float | None]
+"""A stretch of time, s after the record's first sample; an end left out is that of the record."""
+
+ON_SAMPLE = 1e-9
+"""A window begins on a sample that it misses by no more than this share of the sampling interval."""
+
+
+@dataclass(frozen=True)
+class _Run:
+    """What every chain of one run shares."""
+
+    motion: Motion
+    block: TwoLayerBlock
+    contact: Contact
+    spin_ratio: float
+    gravity: float
+    landing: str
 
 
 def solve_jump(
@@ -66,14 +91,16 @@ def solve_jump(
     drop: float = 0.0,
     spin: str = "momentum",
     direction: str = "both",
-    repeat: bool = False,
+    landing: str = "paper",
+    first: bool = False,
+    windows: Sequence[Window] = (),
     gravity: float = STANDARD_GRAVITY,
 ) -> Response[JumpOutcome]:
     """Follow a two-layer block through rocking, impact, jump and landing ([Sugimoto2017]_ eqs. (1)-(15), corrected).
 
     Rocking starts where the piecewise-linear horizontal acceleration exceeds g x_G/y_G, and the foot does not slide before the
-    impact; flight is ballistic; the chain ends when the landed block's tilt returns to zero. Vertical motion is not part
-    of the model.
+    impact; flight is ballistic; the chain ends when the landed block's tilt returns to zero, and chain follows chain. What moves
+    when the record ends comes to its end on still ground. Vertical motion is not part of the model.
 
     Parameters
     ----------
@@ -88,9 +115,13 @@ def solve_jump(
         ``momentum``, ``printed`` or ``ratio=Q``, see :func:`seisblock.solvers.jump.impact.spin_ratio`.
     direction : "+", "-" or "both"
         Sign of the ground acceleration that may start a chain; the mirror image is exact.
-    repeat : bool
-        Whether the block, once more at rest, may start further chains; after it has landed below its floor
-        it stands on the ground, and there is no further drop.
+    landing : "paper" or "friction"
+        How a corner that lands is stopped, see :mod:`seisblock.solvers.jump.landing`.
+    first : bool
+        Whether only the first chain, of each window, is followed, as the paper does; after the block has landed below its floor it
+        stands on the ground, and there is no further drop.
+    windows : sequence of (float or None, float or None), s
+        Stretches in which rocking may start, after the record's first sample; motion goes on beyond them. Everywhere when left out.
     gravity : float, m/s^2
 
     Returns
@@ -120,17 +151,10 @@ def solve_jump(
     'jumped'
     """
     check_call(block, TwoLayerBlock, motion)
-    _check(contact, drop, direction, gravity)
+    _check(contact, drop, direction, landing, gravity)
     ratio = spin_ratio(block, spin, contact.restitution_x, contact.restitution_y)
-    followed: list[Followed] = []
-    start, left = Instant(), drop
-    while (onset := _onset(motion, block, gravity, direction, start)) is not None:
-        followed.append(_follow_chain(motion, block, contact, ratio, gravity, left, *onset))
-        start = followed[-1].end
-        if followed[-1].touch is not None:
-            left = 0.0
-        if not repeat or not followed[-1].finished or chain_of(followed[-1]).outcome not in (NO_JUMP, JUMPED):
-            break
+    run = _Run(motion, block, contact, ratio, gravity, landing)
+    followed = _chains(run, direction, drop, first, [_stretch(motion, *window) for window in windows or ((None, None),)])
     options = {
         "mu": contact.mu,
         "mu_kinetic": contact.mu_kinetic,
@@ -139,41 +163,40 @@ def solve_jump(
         "drop_m": drop,
         "spin": spin,
         "direction": direction,
-        "repeat": repeat,
+        "landing": landing,
+        "first": first,
+        "windows_s": [list(window) for window in windows],
         "gravity_m_s2": gravity,
     }
     chains = tuple(chain_of(each) for each in followed)
-    outcome = JumpOutcome(chains[-1].outcome if chains else DID_NOT_ROCK, chains, block.rocking_threshold(gravity), ratio)
-    warnings = tuple(
-        f"{motion.name or 'motion'}: {chain.outcome}, the chain that began at {chain.rocking_start_s:.3f} s is not complete"
-        for chain in chains
-        if chain.outcome in (ENDED_ROCKING, ENDED_FLYING, ENDED_LANDED)
+    needed = [chain.friction_needed_at_landing for chain in chains if chain.friction_needed_at_landing is not None]
+    outcome = JumpOutcome(
+        _end_of(chains),
+        chains,
+        math.fsum(chain.total_displacement_m or 0.0 for chain in chains),
+        0.0,
+        landing,
+        max(needed, default=None),
+        block.rocking_threshold(gravity),
+        ratio,
     )
-    bare = Response("jump", outcome, motion, block, np.empty(0), options=options, warnings=warnings, citations=("Sugimoto2017",))
-    return _with_curves(bare, followed)
-
-
-def join(motion: Motion, responses: Sequence[Response[JumpOutcome]]) -> Response[JumpOutcome]:
-    """Return one response from those of one body in successive stretches of a motion ([Sugimoto2017]_ figs. 12, 13)."""
-    last = responses[-1]
-    chains = tuple(chain for response in responses for chain in response.outcome.chains)
-    outcome = replace(last.outcome, outcome=chains[-1].outcome if chains else DID_NOT_ROCK, chains=chains)
-    channels = tuple(
-        replace(channel, values=np.concatenate([response[channel.name] for response in responses])) for channel in last.channels
+    citations = ("Sugimoto2017",) if landing == "paper" else ("Sugimoto2017", "WangMason1992", "Moreau1988")
+    bare = Response(
+        "jump", outcome, motion, block, np.empty(0), options=options, warnings=warnings_of(motion, chains, contact.mu), citations=citations
     )
-    return replace(
-        last,
-        motion=motion,
-        outcome=outcome,
-        time=np.concatenate([response.time for response in responses]),
-        channels=channels,
-        phases=tuple(phase for response in responses for phase in response.phases),
-        events=tuple(event for response in responses for event in response.events),
-        warnings=tuple(dict.fromkeys(message for response in responses for message in response.warnings)),
-    )
+    shown = with_curves(bare, followed)
+    return replace(shown, outcome=replace(outcome, final_displacement_m=float(shown["x_G"][-1])))
 
 
-def _check(contact: Contact, drop: float, direction: str, gravity: float) -> None:
+def _end_of(chains: tuple[Chain, ...]) -> str:
+    """Return what became of the block in the end."""
+    if not chains:
+        return DID_NOT_ROCK
+    last = chains[-1].outcome
+    return JUMPED if last == NO_JUMP and any(chain.outcome == JUMPED for chain in chains) else last
+
+
+def _check(contact: Contact, drop: float, direction: str, landing: str, gravity: float) -> None:
     """Refuse coefficients outside their range."""
     for name in ("restitution_x", "restitution_y"):
         value = getattr(contact, name)
@@ -189,82 +212,72 @@ def _check(contact: Contact, drop: float, direction: str, gravity: float) -> Non
         raise ParameterError(f"the drop must be a height of zero or more, found {drop} m")
     if direction not in DIRECTIONS:
         raise ParameterError(f"direction must be one of {', '.join(DIRECTIONS)}, found {direction!r}")
+    if landing not in RULES:
+        raise ParameterError(f"the landing rule must be one of {', '.join(RULES)}, found {landing!r}")
     if not (math.isfinite(gravity) and gravity > 0.0):
         raise ParameterError(f"gravity must be positive, found {gravity} m/s^2")
 
 
-def _onset(motion: Motion, block: TwoLayerBlock, gravity: float, direction: str, start: Instant) -> tuple[Instant, float] | None:
+def _stretch(motion: Motion, first: float | None, last: float | None) -> tuple[Instant, float]:
+    """Return where a window begins, and when it ends, s after sample 0."""
+    end = motion.dt * (motion.samples - 1)
+    begins = 0.0 if first is None else max(first - motion.start_s, 0.0)
+    ends = math.inf if last is None else last - motion.start_s
+    if begins > end or ends < 0.0 or not begins < ends:
+        shown = ":".join("" if edge is None else f"{edge:g}" for edge in (first, last))
+        raise ParameterError(
+            f"the window {shown} holds nothing of the motion, which lasts from {motion.start_s:g} to {motion.start_s + end:g} s"
+        )
+    sample = min(int(begins / motion.dt + ON_SAMPLE), motion.samples - 1)
+    tau = max(begins - sample * motion.dt, 0.0)
+    return Instant(sample, tau if tau > ON_SAMPLE * motion.dt else 0.0), ends
+
+
+def _chains(run: _Run, direction: str, drop: float, first: bool, stretches: Sequence[tuple[Instant, float]]) -> list[Followed]:
+    """Follow chain after chain, or the first of each stretch."""
+    followed: list[Followed] = []
+    now, left = Instant(), drop
+    for begins, ends in sorted(stretches, key=lambda stretch: (stretch[0].sample, stretch[0].tau)):
+        now = max(now, begins, key=lambda instant: (instant.sample, instant.tau))
+        while now.sample < run.motion.samples - 1 and (onset := _onset(run, direction, now)) is not None:
+            if onset[0].sample * run.motion.dt + onset[0].tau > ends:
+                break
+            followed.append(_follow_chain(run, left, *onset))
+            last = followed[-1]
+            if not last.finished or chain_of(last).outcome not in (NO_JUMP, JUMPED):
+                return followed
+            now, left = last.end, left if last.touch is None else 0.0
+            if first:
+                break
+    return followed
+
+
+def _onset(run: _Run, direction: str, start: Instant) -> tuple[Instant, float] | None:
     """Return when rocking starts next, and the sign of the acceleration that starts it."""
-    found = follow(
-        rocking.ROCKING,
-        motion,
-        rocking.rocking_parameters(block, gravity, direction),
-        [0.0, 0.0],
-        rocking.REST,
-        start=start,
-        keep_path=False,
-    )
+    thresholds = rocking.rocking_parameters(run.block, run.gravity, direction)
+    found = follow(rocking.ROCKING, run.motion, thresholds, [0.0, 0.0], rocking.REST, start=start, keep_path=False)
     if found.status != STOPPED:
         return None
     return found.end, 1.0 if found.final_mode == rocking.ROSE_FORWARD else -1.0
 
 
-def _follow_chain(
-    motion: Motion, block: TwoLayerBlock, contact: Contact, ratio: float, gravity: float, drop: float, start: Instant, sign: float
-) -> Followed:
+def _follow_chain(run: _Run, drop: float, start: Instant, sign: float) -> Followed:
     """Follow one chain from its onset, in the frame in which it goes forward."""
-    gains = (sign, 0.0, 0.0)
-    parameters = rocking.rocking_parameters(block, gravity, "both")
-    rocked = follow(rocking.ROCKING, motion, parameters, [0.0, 0.0], rocking.ROCK, gains=gains, start=start)
+    motion, block, contact, gains = run.motion, run.block, run.contact, (sign, 0.0, 0.0)
+    so_far = partial(Followed, motion, block, run.gravity, drop, start, sign)
+    parameters = rocking.rocking_parameters(block, run.gravity, "both")
+    rocked = follow_on(rocking.ROCKING, motion, parameters, [0.0, 0.0], rocking.ROCK, gains=gains, start=start)
     if rocked.final_mode != rocking.IMPACT:
-        return Followed(motion, block, gravity, drop, start, sign, rocked, None, None)
-    go = launch(block, float(rocked.final[rocking.OMEGA]), ratio, contact.restitution_x, contact.restitution_y)
+        return so_far(rocked, None, None)
+    go = launch(block, float(rocked.final[rocking.OMEGA]), run.spin_ratio, contact.restitution_x, contact.restitution_y)
     if not go.jumps:
-        return Followed(motion, block, gravity, drop, start, sign, rocked, go, None)
-    parameters = flying.flight_parameters(block, gravity, contact.mu, contact.mu_kinetic, drop, motion.dt)
+        return so_far(rocked, go, None)
+    parameters = flying.flight_parameters(block, run.gravity, contact.mu, contact.mu_kinetic, drop, motion.dt, run.landing)
     thrown = [0.0, go.spin, 0.0, go.horizontal, 0.0, go.vertical]
-    flown = follow(flying.FLYING, motion, parameters, thrown, flying.FLIGHT, gains=gains, start=rocked.end)
+    flown = follow_on(FLYING, motion, parameters, thrown, flying.FLIGHT, gains=gains, start=rocked.end)
     if flown.final_mode == flying.JAMMED:
         raise SolverError(
             f"jump: the foot that lands at {motion.start_s + flown.end_time:.3f} s jams: kinetic friction {contact.mu_kinetic} is more "
             "than a rigid contact can bear"
         )
-    return Followed(motion, block, gravity, drop, start, sign, rocked, go, flown)
-
-
-def _with_curves(response: Response[JumpOutcome], followed: list[Followed]) -> Response[JumpOutcome]:
-    """Join the chains with the rest between them into phases, events and channels over the whole motion."""
-    motion, block = response.motion, response.body
-    clock = motion.time
-    parts: list[tuple[np.ndarray, ...]] = []
-    phases: list[Phase] = []
-    events: list[Event] = []
-    now, moved, raised = motion.start_s, 0.0, 0.0
-    for each in followed:
-        _rest(parts, phases, clock, now, each.onset_s, moved, raised)
-        time, theta, x, rise = curves(each)
-        parts.append((time, theta, x + moved, rise + raised))
-        some_phases, some_events = phases_and_events(each)
-        phases.extend(some_phases)
-        events.extend(some_events)
-        now, moved, raised = float(time[-1]), moved + float(x[-1]), raised + float(rise[-1])
-    if not followed or (followed[-1].finished and chain_of(followed[-1]).outcome in (NO_JUMP, JUMPED)):
-        _rest(parts, phases, clock, now, float(clock[-1]) + motion.dt, moved, raised)
-    time, theta, x, rise = (np.concatenate(column) for column in zip(*parts, strict=True))
-    channels = (
-        Channel("theta", "rad", theta, "θ"),
-        Channel("x_G", "m", x, "x_G"),
-        Channel("y_G", "m", block.centroid_height + rise, "y_G"),
-        Channel("ground_acceleration", "m/s^2", np.interp(time, clock, motion.horizontal), "z''"),
-    )
-    return replace(response, time=time, channels=channels, phases=tuple(phases), events=tuple(events))
-
-
-def _rest(
-    parts: list[tuple[np.ndarray, ...]], phases: list[Phase], clock: np.ndarray, since: float, until: float, moved: float, raised: float
-) -> None:
-    """Add the samples at which the block stands still between two instants."""
-    inside = clock[(clock >= since) & (clock < until)]
-    zero = np.zeros(inside.size)
-    parts.append((inside, zero, zero + moved, zero + raised))
-    phases.append(Phase(REST, since, min(until, float(clock[-1]))))
+    return so_far(rocked, go, flown)

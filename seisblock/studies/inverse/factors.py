@@ -165,7 +165,7 @@ def scaled(motion: Motion, factor: float) -> Motion:
 
 
 def jumped(
-    block: TwoLayerBlock, motion: Motion, *, contact: Contact, flight_only: bool = False, repeat: bool = False, **options: Any
+    block: TwoLayerBlock, motion: Motion, *, contact: Contact, flight_only: bool = False, first: bool = False, **options: Any
 ) -> Callable[[float], float]:
     """Return how far a two-layer block is displaced, m, against the factor on a motion ([Sugimoto2017]_ table 1).
 
@@ -175,15 +175,15 @@ def jumped(
         As in :func:`seisblock.solvers.jump.solve.solve_jump`.
     flight_only : bool
         Count the jump alone, not the rocking-sliding after it.
-    repeat : bool
-        Add up every chain of the record, else the first one counts. A block that topples counts as not displaced.
+    first : bool
+        The first chain of the record counts, else all are added up. A chain in which the block topples counts as no displacement.
     options
-        Its ``drop``, ``spin``, ``direction`` and ``gravity``.
+        Its ``drop``, ``spin``, ``direction``, ``landing``, ``windows`` and ``gravity``.
     """
     key = "jump_displacement_m" if flight_only else "total_displacement_m"
 
     def displacement(factor: float) -> float:
-        found = solve_jump(block, scaled(motion, factor), contact=contact, repeat=repeat, **options)
+        found = solve_jump(block, scaled(motion, factor), contact=contact, first=first, **options)
         return abs(sum(getattr(chain, key) or 0.0 for chain in found.outcome.chains))
 
     return displacement

@@ -1,0 +1,73 @@
+"""States, modes and parameters of the flight and of the motion about the corner that lands ([Sugimoto2017]_ 3.8-3.11)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from seisblock._jit import kernel, types
+from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.typing import FloatArray, IntArray
+
+THETA, OMEGA, X, VX, Y, VY = range(6)
+PSI, SIN, COS, TAU1, TAU2, SPEED2, SINK, WEIGHT, INERTIA, NORMAL = range(6, 16)
+LEFT, RIGHT = 0, 1
+FLIGHT = 0
+STICK, HOLD, BACK, FORTH, FLAT_BACK, FLAT_FORTH = range(6)
+JAMMED, OVERTURNED, END = range(-3, 0)
+ALPHA, RADIUS, HALF_WIDTH, HEIGHT, MASS, CENTROID_INERTIA, GRAVITY, MU, MU_KINETIC, DROP, DT, BY_FRICTION = range(12)
+TOUCH, TOPPLE, LIFT, FRICTION, FRICTION_TOO = range(5)
+
+_t = types()
+
+
+@kernel(_t.int64(_t.int64, _t.int64), inline=True)
+def landed(corner, kind):
+    """Return the mode of a kind of motion about a corner ([Sugimoto2017]_)."""
+    return 1 + 2 * kind + corner
+
+
+@kernel(_t.int64(_t.int64), inline=True)
+def corner_of(mode):
+    """Return the corner that touches ([Sugimoto2017]_)."""
+    return (mode - 1) % 2
+
+
+@kernel(_t.int64(_t.int64), inline=True)
+def kind_of(mode):
+    """Return the kind of motion about the corner ([Sugimoto2017]_)."""
+    return (mode - 1) // 2
+
+
+def flight_parameters(
+    block: TwoLayerBlock, gravity: float, mu: float, mu_kinetic: float, drop: float, dt: float, rule: str = "paper"
+) -> FloatArray:
+    """Return the parameters of the model ([Sugimoto2017]_); `dt` is the sampling interval, the longest step, `rule` that of landings."""
+    return np.array(
+        [
+            block.slenderness,
+            block.radius,
+            block.width / 2,
+            block.centroid_height,
+            block.mass,
+            block.centroid_inertia,
+            gravity,
+            mu,
+            mu_kinetic,
+            drop,
+            dt,
+            float(rule == "friction"),
+        ]
+    )
+
+
+def centroid(block: TwoLayerBlock, drop: float, modes: IntArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return displacement x and rise y of the centroid, (n,), m, from states of this model ([Sugimoto2017]_).
+
+    After landing the state holds the foot's slip; the centroid follows from the tilt about the corner that touches.
+    """
+    side = np.where(modes == FLIGHT, 0, 2 * ((modes - 1) % 2) - 1)
+    psi = np.pi / 2 - block.slenderness - side * states[:, THETA]
+    foot_to_centroid = -side * (block.radius * np.cos(psi) - block.width / 2)
+    risen = block.radius * np.sin(psi) - block.centroid_height - drop
+    flying = side == 0
+    return states[:, X] + foot_to_centroid, np.where(flying, states[:, Y], risen)
