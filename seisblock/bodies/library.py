@@ -88,24 +88,6 @@ def edges(block: Block) -> str:
     return f"turns about edges {block.inset * 1e3:.3g} mm in from its sides ({block.inset / block.width:.3g} of the width)"
 
 
-def described(block: Block) -> dict[str, Any]:
-    """Return what defines a block, SI with the unit in each key, for documents."""
-    right, left = block.slendernesses
-    return {
-        "name": block.name,
-        "width_m": block.width,
-        "height_m": block.height,
-        "depth_m": block.width if block.depth is None else block.depth,
-        "mass_kg": block.total_mass,
-        "centroid_height_m": block.centre,
-        "centroid_offset_m": block.centroid_offset,
-        "inset_m": block.inset,
-        "centroid_inertia_kg_m2": block.gyration_squared * block.total_mass,
-        "slenderness_right_rad": right,
-        "slenderness_left_rad": left,
-    }
-
-
 def restitution_of(table: Mapping[str, Any], name: str) -> float | None:
     """Return the restitution that a body's file brings along, or None."""
     own = table.get("restitution")

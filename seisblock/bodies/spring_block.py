@@ -145,23 +145,6 @@ class SpringBlock:
         return self.mass * gravity / 4.0
 
 
-def described(body: SpringBlock) -> dict[str, object]:
-    """Return a block's description for a document, the unit in each key's name."""
-    kx, ky, kz = body.stiffness
-    return {
-        "width_m": body.width,
-        "depth_m": body.depth,
-        "height_m": body.height,
-        "mass_kg": body.mass,
-        "stiffness_n_m": {"x": kx, "y": ky, "z": kz},
-        "damping": body.damping,
-        "alpha": body.alpha,
-        "gamma": body.gamma,
-        "beta": body.beta,
-        "frequency_vertical_hz": body.omega[2] / (2.0 * math.pi),
-    }
-
-
 def corner_rows(body: SpringBlock) -> FloatArray:
     """Return what the corners move by, per unit of each generalised coordinate.
 

@@ -39,6 +39,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "report": ("seisblock.cli.report:report", "One page about a record and what it does to some bodies."),
     "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
     "cite": ("seisblock.cli.cite:cite", "The papers an answer relies on, as text or BibTeX."),
+    "schema": ("seisblock.cli.schema:schema", "The keys of a command's JSON document, with meaning and unit, as JSON Schema."),
     "samples": ("seisblock.cli.samples:samples", "The bundled records and bodies: list them, copy them."),
     "completion": ("seisblock.cli.completion:completion", "Completion of commands and options for bash, zsh and fish."),
 }

@@ -17,17 +17,15 @@ def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
 
     What one answer relied on also stands in its --json document under citations.
     """
-    from dataclasses import asdict
-
     from seisblock.references import REFERENCES, SOFTWARE
 
     keys = CITED[command] if command else tuple(REFERENCES)
     chosen = [*(REFERENCES[key] for key in keys), SOFTWARE]
     if as_json:
-        from seisblock.present.document import Answer, to_json
+        from seisblock.present.documents.library import cite_document
+        from seisblock.present.documents.write import to_json
 
-        entries = [{**asdict(reference), "text": reference.text(), "bibtex": reference.bibtex()} for reference in chosen]
-        click.echo(to_json(Answer("cite", {"command": command}, entries, citations=keys)))
+        click.echo(to_json(cite_document(command, chosen, keys)))
     elif bibtex:
         click.echo("\n\n".join(reference.bibtex() for reference in chosen))
     else:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -12,9 +11,6 @@ from seisblock.cli.command import Command
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.talk import say
-
-if TYPE_CHECKING:
-    from seisblock.present.text.criteria import Card
 
 
 @click.command(
@@ -41,61 +37,30 @@ def criteria(
     A block overturns, says a criterion, when the demand (the record's PGA or PGV) exceeds its threshold. Those that want a
     frequency are given the record's equivalent frequency in each of its three definitions.
     """
-    from seisblock.bodies.library import described
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import components, load
-    from seisblock.present.document import Answer
+    from seisblock.present.documents.criteria import document
     from seisblock.present.text import criteria as shown
+    from seisblock.records import motion_of
+    from seisblock.studies.criteria_card import criteria_card
 
     chosen = choose_block({**body, "restitution": restitution})
     say(f"body: {chosen.says}")
     source = along(source, azimuth)
-    options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
-    records = load(source)
-    cards = [_card(record, name, chosen.block, options) for record in records for name in components(record, source)]
-    results = [
-        {
-            **({"record_index": records.index(card.record)} if len(records) > 1 else {}),
-            "component": card.component,
-            "pga_m_s2": card.measures.pga_m_s2,
-            "pgv_m_s": card.measures.pgv_m_s,
-            "equivalent_frequency_hz": card.measures.equivalent_frequency_hz,
-            "criteria": [asdict(row) for row in card.rows],
-            "simulated": asdict(card.outcome),
-        }
-        for card in cards
-    ]
-    given = {("gravity_m_s2" if key == "gravity" else key): value for key, value in options.items()}
-    parameters = {**given, "block": described(chosen.block), "velocity_highpass_hz": cards[0].velocity_highpass_hz}
-    citations = ["Furukawa2009", "Housner1963", "Zhang2001", "Ishiyama1982", "Tsutsui"]
-    warnings = list(dict.fromkeys(text for card in cards for text in card.warnings))
+    options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical}
+    cards = []
+    for record in load(source):
+        for name in components(record, source):
+            need_vertical(motion_of(record, name), vertical)
+            cards.append(criteria_card(record, name, chosen.block, gravity=gravity, **options))
     emit(
-        Answer("criteria", parameters, results, records, citations, warnings),
+        document(cards, options, gravity=gravity),
         output,
         tables=lambda: shown.tables(cards, gal=output.gal),
         csv=lambda path: shown.write(path, cards),
         figure=lambda: _draw(cards, gal=output.gal),
     )
-
-
-def _card(record: Any, component: str, block: Any, options: dict[str, Any]) -> Card:
-    """Return the criteria and the simulated outcome of one component."""
-    from seisblock.criteria.card import overturning_card
-    from seisblock.measures import Conventions, measure
-    from seisblock.present.text.criteria import Card
-    from seisblock.records import motion_of
-    from seisblock.solvers.rock.solve import solve_rock
-    from seisblock.studies.rocking.margin import flagged
-
-    rules = Conventions(gravity_m_s2=options["gravity"])
-    measured = measure(record, (component,), conventions=rules).components[0]
-    motion = motion_of(record, component)
-    need_vertical(motion, options["vertical"])
-    response = flagged(solve_rock(block, motion, **options))
-    frequencies = asdict(measured.equivalent_frequency_hz)
-    rows = overturning_card(block, measured.pga_m_s2, measured.pgv_m_s, frequencies, options["gravity"])
-    return Card(record, component, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings)
 
 
 def _draw(cards: Any, *, gal: bool) -> Any:

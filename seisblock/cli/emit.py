@@ -1,4 +1,4 @@
-"""From an answer to stdout and files, as the output options ask."""
+"""From a document to stdout and files, as the output options ask."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ import click
 from seisblock.cli.options import Output
 from seisblock.cli.talk import say, warn
 from seisblock.errors import OutputError
-from seisblock.present.document import Answer, to_json
+from seisblock.present.documents.kind import Document
+from seisblock.present.documents.write import to_json
 from seisblock.present.faces import figure_of, film_of
 from seisblock.present.files import refuse_collisions
 from seisblock.results import Response
@@ -28,7 +29,7 @@ STDOUT = Path("-")
 
 
 def emit(
-    answer: Answer,
+    document: Document,
     output: Output,
     *,
     tables: Callable[[], Iterable[Any]],
@@ -37,11 +38,11 @@ def emit(
     figure: Callable[[], Figure] | None = None,
     animation: Callable[[Path, Filming], None] | None = None,
 ) -> None:
-    """Show an answer and write the files asked for.
+    """Show an answer, or print its document, and write the files asked for.
 
     Parameters
     ----------
-    answer : Answer
+    document : Document
     output : Output
         The output options.
     tables : callable
@@ -58,12 +59,12 @@ def emit(
     if responses:
         figure = figure or (lambda: figure_of(responses, gal=output.gal))
         animation = animation or film_of(responses)
-    for message in answer.warnings:
+    for message in document.warnings:
         warn(message)
     if output.plot is not None and figure is None:
-        raise OutputError(f"{answer.command} has no figure here: leave --plot out")
+        raise OutputError(f"{document.command} has no figure here: leave --plot out")
     if output.animate is not None and animation is None:
-        raise OutputError(f"{answer.command} has no animation here: leave --animate out")
+        raise OutputError(f"{document.command} has no animation here: leave --animate out")
     refuse_collisions(output.csv, output.animate, None if output.plot == STDOUT else output.plot)
     if output.csv is not None:
         from seisblock.present.files import write_histories
@@ -80,7 +81,7 @@ def emit(
         say(f"wrote {output.plot}")
     # stdout comes last: a reader that goes away (| head) takes no file with it
     if output.json:
-        click.echo(to_json(answer))
+        click.echo(to_json(document))
     else:
         from seisblock.present.text.tables import console
 
@@ -118,20 +119,3 @@ def _animate(animation: Callable[[Path, Filming], None], output: Output) -> None
         lang = "en"
     with progress("drawing") as tell:
         animation(output.animate, Filming(output.slow, lang, tell))
-
-
-def response_answer(
-    command: str, responses: Sequence[Response[Any]], parameters: dict[str, Any], *, extra: dict[str, Any] | None = None
-) -> Answer:
-    """Return the answer of a solver: one result per response, with its record, warnings and citations."""
-    records = list({id(r.motion.record): r.motion.record for r in responses if r.motion.record is not None}.values())
-    index = {id(record): i for i, record in enumerate(records)}
-    results = []
-    for response in responses:
-        entry = response.summary()
-        if len(records) > 1:
-            entry = {"record_index": index[id(response.motion.record)], **entry}
-        results.append(entry)
-    warnings = list(dict.fromkeys(message for response in responses for message in response.warnings))
-    citations = list(dict.fromkeys(key for response in responses for key in response.citations))
-    return Answer(command, parameters, results, records, citations, warnings, extra or {})

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -122,7 +121,7 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
     from functools import partial
 
     from seisblock.bodies.cemetery.table import read_cemetery
-    from seisblock.present.document import Answer
+    from seisblock.present.documents.infer import StonesParameters, stones_document
     from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
     from seisblock.studies.cemetery.rate import FREQUENCIES
     from seisblock.studies.inverse.estimate import Assumptions, contour, estimate_shaking, groups_of, remarks_of
@@ -140,28 +139,18 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
     line = contour(survey, assumptions)
     warnings = [FITTED_EDGES] if asked["inset"] is not None and criterion == "furukawa" else []
     warnings += dict.fromkeys(text for each in estimates for text in remarks_of(each))
-    parameters = {
-        "cemetery": cemetery,
-        "stones": stones.size,
-        "rate": rate,
-        "unknown_stones": 0 if rate else stones.size - survey.judged,
-        "confidence": assumptions.level,
-        "common_error_ln_pga": assumptions.common_error,
-        "stone_error_ln_pga": assumptions.stone_error,
-        "criterion": criterion,
-        "inset": inset if criterion == "rigid" else None,
-        "prior": "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given",
-        "intensity": "2.68 + 1.72 log10 PGV (kine), standard deviation 0.21",
-    }
-    answer = Answer(
-        "infer",
-        parameters,
-        [asdict(each) for each in estimates],
-        (),
-        ("Furukawa2009", *(("Housner1963",) if criterion == "rigid" else ()), "Midorikawa1999"),
-        warnings,
-        {"contour": [asdict(each) for each in line]},
+    parameters = StonesParameters(
+        cemetery=cemetery,
+        stones=stones.size,
+        rate=rate,
+        unknown_stones=0 if rate else stones.size - survey.judged,
+        confidence=assumptions.level,
+        common_error_ln_pga=assumptions.common_error,
+        stone_error_ln_pga=assumptions.stone_error,
+        criterion=criterion,
+        inset=inset if criterion == "rigid" else None,
     )
+    answer = stones_document(estimates, line, parameters, warnings)
 
     def tables() -> Any:
         from seisblock.present.text.infer import estimate_tables
@@ -186,24 +175,21 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     """Answer from a displacement: every factor on each record."""
     from seisblock.cli.inputs import load, motions
     from seisblock.cli.progress import progress
-    from seisblock.present.document import Answer
     from seisblock.studies.inverse.factors import scale_factors
 
     if asked["slid"] is not None and asked["mu"] is None:
         raise click.UsageError("--slid needs --mu, the static friction coefficient, for example --mu 0.3")
     observed = asked["jumped"] if asked["slid"] is None else asked["slid"]
-    moves, parameters, citations = _moving_object(source, asked)
+    moves, document = _moving_object(source, asked)
+    curves: list[tuple[Any, Any]] = []
     # a jump goes on beyond the window in which it may start
-    records, results, curves = load(source, several_windows=asked["jumped"] is not None), [], []
-    for index, record in enumerate(records):
+    for record in load(source, several_windows=asked["jumped"] is not None):
         for motion in motions(record, source):
             displacement = moves(motion)
             with progress(f"{motion.name}: factors up to {asked['limit']:g}") as tell:
                 found = scale_factors(displacement, observed, motion, limit=asked["limit"], steps=asked["steps"], progress=tell)
-            results.append({**({"record_index": index} if len(records) > 1 else {}), **asdict(found)})
             curves.append((record, found))
-    parameters = {"observed_m": observed, **parameters, "limit": asked["limit"], "steps": asked["steps"]}
-    answer = Answer("infer", parameters, results, records, citations)
+    answer = document(curves, observed_m=observed, limit=asked["limit"], steps=asked["steps"])
 
     def tables() -> Any:
         from seisblock.present.text.infer import factor_tables
@@ -224,35 +210,27 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     emit(answer, output, tables=tables, figure=figure, csv=csv)
 
 
-def _moving_object(source: Source, asked: dict[str, Any]) -> tuple[Any, dict[str, Any], tuple[str, ...]]:
-    """Return what gives the displacement under a motion, and what it rests on."""
+def _moving_object(source: Source, asked: dict[str, Any]) -> tuple[Any, Any]:
+    """Return what gives the displacement under a motion, and what makes a document of the factors."""
     from functools import partial
 
     from seisblock.bodies.sliding_base import SlidingBase
+    from seisblock.present.documents.infer import jumped_document, slid_document
     from seisblock.studies.inverse import factors as study
 
+    gravity = asked["gravity"]
     if asked["slid"] is not None:
         base = SlidingBase(asked["mu"], asked["mu_kinetic"])
-        moves = partial(study.slid, base, vertical=asked["vertical"], gravity=asked["gravity"], largest=asked["largest"])
-        told = {"mu": asked["mu"], "mu_kinetic": asked["mu_kinetic"], "vertical": asked["vertical"], "gravity_m_s2": asked["gravity"]}
-        return moves, {"object": "slid", "largest": asked["largest"], **told}, ("Fujino1978",)
+        moves = partial(study.slid, base, vertical=asked["vertical"], gravity=gravity, largest=asked["largest"])
+        rubs = {"mu": asked["mu"], "mu_kinetic": asked["mu_kinetic"]}
+        return moves, partial(slid_document, largest=asked["largest"], vertical=asked["vertical"], gravity_m_s2=gravity, **rubs)
     from seisblock.cli.bodies.two_layer import two_layer_choice
 
     chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
     say(f"body: {chosen.block.name}; {chosen.says}")
     if asked["first"]:
         say("the first chain of motion in each record counts; without --first all are added up, as in seisblock jump")
-    options = {key: asked[key] for key in ("drop", "spin", "gravity", "landing", "first")}
-    moves = partial(study.jumped, chosen.block, contact=chosen.contact, flight_only=asked["flight_only"], windows=source.window, **options)
-    told = {
-        "block": chosen.block,
-        "contact": chosen.contact,
-        "flight_only": asked["flight_only"],
-        "first": asked["first"],
-        "windows_s": [list(window) for window in source.window],
-        "drop_m": asked["drop"],
-        "spin": asked["spin"],
-        "landing": asked["landing"],
-        "gravity_m_s2": asked["gravity"],
-    }
-    return moves, {"object": "jumped", **told}, ("Sugimoto2017",)
+    body: dict[str, Any] = {"contact": chosen.contact, "flight_only": asked["flight_only"]}
+    body |= {key: asked[key] for key in ("spin", "landing", "first")}
+    moves = partial(study.jumped, chosen.block, drop=asked["drop"], gravity=gravity, windows=source.window, **body)
+    return moves, partial(jumped_document, block=chosen.block, drop_m=asked["drop"], gravity_m_s2=gravity, windows_s=source.window, **body)

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit, response_answer
+from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
@@ -73,6 +73,7 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **as
     direction, displacements of the centroid are relative to the ground.
     """
     from seisblock.cli.bodies.two_layer import two_layer_choice
+    from seisblock.present.documents.jump import document
     from seisblock.present.text import jump as shown
     from seisblock.solvers.jump.solve import solve_jump
 
@@ -86,9 +87,8 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **as
         for record in load(source, several_windows=True)
         for motion in motions(record, source)
     ]
-    parameters = {**responses[0].options, "block": chosen.block, "tenon_m": tenon}
     emit(
-        response_answer("jump", responses, parameters),
+        document(responses, chosen.block, tenon=tenon),
         output,
         responses=responses,
         tables=lambda: shown.tables(responses, gal=output.gal, tenon=tenon),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -97,12 +96,13 @@ def measure(
     from seisblock.cli.inputs import components, load
     from seisblock.measures import Conventions
     from seisblock.measures import measure as measured
+    from seisblock.present.documents.measure import document
 
     rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=SIDES[direction], gravity_m_s2=gravity)
     level, origin = _threshold(gravity=gravity, **threshold)
     records = load(source, vertical_counts=True)
     answers = [measured(r, components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records]
-    parameters = {"threshold_m_s2": level, "threshold_from": origin, **asdict(rules)}
+    answer = document(records, answers, rules, threshold=level, threshold_from=origin)
 
     def tables() -> Any:
         from seisblock.present.text.measure import measures_report
@@ -117,7 +117,7 @@ def measure(
         return measure_figure(records[0], answers[0], gal=output.gal)
 
     say(f"threshold of the durations: {level:.4g} m/s^2 ({origin})")
-    emit(_answer(records, answers, parameters), output, tables=tables, csv=lambda path: _write(path, records, answers), figure=figure)
+    emit(answer, output, tables=tables, csv=lambda path: _write(path, records, answers), figure=figure)
 
 
 def _threshold(
@@ -144,18 +144,6 @@ def _threshold(
     from seisblock.measures.summary import DEFAULT_THRESHOLD
 
     return DEFAULT_THRESHOLD, "default, 0.1 g"
-
-
-def _answer(records: list[Any], answers: list[Any], parameters: dict[str, Any]) -> Any:
-    """Return the answer: one result per component; what belongs to a record stands beside them, in a list when there are several."""
-    from seisblock.present.document import Answer
-
-    several = len(records) > 1
-    results = [{**({"record_index": i} if several else {}), **asdict(m)} for i, answer in enumerate(answers) for m in answer.components]
-    whole = [{"jma_intensity": a.jma_intensity, "jma_class": a.jma_class, "peak_horizontal": a.horizontal} for a in answers]
-    extra = {key: [entry[key] for entry in whole] if several else whole[0][key] for key in whole[0]}
-    warnings = list(dict.fromkeys(text for answer in answers for text in answer.warnings))
-    return Answer("measure", parameters, results, records, answers[0].citations, warnings, extra)
 
 
 def _write(path: Path, records: list[Any], answers: list[Any]) -> None:

@@ -115,7 +115,7 @@ def overturn_rate(
     at --pga and --frequency; with one the rate for each horizontal component and for the larger of them.
     """
     from seisblock.bodies.cemetery.table import read_cemetery
-    from seisblock.present.document import Answer
+    from seisblock.present.documents.overturn_rate import document, parameters_of
     from seisblock.studies.cemetery import judgement as study
     from seisblock.studies.cemetery.rate import FREQUENCIES
 
@@ -139,16 +139,9 @@ def overturn_rate(
         curve = simulated or study.curve_of(stones, method, frequencies=frequencies, progress=tell)
     found = [(record, [*rates, study.larger_of(rates)] if record is not None and len(rates) > 1 else rates) for record, rates in judged]
     warnings = notes + study.warnings_of(stones, [each for _, shakings in groups for each in shakings], method, after=after)
-    parameters = _parameters(stones, after, method, asked)
-    answer = Answer(
-        "overturn-rate",
-        parameters,
-        _results(found) or [{"curve": curve}],
-        [r for r, _ in groups if r is not None],
-        method.citations,
-        warnings,
-        {"curve": curve},
-    )
+    frequency_kind = "given" if asked["frequency"] else KINDS[asked["equivalent"]]
+    parameters = parameters_of(stones, after, method, frequency_kind=frequency_kind)
+    answer = document(found, curve, parameters, citations=method.citations, warnings=warnings)
 
     def tables() -> Any:
         from seisblock.present.text.overturn_rate import tables as shown
@@ -215,34 +208,3 @@ def _groups(source: Source, asked: dict[str, Any]) -> list[tuple[Any, list[Any]]
     return [
         (record, shakings_of(record, components(record, source), kind=KINDS[asked["equivalent"]], frequency=own)) for record in load(source)
     ]
-
-
-def _results(found: list[tuple[Any, list[Any]]]) -> list[dict[str, Any]]:
-    """Return the entries of the document, with the index of their record when there are several."""
-    from dataclasses import asdict
-
-    several = len(found) > 1
-    return [{**({"record_index": i} if several else {}), **asdict(each)} for i, (_, rates) in enumerate(found) for each in rates]
-
-
-def _parameters(stones: Any, after: Any, method: Any, asked: dict[str, Any]) -> dict[str, Any]:
-    """Return everything that determines the answer."""
-    from seisblock.measures import Conventions
-
-    rules = Conventions()
-    return {
-        "cemetery": stones.source,
-        "stones": stones.size,
-        "reinforced_stones": int(stones.reinforced.sum()),
-        "compared_with_reinforced_stones": None if after is None else int(after.reinforced.sum()),
-        "criterion": method.criterion,
-        "fit": method.fits[0],
-        "fit_reinforced": method.fits[1],
-        "inset": None if method.criterion == "furukawa" else method.inset,
-        "stone_width_m": method.width,
-        "gravity_m_s2": method.gravity,
-        "confidence": method.confidence,
-        "equivalent_frequency": "given" if asked["frequency"] else KINDS[asked["equivalent"]],
-        "velocity_highpass_hz": rules.velocity_highpass_hz,
-        "velocity_baseline": rules.velocity_baseline,
-    }

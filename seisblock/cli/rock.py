@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from seisblock.cli.bodies.options import block_options, rocking_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit, response_answer
+from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
@@ -62,9 +62,9 @@ def rock(
     Each horizontal component is solved by itself. Rotation is positive when the block leans to the component's positive
     direction. After the record's end the fate is decided by energy.
     """
-    from seisblock.bodies.library import described
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.progress import progress
+    from seisblock.present.documents.rock import document
     from seisblock.present.text import rock as shown
     from seisblock.solvers.rock.solve import solve_rock
     from seisblock.studies.rocking.margin import find_margin, flagged
@@ -88,12 +88,12 @@ def rock(
             with progress(f"perturb {motion.name}") as tell:
                 extra["perturbation"] = perturbed(chosen.block, motion, perturb, spread=widths, seed=seed, progress=tell, **options)
         extras.append(extra)
-    parameters = {**responses[0].options, "block": described(chosen.block), "margin_limit": margin_limit if margin else None}
-    answer = response_answer("rock", responses, parameters)
-    for result, extra in zip(answer.results, extras, strict=True):
-        result.update({key: asdict(value) for key, value in extra.items()})  # type: ignore[attr-defined]
-
-    emit(answer, output, responses=responses, tables=lambda: shown.tables(responses, extras, gal=output.gal))
+    emit(
+        document(responses, chosen.block, extras, margin_limit=margin_limit if margin else None),
+        output,
+        responses=responses,
+        tables=lambda: shown.tables(responses, extras, gal=output.gal),
+    )
 
 
 def need_vertical(motion: Motion, vertical: bool) -> None:

@@ -41,9 +41,10 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
             if not written:
                 say(f"{directory} holds them already")
     if as_json:
-        from seisblock.present.document import Answer, to_json
+        from seisblock.present.documents.library import samples_document
+        from seisblock.present.documents.write import to_json
 
-        click.echo(to_json(Answer("samples", {"copied_to": directory}, shown.entries(chosen))))
+        click.echo(to_json(samples_document(chosen, directory)))
     elif directory is None:
         from seisblock.present.text.tables import console
 

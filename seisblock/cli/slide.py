@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit, response_answer
+from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.progress import progress
@@ -117,6 +116,7 @@ def _one(
 ) -> None:
     """Solve one set of parameters for each direction, or for the worst one."""
     from seisblock.bodies.sliding_base import sliding_base
+    from seisblock.present.documents.slide import document
     from seisblock.present.text import slide as shown
     from seisblock.records import motion_of
     from seisblock.solvers.slide.solve import solve_slide
@@ -136,9 +136,8 @@ def _one(
             say(f"largest slip of {len(directions)} directions at azimuth {worst} degrees")
             chosen = [motion_of(record, worst)]
         responses += [solve_slide(base, motion, vertical=vertical, gravity=fixed["gravity"]) for motion in chosen]
-    extra = {"azimuths": [asdict(point) for point in sweep]} if sweep else None
     emit(
-        response_answer("slide", responses, dict(responses[0].options), extra=extra),
+        document(responses, sweep),
         output,
         responses=responses,
         tables=lambda: shown.tables(responses, sweep),
@@ -149,26 +148,25 @@ def _study(
     records: list[Record], source: Source, output: Output, directions: list[str] | None, choice: dict[str, Any], fixed: dict[str, Any]
 ) -> None:
     """Compute every combination of parameters."""
-    from seisblock.present.document import Answer
+    from seisblock.present.documents.slide import study_document
     from seisblock.present.files import write_table
     from seisblock.present.text import slide_study as shown
     from seisblock.studies.sliding import slide_study, worst_directions
 
-    points, results = [], []
-    for index, record in enumerate(records):
+    points = []
+    for record in records:
         with progress("sliding") as tell:
             found = slide_study(motions=_motions(record, source, directions), **choice, **fixed, progress=tell)
-        found = found if directions is None else worst_directions(found)
-        points.append(found)
-        results += [{**({"record_index": index} if len(records) > 1 else {}), **asdict(point)} for point in found]
+        points.append(found if directions is None else worst_directions(found))
+    pairs = [(record, point) for record, found in zip(records, points, strict=True) for point in found]
     steep = sum(not point.holds_at_rest for found in points for point in found)
     warnings = [f"{steep} combinations were left out: friction does not hold at rest, or kinetic exceeds static friction"] if steep else []
     parameters = {**choice, "slope_length_m": fixed["slope_length"], "one_way": fixed["one_way"], "gravity_m_s2": fixed["gravity"]}
     emit(
-        Answer("slide", parameters, results, records, ["Fujino1978"], warnings),
+        study_document(parameters, pairs, warnings),
         output,
         tables=lambda: shown.tables(records, points),
-        csv=lambda path: write_table(path, list(results[0]), ([*row.values()] for row in results)),
+        csv=lambda path: write_table(path, *shown.study_columns(records, points)),
         figure=lambda: _draw(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"]),
     )
 

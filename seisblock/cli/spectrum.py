@@ -90,7 +90,7 @@ def spectrum(
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import load, motions
     from seisblock.cli.progress import progress
-    from seisblock.present.document import Answer
+    from seisblock.present.documents.spectrum import document
     from seisblock.present.text import spectrum as shown
     from seisblock.solvers.rock.solve import check_options
     from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum, size_of, slenderness_of
@@ -101,19 +101,14 @@ def spectrum(
     diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else default_sizes(steps))
     alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else default_slendernesses(steps))
     options: dict[str, Any] = {"restitution": restitution, "linear": linear, "vertical": vertical, "inset": inset or SHARP}
-    records = load(source)
     found = []
-    for record in records:
+    for record in load(source):
         for motion in motions(record, source):
             need_vertical(motion, vertical)
             with progress(f"spectrum {motion.name}") as tell:
                 found.append((motion, rocking_spectrum(diagonals, alphas, motion, gravity=gravity, progress=tell, **options)))
-    results = [
-        {**({"record_index": records.index(motion.record)} if len(records) > 1 and motion.record else {}), **shown.document(motion, answer)}
-        for motion, answer in found
-    ]
     emit(
-        Answer("spectrum", {"kind": kind, "gravity_m_s2": gravity, **options}, results, records, ["Housner1963", "Zhang2001"]),
+        document(found, kind, options, gravity=gravity),
         output,
         tables=lambda: shown.tables(found, kind, f"; edges worn by {inset.share:g} B + {inset.length_m:g} m per side" if inset else ""),
         csv=lambda path: shown.write(path, found),
@@ -133,21 +128,18 @@ def _sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ..
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import load, motions
     from seisblock.cli.progress import progress
-    from seisblock.present.document import Answer
+    from seisblock.present.documents.spectrum import sliding_document
     from seisblock.present.text import sliding_spectrum as shown
     from seisblock.studies.sliding import slide_study
 
     frictions = mu or tuple(round(0.02 * i, 2) for i in range(1, 41))
-    records, found = load(source), []
-    for motion in (motion for record in records for motion in motions(record, source)):
+    found = []
+    for motion in (motion for record in load(source) for motion in motions(record, source)):
         need_vertical(motion, vertical)
         with progress(f"sliding {motion.name}") as tell:
             found.append((motion, slide_study(frictions, motion, vertical=vertical, gravity=gravity, progress=tell)))
-    index = {id(record): i for i, record in enumerate(records)}
-    several = len(records) > 1
-    results = [{**({"record_index": index[id(m.record)]} if several else {}), **shown.document(m, points)} for m, points in found]
     emit(
-        Answer("spectrum", {"kind": "sliding", "gravity_m_s2": gravity, "vertical": vertical}, results, records, ["Fujino1978"]),
+        sliding_document(found, gravity=gravity, vertical=vertical),
         output,
         tables=lambda: shown.tables(found),
         csv=lambda path: shown.write(path, found),

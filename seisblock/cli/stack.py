@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit, response_answer
+from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
@@ -125,6 +125,7 @@ def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, .
 def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dict[str, Any]) -> None:
     """Follow the pile through the records."""
     from seisblock.cli.progress import progress
+    from seisblock.present.documents.stack import document
     from seisblock.present.text import stack as shown
     from seisblock.solvers.stack.solve import solve_stack
 
@@ -136,7 +137,7 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
             with progress(f"{record.station} {motion.name}".strip()) as tell:
                 responses.append(solve_stack(body, motion, contact=contact, progress=tell, **asked))
     emit(
-        response_answer("stack", responses, {**responses[0].options, "pile": body}),
+        document(responses, body, contact),
         output,
         responses=responses,
         tables=lambda: shown.tables(responses),
@@ -157,7 +158,7 @@ def _study(
 ) -> None:
     """Run the criterion study."""
     from seisblock.cli.progress import progress
-    from seisblock.present.document import Answer
+    from seisblock.present.documents.stack import study_document
     from seisblock.present.text import stack_criterion as shown
     from seisblock.studies.gravestone_criterion import PGAS, RATIOS, criterion_study, record_thresholds, rigid_levels
 
@@ -177,15 +178,9 @@ def _study(
             with progress(f"{record.station} {motion.name}".strip()) as tell:
                 scaled[f"{record.station} {motion.name}".strip()] = record_thresholds(body, motion, **same, progress=tell)
     rigid = rigid_levels(study, body, points=points, gravity=gravity)
-    answer = Answer(
-        "stack",
-        {"pile": body, "points": points, "contact": contact, "gravity_m_s2": gravity, "criterion": True, "grid": grid},
-        [shown.summary(study, rigid, scaled, reinforced=reinforced)],
-        records,
-        citations=("Furukawa2009",),
-    )
+    chosen: dict[str, Any] = {"pile": body, "contact": contact, "points": points, "gravity": gravity, "grid": grid}
     emit(
-        answer,
+        study_document(study, rigid, scaled, records, reinforced=reinforced, **chosen),
         output,
         tables=lambda: shown.tables(study, rigid, scaled, reinforced=reinforced),
         csv=lambda path: shown.write(study, path),

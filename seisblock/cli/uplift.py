@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from seisblock.cli.command import Command, option
-from seisblock.cli.emit import emit, response_answer
+from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
@@ -83,8 +83,8 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
     if harmonic or figure:
         _harmonic(source, output, int(figure) if figure else None, given)
         return
-    from seisblock.bodies.spring_block import described
     from seisblock.bodies.spring_choice import spring_block
+    from seisblock.present.documents.uplift import document
     from seisblock.present.text import uplift as shown
     from seisblock.solvers.uplift.solve import solve_uplift
 
@@ -94,7 +94,7 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
     body = spring_block(**{name: _single(name, value) for name, value in given.items()})
     responses = [solve_uplift(body, motion, gravity=gravity) for record in load(source) for motion in motions(record, source)]
     emit(
-        response_answer("uplift", responses, {**responses[0].options, "block": described(body)}),
+        document(responses, body),
         output,
         responses=responses,
         tables=lambda: shown.tables(responses, gal=output.gal),
@@ -103,6 +103,7 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
 
 def _harmonic(source: Source, output: Output, figure: int | None, given: dict[str, Any]) -> None:
     """Answer for harmonic shaking."""
+    from seisblock.present.documents.uplift import harmonic_document
     from seisblock.present.text import uplift_harmonic as shown
     from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_region
 
@@ -123,7 +124,7 @@ def _harmonic(source: Source, output: Output, figure: int | None, given: dict[st
     )
     regions = [uplift_region(body, ratios, phi_deg=phi, rho_deg=rho, corner=given["corner"], between=between) for body, phi, rho in blocks]
     emit(
-        shown.answer(regions),
+        harmonic_document(regions),
         output,
         tables=lambda: shown.tables(regions, every=given["frequency_ratio"] is not None),
         csv=lambda path: shown.write(path, regions),

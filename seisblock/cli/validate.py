@@ -27,6 +27,7 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, as_json: b
     from seisblock.cli.progress import progress
     from seisblock.present.text import validate as shown
     from seisblock.validation import cases_of
+    from seisblock.validation.case import counts
 
     chosen = [case for case in cases_of(paper) if case.quick or not quick]
     with quietly(quiet):
@@ -42,16 +43,15 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, as_json: b
             write_text(html, gallery(results))
             say(f"wrote {html}")
     if as_json:
-        from seisblock.present.document import Answer, to_json
+        from seisblock.present.documents.validate import document
+        from seisblock.present.documents.write import to_json
 
-        papers = list(dict.fromkeys(map(shown.paper_of, results)))
-        parameters, counted = {"papers": papers, "quick": quick}, {"counts": shown.counts(results)}
-        click.echo(to_json(Answer("validate", parameters, shown.entries(results), citations=papers, extra=counted)))
+        click.echo(to_json(document(results, quick=quick)))
     else:
         from seisblock.present.text.tables import console
 
         screen = console()
         for part in shown.tables(results):
             screen.print(part)
-    if shown.counts(results)["fails"]:
+    if counts(results)["fails"]:
         ctx.exit(FAILED)

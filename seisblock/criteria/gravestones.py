@@ -81,6 +81,11 @@ The text before (10) gives q = 1.85, at most 1.1 % apart. Differs: the two verdi
 come from p = 1162.9 gal; they need 1342 to 1409 gal, and 1362.9 (one digit) would do. The printed value stands here."""
 
 
+def published(reinforced: bool) -> tuple[GravestoneFit, str]:
+    """Return the paper's fit, and the number of its equation ([Furukawa2009]_ eqs. (9), (10))."""
+    return (DOWELLED, "(10)") if reinforced else (PLAIN, "(9)")
+
+
 def overturning_level(frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> FloatArray:
     """Return a(f), m/s^2, the PGA times H/B at which a stone overturns ([Furukawa2009]_ eq. (8)).
 

@@ -116,6 +116,13 @@ def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence
     write_text(path, text.getvalue())
 
 
+def of_records(header: Sequence[str], tables: Sequence[Iterable[Sequence[Any]]]) -> tuple[list[str], Iterator[list[Any]]]:
+    """Return the heading and the rows of one table per record, one below the other; of several the first column says which record."""
+    several = len(tables) > 1
+    rows = ([*([index] if several else []), *row] for index, table in enumerate(tables) for row in table)
+    return [*(["record_index"] if several else []), *header], rows
+
+
 def write_histories(path: Path | str, responses: Sequence[Response[Any]]) -> None:
     """Write the time histories of responses, one below the other, with the component in the first column and the phase in the last.
 

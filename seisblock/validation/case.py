@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import re
+from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -16,6 +18,9 @@ CONVERGED = 1e-8
 """Relative tolerance where one side is integrated: the error of the reference integration."""
 
 Verdict = Literal["holds", "differs", "fails"]
+
+VERDICTS: tuple[Verdict, ...] = ("fails", "differs", "holds")
+"""What matters most first."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +66,17 @@ class Case:
         if self.status == "differs" and not self.note:
             raise ParameterError(f"case {self.key}: a difference needs its explanation in the note")
 
+    @property
+    def paper(self) -> str:
+        """Key of the paper."""
+        found = re.match(r"\[(\w+)\]_", self.where)
+        return found.group(1) if found else self.key.split("-")[0]
+
+    @property
+    def place(self) -> str:
+        """Equation, table or figure."""
+        return re.sub(r"^\[\w+\]_\s*", "", self.where)
+
     def run(self) -> CaseResult:
         """Compute the value and judge it; what cannot be computed fails."""
         try:
@@ -88,3 +104,14 @@ class CaseResult:
     def error(self) -> float:
         """Computed less expected, in the case's unit."""
         return self.computed - self.case.expected
+
+
+def ranked(results: Sequence[CaseResult]) -> list[CaseResult]:
+    """Return the results with what fails first, then what differs; otherwise in their order."""
+    return sorted(results, key=lambda result: VERDICTS.index(result.verdict))
+
+
+def counts(results: Sequence[CaseResult]) -> dict[str, int]:
+    """Return how many cases got each verdict."""
+    counted = Counter(result.verdict for result in results)
+    return {verdict: counted[verdict] for verdict in VERDICTS}

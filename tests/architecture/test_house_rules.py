@@ -37,7 +37,8 @@ LIGHT = (
     "seisblock.samples",
     "seisblock.present.words",
     "seisblock.present.page",
-    "seisblock.present.document",
+    "seisblock.present.documents.kind",
+    "seisblock.present.documents.write",
     "seisblock.present.files",
 )
 """Modules that promise to load nothing large."""

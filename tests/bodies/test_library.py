@@ -5,9 +5,10 @@ import math
 import pytest
 
 from seisblock.bodies.block import Block, resized
-from seisblock.bodies.library import block_of, described, load_block
+from seisblock.bodies.library import block_of, load_block
 from seisblock.cli.bodies.block import choose_block
 from seisblock.errors import BodyError, InputError, ParameterError
+from seisblock.present.documents.bodies import block_entry
 
 
 def test_bundled_gravestone():
@@ -35,9 +36,9 @@ def test_units_and_everything_a_block_takes(tmp_path):
     )
     block = load_block(path)
     assert block == Block(0.4, 1.6, 0.303, 300.0, centroid_height=0.7, centroid_offset=-0.02, centroid_inertia=60.0, name="statue")
-    told = described(block)
-    assert told["mass_kg"] == 300.0
-    assert told["slenderness_right_rad"] == pytest.approx(math.atan(0.22 / 0.7))
+    told = block_entry(block)
+    assert told.mass_kg == 300.0
+    assert told.slenderness_right_rad == pytest.approx(math.atan(0.22 / 0.7))
 
 
 @pytest.mark.parametrize(

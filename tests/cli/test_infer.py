@@ -59,7 +59,7 @@ def survey(tmp_path):
 def test_a_rate(document):
     """35 of 100 stones like Aoyama's: PGA and PGV for a frequency, near Kofu's 725 gal, the contour beside it."""
     found = document("--rate", "35/100", "--cemetery", "aoyama.csv", "--frequency", 2.75)
-    assert found["schema"] == "seisblock/infer/1"
+    assert found["schema"] == "seisblock/infer/2"
     (each,) = found["results"]
     assert set(each) == ESTIMATE
     low, high = each["pga_interval_m_s2"]

@@ -56,7 +56,7 @@ def test_record_csv_from_its_directory(tmp_path, monkeypatch):
     shutil.copy(sample_path("synthetic_jma.csv"), tmp_path / "record.csv")
     monkeypatch.chdir(tmp_path)
     document = answer("record.csv")
-    assert document["schema"] == "seisblock/jump/1"
+    assert document["schema"] == "seisblock/jump/2"
     assert document["record"]["format"] == "JMA-CSV"
     assert [entry["component"] for entry in document["results"]] == ["NS", "EW"]
     assert document["citations"] == ["Sugimoto2017"]

@@ -204,4 +204,4 @@ def test_plot_to_stdout_is_the_picture_and_nothing_else(tmp_path):
 def test_one_process_answers_many_times(tmp_path):
     """Called again and again in one process, the answer is the same and nothing is left behind."""
     first, second = (CliRunner().invoke(main, ["jump", "--json"]).stdout for _ in range(2))
-    assert first == second and json.loads(first)["schema"] == "seisblock/jump/1"
+    assert first == second and json.loads(first)["schema"] == "seisblock/jump/2"

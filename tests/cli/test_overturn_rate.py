@@ -66,7 +66,7 @@ def test_the_users_line_with_the_users_file(run, tmp_path):
 def test_the_curve_in_the_document(document):
     """Without a record the one result holds the curve, which stands at the top level, too; each point is the share above (9)."""
     found = document("--cemetery", "aoyama.csv")
-    assert found["schema"] == "seisblock/overturn-rate/1"
+    assert found["schema"] == "seisblock/overturn-rate/2"
     assert found["results"] == [{"curve": found["curve"]}]
     assert found["record"] is None
     assert {point["frequency_hz"] for point in found["curve"]} == {0.5, 1.0, 1.5, 2.0, 2.5, 3.0}

@@ -41,7 +41,7 @@ def test_document_keeps_the_contract_and_the_library_agrees():
     document = answer("--mu", "0.2", "--kappa", "0.5", "--vertical")
     assert document["schema"] == "seisblock/slide/1"
     assert document["parameters"]["mu_kinetic"] == 0.1
-    assert document["parameters"]["vertical"] == 1.0
+    assert document["parameters"]["vertical_scale"] == 1.0
     assert [entry["component"] for entry in document["results"]] == ["NS", "EW"]
     record = read("synthetic_jma.csv")
     for entry in document["results"]:
@@ -88,7 +88,7 @@ def test_lists_and_ranges_make_the_study(tmp_path):
 def test_vertical_study_reports_beta():
     """With vertical motion the study holds the ratio to the slip without it; without vertical motion there is none."""
     points = answer("--mu", "0.1,0.2", "--vertical-scale", "0,1,3", "--component", "NS")["results"]
-    base = {point["mu"]: point["max_slip_m"] for point in points if point["vertical"] == 0.0}
+    base = {point["mu"]: point["max_slip_m"] for point in points if point["vertical_scale"] == 0.0}
     for point in points:
         assert point["beta"] == pytest.approx(point["max_slip_m"] / base[point["mu"]], rel=1e-15)
     assert "beta" in run("--mu", "0.1,0.2", "--vertical").stdout

@@ -47,7 +47,7 @@ def test_no_record_means_the_bundled_one():
 def test_the_document_keeps_the_contract(pulse):
     """The JSON names what fell and when, and tells tilt and slip of every stone."""
     document = answer(pulse, "--stones", "wagata.toml")
-    assert document["schema"] == "seisblock/stack/1"
+    assert document["schema"] == "seisblock/stack/2"
     assert document["citations"] == ["Furukawa2009"]
     (found,) = document["results"]
     assert set(found) >= KEYS

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
-from seisblock.present.text.criteria import DEFINITIONS, Card
+from seisblock.present.text.criteria import DEFINITIONS
+from seisblock.studies.criteria_card import Card
 
 
 def figure(cards: Sequence[Card], *, gal: bool = True) -> Figure:

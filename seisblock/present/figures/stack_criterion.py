@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from seisblock.criteria.gravestones import overturning_level
+from seisblock.criteria.gravestones import overturning_level, published
 from seisblock.present.figures import canvas
-from seisblock.present.text.stack_criterion import Scaled, published
+from seisblock.present.text.stack_criterion import Scaled
 from seisblock.studies.gravestone_criterion import CriterionStudy, frequencies_of
 from seisblock.units import GAL
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from html import escape
 
 from seisblock.present.page import page
-from seisblock.present.text.validate import counts, paper_of, place_of, quantity, ranked, short
+from seisblock.present.text.validate import quantity, short
 from seisblock.references import REFERENCES
-from seisblock.validation.case import CaseResult
+from seisblock.validation.case import CaseResult, counts, ranked
 
 STYLE = """
 td.text { min-width: 14rem; } td.strip { width: 11rem; padding: .15rem 0; } td.strip svg { width: 11rem; height: 1.5rem; display: block; }
@@ -56,20 +56,20 @@ def _parts(results: Sequence[CaseResult]) -> Iterator[str]:
     if differing:
         yield "<h2>What differs from the papers, and why</h2>"
         yield _table(differing, place=True)
-    for paper in dict.fromkeys(map(paper_of, results)):
-        mine = [result for result in results if paper_of(result) == paper]
+    for paper in dict.fromkeys(result.case.paper for result in results):
+        mine = [result for result in results if result.case.paper == paper]
         yield f'<h2 id="{escape(paper)}">{escape(paper)}</h2>'
         if paper in REFERENCES:
             yield f'<p class="soft">{escape(REFERENCES[paper].text())}</p>'
-        for place in dict.fromkeys(map(place_of, mine)):
-            yield from _group(place, [result for result in mine if place_of(result) == place])
+        for place in dict.fromkeys(result.case.place for result in mine):
+            yield from _group(place, [result for result in mine if result.case.place == place])
 
 
 def _summary(results: Sequence[CaseResult]) -> str:
     """Return one tile for each paper."""
     tiles = []
-    for paper in dict.fromkeys(map(paper_of, results)):
-        counted = counts([result for result in results if paper_of(result) == paper])
+    for paper in dict.fromkeys(result.case.paper for result in results):
+        counted = counts([result for result in results if result.case.paper == paper])
         kind = "bad" if counted["fails"] else "mild" if counted["differs"] else ""
         told = f"{counted['holds']} hold, {counted['differs']} differ as explained, {counted['fails']} fail"
         tiles.append(f'<div class="{kind}"><b><a href="#{escape(paper)}">{escape(paper)}</a></b><span>{told}</span></div>')
@@ -122,7 +122,7 @@ def _table(results: Sequence[CaseResult], *, place: bool = False) -> str:
 def _row(result: CaseResult, *, place: bool) -> str:
     """Return the row of one case."""
     case = result.case
-    statement = f"{paper_of(result)} {place_of(result)}: {quantity(result)}" if place else quantity(result)
+    statement = f"{result.case.paper} {result.case.place}: {quantity(result)}" if place else quantity(result)
     numbers = {"expected": short(case.expected, 6), "computed": short(result.computed, 6)}
     numbers |= {"error": short(result.error, 2), "tolerance": short(case.tolerance, 2)}
     cells = "".join(f'<td data-name="{name}">{text}</td>' for name, text in numbers.items())

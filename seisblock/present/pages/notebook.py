@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from seisblock.present.document import plain
+from seisblock.present.documents.units import unit_of
+from seisblock.present.documents.write import plain
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.embed import picture
 from seisblock.present.text.tables import number
@@ -18,10 +18,6 @@ from seisblock.words import language
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-UNITS = ("_m_s2", "_m_s", "_rad_s", "_rad", "_kg_m2", "_deg", "_hz", "_mm", "_m", "_n", "_s")
-"""Endings that name a unit, the longest first."""
-
-_SPELT = {"_m_s2": "m/s²", "_m_s": "m/s", "_rad_s": "rad/s", "_kg_m2": "kg m²", "_hz": "Hz", "_n": "N"}
 _STYLE = "border-collapse:collapse;margin:.3em 0;font-variant-numeric:tabular-nums"
 
 
@@ -56,7 +52,7 @@ def _png(figure: Figure) -> bytes:
 def html(response: Response[Any]) -> str:
     """Return a response as a notebook shows it: what it is about, its outcome, its warnings, its figure."""
     title = " · ".join(part for part in (response.model, response.motion.name, str(getattr(response.body, "name", ""))) if part)
-    parts = [f"<b>{escape(title)}</b>", *_tables(plain(asdict(response.outcome)))]
+    parts = [f"<b>{escape(title)}</b>", *_tables(plain(response.outcome))]
     parts += [f'<p style="border-left:4px solid #c0392b;padding-left:.6em">{escape(text)}</p>' for text in response.warnings]
     parts.append(picture(figure_of([response]), language(), title))
     return f'<div style="max-width:60em">{"".join(parts)}</div>'
@@ -84,9 +80,14 @@ def _is_short(value: Any) -> bool:
 
 def _spelt(key: str) -> str:
     """Return a key as words with its unit in brackets."""
-    unit = next((ending for ending in UNITS if key.endswith(ending)), "")
-    words = key.removesuffix(unit).replace("_", " ")
-    return f"{words} ({_SPELT.get(unit, unit[1:])})" if unit else words
+    name, unit = unit_of(key)
+    words = name.replace("_", " ")
+    return f"{words} ({_superscript(unit)})" if unit else words
+
+
+def _superscript(unit: str) -> str:
+    """Return a unit with raised powers."""
+    return unit.replace("^2", "²").replace("^3", "³")
 
 
 def _cell(value: Any) -> str:

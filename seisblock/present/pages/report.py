@@ -10,11 +10,11 @@ from seisblock.present.faces import figure_of
 from seisblock.present.figures.embed import picture
 from seisblock.present.page import facts, html_table, note, page
 from seisblock.present.pages import report_words as said
-from seisblock.present.text.criteria import Card
 from seisblock.present.text.tables import NOTHING, number, seconds
 from seisblock.present.words import translate
 from seisblock.references import REFERENCES
 from seisblock.studies.assessment import Assessment, BodyAssessment, Effect
+from seisblock.studies.criteria_card import Card
 from seisblock.units import GAL, KINE
 
 ORDER = ("rock", "slide", "jump", "uplift")

@@ -3,40 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rich.text import Text
 
-from seisblock.bodies.block import Block
 from seisblock.bodies.library import edges
 from seisblock.criteria.card import ACCELERATION, Row
-from seisblock.measures import ComponentMeasures
 from seisblock.present.files import write_table
 from seisblock.present.text.rock import way_to_alpha
 from seisblock.present.text.tables import acceleration_unit, number, record_line, table
 from seisblock.records import Record
-from seisblock.solvers.rock.outcome import RockOutcome
+from seisblock.studies.criteria_card import Card
 from seisblock.units import GAL, KINE
 
 HEADINGS = {"pga_pgv": "PGA/2πPGV", "fourier": "Fourier", "pulse_width": "pulse"}
 """The equivalent frequencies, as short as a column."""
 DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": "pulse width"}
-
-
-@dataclass(frozen=True)
-class Card:
-    """The criteria of one component beside its simulated outcome."""
-
-    record: Record
-    component: str
-    block: Block
-    measures: ComponentMeasures
-    rows: tuple[Row, ...]
-    outcome: RockOutcome
-    velocity_highpass_hz: float | None
-    warnings: tuple[str, ...] = ()
 
 
 def tables(cards: Sequence[Card], *, gal: bool) -> Iterator[Any]:

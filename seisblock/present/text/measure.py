@@ -9,6 +9,7 @@ from rich.console import Group
 from rich.text import Text
 
 from seisblock.measures import FilterRange, RecordMeasures, ground_history
+from seisblock.present.files import of_records
 from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, seconds, table
 from seisblock.records import Record
 from seisblock.records.process import pick
@@ -108,26 +109,21 @@ def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) 
     Acceleration is as measured; velocity and displacement stand on the baseline of PGV and PGD. Several records stand one
     below the other with their index in the first column.
     """
-    several = len(records) > 1
     codes = list(dict.fromkeys(m.component for answer in answers for m in answer.components))
     quantities = ("acceleration_m_s2", "velocity_m_s", "displacement_m")
-    heading = [*(["record_index"] if several else []), "time_s", *(f"{code}_{name}" for code in codes for name in quantities)]
-    return heading, _history_rows(records, answers, codes, several=several)
+    header = ["time_s", *(f"{code}_{name}" for code in codes for name in quantities)]
+    return of_records(header, [_history_rows(record, answer, codes) for record, answer in zip(records, answers, strict=True)])
 
 
-def _history_rows(
-    records: Sequence[Record], answers: Sequence[RecordMeasures], codes: Sequence[str], *, several: bool
-) -> Iterator[list[Any]]:
-    """Yield the rows of :func:`history_table`; a component that a record lacks stays empty."""
-    for index, (record, answer) in enumerate(zip(records, answers, strict=True)):
-        present = {m.component for m in answer.components}
-        columns: list[list[Any]] = [record.time.tolist()]
-        for code in codes:
-            if code not in present:
-                columns += [[""] * record.samples] * 3
-                continue
-            a = pick(record, code).acceleration
-            history = ground_history(a, record.dt, highpass_hz=answer.conventions.velocity_highpass_hz)
-            columns += [a.tolist(), history.velocity.tolist(), history.displacement.tolist()]
-        for row in zip(*columns, strict=True):
-            yield [*([index] if several else []), *row]
+def _history_rows(record: Record, answer: RecordMeasures, codes: Sequence[str]) -> Iterator[Sequence[Any]]:
+    """Yield the rows of one record; a component that it lacks stays empty."""
+    present = {m.component for m in answer.components}
+    columns: list[list[Any]] = [record.time.tolist()]
+    for code in codes:
+        if code not in present:
+            columns += [[""] * record.samples] * 3
+            continue
+        a = pick(record, code).acceleration
+        history = ground_history(a, record.dt, highpass_hz=answer.conventions.velocity_highpass_hz)
+        columns += [a.tolist(), history.velocity.tolist(), history.displacement.tolist()]
+    yield from zip(*columns, strict=True)

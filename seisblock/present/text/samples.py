@@ -50,23 +50,6 @@ def listing(samples: Sequence[Sample]) -> Iterator[Any]:
         yield Padding(Text(f"licence: {sample.licence}\n{origin}", style="dim"), (0, 0, 1, 2))
 
 
-def entries(samples: Sequence[Sample]) -> list[dict[str, Any]]:
-    """Return the samples for a document."""
-    return [
-        {
-            "name": s.name,
-            "kind": s.kind,
-            "description": s.description,
-            "origin": s.origin,
-            "licence": s.licence,
-            "sha256": s.sha256,
-            "pga_m_s2": {code: round(value / 100.0, 9) for code, value in s.pga_gal.items()},
-            "path": str(sample_directory() / s.name),
-        }
-        for s in samples
-    ]
-
-
 def copy_samples(samples: Sequence[Sample], directory: Path, *, overwrite: bool = False) -> list[Path]:
     """Copy samples, and the notice of their terms, to a directory; return the files written.
 

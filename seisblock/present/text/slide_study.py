@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from seisblock.present.documents.slide import SLIDE_POINT, point_entry
+from seisblock.present.files import of_records
 from seisblock.present.text.slide import millimetres
 from seisblock.present.text.tables import NOTHING, record_line, table
 from seisblock.records import Record
@@ -42,6 +44,12 @@ class Arrangement:
     def name(self, point: SlidePoint) -> str:
         """Return the name of the curve on which a point lies."""
         return ", ".join(f"{SYMBOLS[key].split(' (')[0]} {getattr(point, key):g}" for key in self.curves)
+
+
+def study_columns(records: Sequence[Record], studies: Sequence[Points]) -> tuple[list[str], Iterator[list[Any]]]:
+    """Return the heading and the rows of a CSV file: a row per point, and in it every key."""
+    header = [key for key in SLIDE_POINT.__struct_fields__ if key != "record_index"]
+    return of_records(header, [[[getattr(entry, key) for key in header] for entry in map(point_entry, points)] for points in studies])
 
 
 def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any]:

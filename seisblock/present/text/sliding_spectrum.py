@@ -20,16 +20,6 @@ Curves = Sequence[tuple[Motion, Sequence[SlidePoint]]]
 MOST_ROWS = 25
 
 
-def document(motion: Motion, points: Sequence[SlidePoint]) -> dict[str, Any]:
-    """Return one result of the JSON document."""
-    return {
-        "component": motion.name,
-        "mu": [p.mu for p in points],
-        "max_slip_m": [p.max_slip_m for p in points],
-        "residual_slip_m": [p.residual_slip_m for p in points],
-    }
-
-
 def tables(curves: Curves) -> Iterator[Any]:
     """Yield, per component, a table of at most 25 frictions."""
     last = None

@@ -23,19 +23,6 @@ MOST_ROWS, MOST_COLUMNS = 12, 9
 FALLS = "falls"
 
 
-def document(motion: Motion, found: RockingSpectrum) -> dict[str, Any]:
-    """Return one result of the JSON document: axes, and matrices with a row per size and a column per slenderness."""
-    return {
-        "component": motion.name,
-        "size_m": found.size_m,
-        "frequency_parameter_rad_s": found.frequency_parameter_rad_s,
-        "slenderness_rad": found.slenderness_rad,
-        "height_over_width": 1 / np.tan(found.slenderness_rad),
-        "max_rotation_ratio": found.max_rotation_ratio,
-        "overturned": found.overturned,
-    }
-
-
 def tables(spectra: Spectra, kind: str, worn: str = "") -> Iterator[Any]:
     """Yield, per component, a table of at most 12 sizes and 9 slendernesses, and the share that falls; `worn` tells of the edges."""
     last = None

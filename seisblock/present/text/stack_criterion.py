@@ -8,7 +8,7 @@ from typing import Any
 
 from rich.text import Text
 
-from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, overturning_level, overturning_ratio
+from seisblock.criteria.gravestones import GravestoneFit, overturning_level, overturning_ratio, published
 from seisblock.present.files import write_table
 from seisblock.present.text.tables import NOTHING, number, table
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, frequencies_of
@@ -16,31 +16,6 @@ from seisblock.units import GAL
 
 Scaled = dict[str, tuple[Threshold, ...]]
 """Thresholds of scaled records, by their names."""
-
-
-def published(reinforced: bool) -> tuple[GravestoneFit, str]:
-    """Return the paper's fit, and the number of its equation."""
-    return (DOWELLED, "(10)") if reinforced else (PLAIN, "(9)")
-
-
-def summary(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, reinforced: bool) -> dict[str, Any]:
-    """Return the study as one result of a document."""
-    fit, equation = published(reinforced)
-    return {
-        "thresholds": study.thresholds,
-        "levels": [
-            {
-                "frequency_hz": f,
-                "level_m_s2": study.levels.get(f),
-                "rigid_block_m_s2": rigid.get(f),
-                "published_m_s2": float(overturning_level(f, fit)),
-            }
-            for f in frequencies_of(study)
-        ],
-        "fit": study.fit,
-        "published": {"equation": equation, "fit": fit},
-        "scaled_records": [{"record": name, "thresholds": thresholds} for name, thresholds in scaled.items()],
-    }
 
 
 def tables(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, reinforced: bool) -> Iterator[Any]:

@@ -9,8 +9,7 @@ from typing import Any
 
 from rich.text import Text
 
-from seisblock.bodies.spring_block import described
-from seisblock.present.document import Answer
+from seisblock.present.documents.uplift import RATIOS
 from seisblock.present.files import write_table
 from seisblock.present.text.tables import table
 from seisblock.studies.uplift_regions import UpliftRegion
@@ -19,38 +18,6 @@ SYMBOLS = {"alpha": "α", "gamma": "γ", "beta": "β", "damping": "h", "phi": "�
 UNITS = {"phi": "°", "rho": "°"}
 MOST_ROWS = 24
 """Rows of a curve that a terminal shows unless the frequencies were asked for."""
-
-
-def answer(regions: Sequence[UpliftRegion]) -> Answer:
-    """Return the document's content: one result per combination of parameters."""
-    varied = {name: sorted({region.ratios[name] for region in regions}) for name in SYMBOLS}
-    parameters: dict[str, Any] = {_key(name): values if len(values) > 1 else values[0] for name, values in varied.items()}
-    parameters |= {"corner": regions[0].corner, "block": described(regions[0].body) if len(regions) == 1 else None}
-    return Answer("uplift", parameters, [_result(region) for region in regions], citations=["Okumura1987"])
-
-
-def _key(name: str) -> str:
-    """Return the key of a parameter in the document."""
-    return f"{name}_deg" if name in UNITS else name
-
-
-def _result(region: UpliftRegion) -> dict[str, Any]:
-    """Return one region as a mapping."""
-    modes = region.modes
-    return {
-        **{_key(name): value for name, value in region.ratios.items()},
-        "natural_frequencies_hz": modes.frequencies_hz,
-        "modes": [
-            {"name": name, "frequency_hz": f, "frequency_ratio": float(w) / modes.omega_1, "over_omega_v": float(w) / region.body.omega[2]}
-            for name, f, w in zip(modes.names, modes.frequencies_hz, modes.omega, strict=True)
-        ],
-        "minimum": region.minimum,
-        "minima": region.minima,
-        "curve": [
-            {"frequency_ratio": float(r), "acceleration_ratio": float(a)}
-            for r, a in zip(region.frequency_ratio, region.acceleration_ratio, strict=True)
-        ],
-    }
 
 
 def title(region: UpliftRegion, names: Sequence[str] = tuple(SYMBOLS)) -> str:
@@ -104,7 +71,7 @@ def write(path: Path, regions: Sequence[UpliftRegion]) -> None:
     """Write the curves as CSV, one below the other."""
     write_table(
         path,
-        [*(_key(name) for name in SYMBOLS), "frequency_ratio", "acceleration_ratio"],
+        [*RATIOS.values(), "frequency_ratio", "acceleration_ratio"],
         (
             [*region.ratios.values(), float(r), float(a)]
             for region in regions

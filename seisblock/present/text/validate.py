@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -13,10 +11,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from seisblock.validation.case import CaseResult
-
-ORDER = ("fails", "differs", "holds")
-"""Verdicts, what matters most first."""
+from seisblock.validation.case import VERDICTS, CaseResult, counts
 
 WIDTH = 110
 """Widest line, characters."""
@@ -29,59 +24,16 @@ _HEADINGS = {
 _STYLES = {"fails": "bold red", "differs": "bold yellow", "holds": "bold green"}
 
 
-def paper_of(result: CaseResult) -> str:
-    """Return the key of the paper a case belongs to."""
-    found = re.match(r"\[(\w+)\]_", result.case.where)
-    return found.group(1) if found else result.case.key.split("-")[0]
-
-
-def place_of(result: CaseResult) -> str:
-    """Return the equation, table or figure of a case."""
-    return re.sub(r"^\[\w+\]_\s*", "", result.case.where)
-
-
-def entries(results: Sequence[CaseResult]) -> list[dict[str, Any]]:
-    """Return the results for a document, what fails first, then what differs."""
-    return [
-        {
-            "key": r.case.key,
-            "paper": paper_of(r),
-            "where": place_of(r),
-            "quantity": r.case.quantity,
-            "unit": r.case.unit,
-            "expected": r.case.expected,
-            "computed": r.computed,
-            "error": r.error,
-            "tolerance": r.case.tolerance,
-            "status": r.case.status,
-            "verdict": r.verdict,
-            "note": r.case.note,
-        }
-        for r in ranked(results)
-    ]
-
-
-def ranked(results: Sequence[CaseResult]) -> list[CaseResult]:
-    """Return the results with what fails first, then what differs; otherwise in their order."""
-    return sorted(results, key=lambda result: ORDER.index(result.verdict))
-
-
-def counts(results: Sequence[CaseResult]) -> dict[str, int]:
-    """Return how many cases got each verdict."""
-    counted = Counter(result.verdict for result in results)
-    return {verdict: counted[verdict] for verdict in ORDER}  # type: ignore[index]
-
-
 def tables(results: Sequence[CaseResult]) -> Iterator[Any]:
     """Yield what is printed: for each verdict the cases paper by paper, explanations under what differs, and the count at the end."""
-    for verdict in ORDER:
+    for verdict in VERDICTS:
         chosen = [result for result in results if result.verdict == verdict]
         if chosen:
             yield Text(_HEADINGS[verdict], style=_STYLES[verdict])
             yield _grid(heading=True)
-            for paper in dict.fromkeys(map(paper_of, chosen)):
+            for paper in dict.fromkeys(result.case.paper for result in chosen):
                 yield Text(paper, style="italic")
-                part = [result for result in chosen if paper_of(result) == paper]
+                part = [result for result in chosen if result.case.paper == paper]
                 yield from _explained(part) if verdict == "differs" else [_grid(part)]
             yield Text()
     yield _count(results)
@@ -103,7 +55,7 @@ def _grid(results: Sequence[CaseResult] = (), *, heading: bool = False) -> Any:
         made.add_column(name, width=width, justify="right", overflow="fold")
     for r in results:
         numbers = (short(r.case.expected), short(r.computed), short(r.error, 2), short(r.case.tolerance, 2))
-        made.add_row(Padding(Text(place_of(r), overflow="fold"), (0, 0, 0, 2)), Text(quantity(r), overflow="fold"), *numbers)
+        made.add_row(Padding(Text(r.case.place, overflow="fold"), (0, 0, 0, 2)), Text(quantity(r), overflow="fold"), *numbers)
     return Constrain(made, WIDTH)
 
 

@@ -1,0 +1,24 @@
+"""``seisblock schema``: the keys of a command's ``--json`` document, as JSON Schema."""
+
+from __future__ import annotations
+
+import click
+
+from seisblock.cli.command import Command
+from seisblock.present.documents.catalogue import KINDS, schema_of
+from seisblock.present.documents.versions import VERSIONS, schema_name
+
+
+@click.command(cls=Command, examples=("seisblock schema rock", "seisblock schema"))
+@click.argument("command", required=False, metavar="[COMMAND]", type=click.Choice(list(KINDS)))
+def schema(command: str | None) -> None:
+    """Print the JSON Schema of a command's --json document; without COMMAND, list the commands that write one.
+
+    Each key says what it means and in which unit. The number at the end of a schema's name grows when a key goes or changes.
+    """
+    if command is None:
+        click.echo("\n".join(map(schema_name, VERSIONS)))
+        return
+    import json
+
+    click.echo(json.dumps(schema_of(command), ensure_ascii=False, indent=2))

@@ -1,0 +1,254 @@
+"""What stands there, as a document says it: the unit in each key."""
+
+from __future__ import annotations
+
+import math
+
+from msgspec import Struct
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.spring_block import SpringBlock
+from seisblock.bodies.two_layer import TwoLayerBlock
+
+
+class BlockEntry(Struct, frozen=True, kw_only=True):
+    """One rigid block.
+
+    Parameters
+    ----------
+    name : str
+    width_m, height_m, depth_m : float
+    mass_kg : float
+    centroid_height_m, centroid_offset_m : float
+        Of the centre of gravity, above the base and towards +x from its middle.
+    inset_m : float
+        How far the edges about which it turns lie inside the drawing, at each side.
+    centroid_inertia_kg_m2 : float
+        About the centre of gravity.
+    slenderness_right_rad, slenderness_left_rad : float
+        alpha of the corner at +x and at -x.
+    """
+
+    name: str
+    width_m: float
+    height_m: float
+    depth_m: float
+    mass_kg: float
+    centroid_height_m: float
+    centroid_offset_m: float
+    inset_m: float
+    centroid_inertia_kg_m2: float
+    slenderness_right_rad: float
+    slenderness_left_rad: float
+
+
+def block_entry(block: Block) -> BlockEntry:
+    """Return what defines a block."""
+    right, left = block.slendernesses
+    return BlockEntry(
+        name=block.name,
+        width_m=block.width,
+        height_m=block.height,
+        depth_m=block.width if block.depth is None else block.depth,
+        mass_kg=block.total_mass,
+        centroid_height_m=block.centre,
+        centroid_offset_m=block.centroid_offset,
+        inset_m=block.inset,
+        centroid_inertia_kg_m2=block.gyration_squared * block.total_mass,
+        slenderness_right_rad=right,
+        slenderness_left_rad=left,
+    )
+
+
+class TwoLayerEntry(Struct, frozen=True, kw_only=True):
+    """Two layers of one width, rigidly joined.
+
+    Parameters
+    ----------
+    name : str
+    width_m, depth_m : float
+        Along the motion and across it.
+    upper_height_m, lower_height_m : float
+    upper_mass_kg, lower_mass_kg : float
+    centroid_height_m : float
+    """
+
+    name: str
+    width_m: float
+    depth_m: float
+    upper_height_m: float
+    lower_height_m: float
+    upper_mass_kg: float
+    lower_mass_kg: float
+    centroid_height_m: float
+
+
+def two_layer_entry(block: TwoLayerBlock) -> TwoLayerEntry:
+    """Return what defines a two-layer block."""
+    return TwoLayerEntry(
+        name=block.name,
+        width_m=block.width,
+        depth_m=block.depth,
+        upper_height_m=block.upper_height,
+        lower_height_m=block.lower_height,
+        upper_mass_kg=block.upper_mass,
+        lower_mass_kg=block.lower_mass,
+        centroid_height_m=block.centroid_height,
+    )
+
+
+class SpringBlockEntry(Struct, frozen=True, kw_only=True):
+    """A block on four corner springs.
+
+    Parameters
+    ----------
+    width_m, depth_m, height_m : float
+        a, b and H.
+    mass_kg : float
+    stiffness_n_m : dict
+        Of each corner along x, y and z.
+    damping : float
+        Damping ratio.
+    alpha, gamma, beta : float
+        H/b, a/b, and horizontal over vertical frequency.
+    frequency_vertical_hz : float
+    """
+
+    width_m: float
+    depth_m: float
+    height_m: float
+    mass_kg: float
+    stiffness_n_m: dict[str, float]
+    damping: float
+    alpha: float
+    gamma: float
+    beta: float
+    frequency_vertical_hz: float
+
+
+def spring_block_entry(body: SpringBlock) -> SpringBlockEntry:
+    """Return what defines a block on corner springs."""
+    return SpringBlockEntry(
+        width_m=body.width,
+        depth_m=body.depth,
+        height_m=body.height,
+        mass_kg=body.mass,
+        stiffness_n_m=dict(zip("xyz", body.stiffness, strict=True)),
+        damping=body.damping,
+        alpha=body.alpha,
+        gamma=body.gamma,
+        beta=body.beta,
+        frequency_vertical_hz=body.omega[2] / (2.0 * math.pi),
+    )
+
+
+class StoneEntry(Struct, frozen=True, kw_only=True):
+    """One stone of a pile.
+
+    Parameters
+    ----------
+    name, on : str
+        What it is called, and what it stands on.
+    width_m, depth_m, height_m : float
+        Along x, y and z.
+    offset_m : two floats
+        From the centre of what it stands on, along x and y.
+    density_kg_m3 : float
+    mu : float or None
+        Friction of the joint under it; null: that of the pile.
+    bottom_m : float or None
+        Height of its lower face above the ground; null: the upper face of what it stands on.
+    """
+
+    name: str
+    on: str
+    width_m: float
+    depth_m: float
+    height_m: float
+    offset_m: tuple[float, float]
+    density_kg_m3: float
+    mu: float | None
+    bottom_m: float | None
+
+
+class PileEntry(Struct, frozen=True, kw_only=True):
+    """A pile of stones.
+
+    Parameters
+    ----------
+    name : str
+    mu : float
+        Friction of its joints.
+    stones : list of StoneEntry
+        From below upwards.
+    dowels : list of lists of str
+        Stones that dowels hold together.
+    fixed : list of str
+        Stones that move with the ground.
+    """
+
+    name: str
+    mu: float
+    stones: tuple[StoneEntry, ...]
+    dowels: tuple[tuple[str, ...], ...]
+    fixed: tuple[str, ...]
+
+
+def pile_entry(pile: Pile) -> PileEntry:
+    """Return what defines a pile."""
+    stones = tuple(
+        StoneEntry(
+            name=stone.name,
+            on=stone.on,
+            width_m=stone.width,
+            depth_m=stone.depth,
+            height_m=stone.height,
+            offset_m=stone.offset,
+            density_kg_m3=stone.density,
+            mu=stone.mu,
+            bottom_m=stone.bottom,
+        )
+        for stone in pile.stones
+    )
+    return PileEntry(name=pile.name, mu=pile.mu, stones=stones, dowels=pile.dowels, fixed=pile.fixed)
+
+
+class PileContactEntry(Struct, frozen=True, kw_only=True):
+    """Spring, dashpot and slider at each contact point of a pile.
+
+    Parameters
+    ----------
+    normal_per_s2, shear_per_s2 : float
+        Stiffness per point over the upper stone's mass.
+    normal_damping_per_s, shear_damping_per_s : float
+        Dashpots per point over the upper stone's mass.
+    young_pa, stiffness_n_m3 : float or None
+        Young's modulus, or the joints' stiffness per area, that replace the four above.
+    damping_ratio, shear_ratio : float
+        For those: damping of a stone on its joint, and shear over normal stiffness.
+    """
+
+    normal_per_s2: float
+    shear_per_s2: float
+    normal_damping_per_s: float
+    shear_damping_per_s: float
+    young_pa: float | None
+    stiffness_n_m3: float | None
+    damping_ratio: float
+    shear_ratio: float
+
+
+def pile_contact_entry(contact: PileContact) -> PileContactEntry:
+    """Return how the stones press on each other."""
+    return PileContactEntry(
+        normal_per_s2=contact.normal,
+        shear_per_s2=contact.shear,
+        normal_damping_per_s=contact.normal_damping,
+        shear_damping_per_s=contact.shear_damping,
+        young_pa=contact.young,
+        stiffness_n_m3=contact.stiffness,
+        damping_ratio=contact.damping_ratio,
+        shear_ratio=contact.shear_ratio,
+    )

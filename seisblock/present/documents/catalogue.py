@@ -1,0 +1,101 @@
+"""Every kind of document, and its schema."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+
+from seisblock.errors import ParameterError
+from seisblock.present.documents.kind import Kind
+from seisblock.present.documents.units import unit_of
+
+KINDS: dict[str, tuple[str, ...]] = {
+    "measure": ("measure:MEASURE",),
+    "slide": ("slide:SLIDE", "slide:STUDY"),
+    "rock": ("rock:ROCK",),
+    "jump": ("jump:JUMP",),
+    "uplift": ("uplift:UPLIFT", "uplift:HARMONIC"),
+    "stack": ("stack:STACK", "stack:STUDY"),
+    "criteria": ("criteria:CRITERIA",),
+    "spectrum": ("spectrum:ROCKING", "spectrum:SLIDING"),
+    "overturn-rate": ("overturn_rate:RATE", "overturn_rate:CURVE_ALONE"),
+    "infer": ("infer:STONES", "infer:SLID", "infer:JUMPED"),
+    "validate": ("validate:VALIDATE",),
+    "cite": ("library:CITE",),
+    "samples": ("library:SAMPLES",),
+}
+"""Command: module of this package and name of each kind of document it answers with. Kept as text so that a list costs no import."""
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def kinds_of(command: str) -> list[Kind]:
+    """Return the kinds of documents of a command.
+
+    Raises
+    ------
+    ParameterError
+        If it answers with none.
+    """
+    if command not in KINDS:
+        raise ParameterError(f"{command!r} answers with no document; those that do are {', '.join(KINDS)}")
+    pairs = (name.split(":") for name in KINDS[command])
+    return [getattr(importlib.import_module(f"{__package__}.{module}"), attribute) for module, attribute in pairs]
+
+
+def schema_of(command: str) -> dict[str, Any]:
+    """Return the JSON Schema of a command's documents.
+
+    Keys, their units and what they mean follow from the types that the documents are made of. A key that is not required is left out
+    where it says nothing.
+
+    Raises
+    ------
+    ParameterError
+        If the command answers with no document.
+    """
+    kinds = kinds_of(command)
+    references, definitions = msgspec.json.schema_components([kind.type for kind in kinds])
+    for definition in definitions.values():
+        _explain(definition)
+    root = dict(references[0]) if len(kinds) == 1 else {"anyOf": list(references)}
+    return {"$schema": DIALECT, "title": kinds[0].schema, **root, "$defs": definitions}
+
+
+def _explain(definition: dict[str, Any]) -> None:
+    """Give each key of an object its description and unit; a key with a default is always written."""
+    summary, told = _read(definition.get("description", ""))
+    definition.pop("description", None)
+    if summary:
+        definition["description"] = summary
+    for key, shape in definition.get("properties", {}).items():
+        if "default" in shape:
+            del shape["default"]
+            definition["required"].append(key)
+        unit = unit_of(key)[1]
+        if unit:
+            shape["unit"] = unit
+        if key in told and "description" not in shape:
+            shape["description"] = told[key]
+    if "required" in definition:
+        definition["required"].sort(key=list(definition["properties"]).index)
+
+
+def _read(docstring: str) -> tuple[str, dict[str, str]]:
+    """Return the first line of a numpydoc docstring, and what its Parameters say."""
+    text = re.sub(r":\w+:`~?(?:[\w.]+\.)?(\w+)`", r"\1", docstring.replace("]_", "]"))
+    summary, _, rest = text.partition("\n")
+    section = re.split(r"\n\s*\w+\n\s*-{3,}\n", rest.partition("Parameters\n")[2].lstrip(" -\n"))[0]
+    return summary.strip(), dict(_told(section))
+
+
+def _told(section: str) -> Iterator[tuple[str, str]]:
+    """Yield each name of a Parameters section with its text."""
+    for names, text in re.findall(r"^ {0,4}(\w[\w, ]*?)(?: : .*)?\n((?: {5,}.*\n?)*)", section.rstrip() + "\n", re.MULTILINE):
+        for name in names.split(", "):
+            if text.strip():
+                yield name, " ".join(text.split())

@@ -1,0 +1,173 @@
+"""What ``seisblock infer`` answers: shaking from stones, or factors on records from a displacement."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from seisblock.bodies.inset import Inset
+from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.present.documents.bodies import TwoLayerEntry, two_layer_entry
+from seisblock.present.documents.entry import entry_of, entry_type
+from seisblock.present.documents.kind import Document, Kind
+from seisblock.records import Record
+from seisblock.studies.inverse.estimate import ShakingEstimate
+from seisblock.studies.inverse.factors import ScaleFactors
+
+
+class StonesParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    cemetery : str
+        File of the stones.
+    stones, unknown_stones : int
+        How many there are, and of how many nobody says what became of them.
+    rate : str or None
+        Fallen of all, where they were counted.
+    confidence : float
+        Level of the intervals.
+    common_error_ln_pga, stone_error_ln_pga : float
+        Standard deviations in ln PGA, of a cemetery and of each stone.
+    criterion, prior, intensity : str
+        What the estimate rests on.
+    inset : Inset or None
+        How far the edges are worn, for the criteria that ask.
+    """
+
+    cemetery: str
+    stones: int
+    rate: str | None
+    unknown_stones: int
+    confidence: float
+    common_error_ln_pga: float
+    stone_error_ln_pga: float
+    criterion: str
+    inset: Inset | None
+    prior: str = "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given"
+    intensity: str = "2.68 + 1.72 log10 PGV (kine), standard deviation 0.21"
+
+
+class SlidParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    observed_m : float
+        How far the object slid.
+    object : str
+        ``slid``.
+    largest : bool
+        Whether the largest slip counts, not the one left at the end.
+    mu, mu_kinetic : float
+        Static and kinetic friction; null: one friction.
+    vertical : bool
+        Whether the vertical component acts.
+    gravity_m_s2 : float
+    limit, steps : float, int
+        Largest factor, and steps of the scan up to it.
+    """
+
+    observed_m: float
+    object: str = "slid"
+    largest: bool
+    mu: float
+    mu_kinetic: float | None
+    vertical: bool
+    gravity_m_s2: float
+    limit: float
+    steps: int
+
+
+Windows = tuple[tuple[float | None, float | None], ...]
+
+
+class JumpedParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    observed_m : float
+        How far the block was displaced.
+    object : str
+        ``jumped``.
+    block : TwoLayerEntry
+    contact : Contact
+    flight_only, first : bool
+        Whether the jump alone counts, and whether only the first chain of motion does.
+    windows_s : list of pairs
+        Stretches in which a chain may start; all of the record without any.
+    drop_m : float
+        Height of the floor above the ground.
+    spin, landing : str
+        Rules of the impact and of the landing.
+    gravity_m_s2 : float
+    limit, steps : float, int
+        Largest factor, and steps of the scan up to it.
+    """
+
+    observed_m: float
+    object: str = "jumped"
+    block: TwoLayerEntry
+    contact: Contact
+    flight_only: bool
+    first: bool
+    windows_s: Windows
+    drop_m: float
+    spin: str
+    landing: str
+    gravity_m_s2: float
+    limit: float
+    steps: int
+
+
+@dataclass(frozen=True)
+class ScanPoint:
+    """The displacement at one factor on the record."""
+
+    scale: float
+    displacement_m: float
+
+
+CONTOUR = {"contour": Annotated[list[ShakingEstimate], Meta(description="The estimate frequency by frequency.")]}
+STONES_RESULT = entry_type("StonesResult", ShakingEstimate)
+STONES = Kind("infer", StonesParameters, STONES_RESULT, CONTOUR, name="stones")
+
+SCAN = {"curve": Annotated[tuple[ScanPoint, ...], Meta(description="Displacement against the factor on the record.")]}
+FACTORS_RESULT = entry_type("FactorsResult", ScaleFactors, leaving=("curve",), beside=SCAN)
+SLID = Kind("infer", SlidParameters, FACTORS_RESULT, name="slid")
+JUMPED = Kind("infer", JumpedParameters, FACTORS_RESULT, name="jumped")
+
+Factors = Sequence[tuple[Record | None, ScaleFactors]]
+
+
+def stones_document(
+    estimates: Sequence[ShakingEstimate], contour: Sequence[ShakingEstimate], parameters: StonesParameters, warnings: Sequence[str]
+) -> Document:
+    """Return the document of what fallen stones say of the shaking."""
+    found = ((None, entry_of(STONES_RESULT, each)) for each in estimates)
+    citations = ("Furukawa2009", *(("Housner1963",) if parameters.criterion == "rigid" else ()), "Midorikawa1999")
+    return STONES.document(parameters, found, citations=citations, warnings=warnings, contour=list(contour))
+
+
+def slid_document(factors: Factors, **chosen: Any) -> Document:
+    """Return the document of every factor at which an object slides so far; `chosen` are the parameters."""
+    return SLID.document(SlidParameters(**chosen), _found(factors), citations=("Fujino1978",))
+
+
+def jumped_document(factors: Factors, block: TwoLayerBlock, contact: Contact, **chosen: Any) -> Document:
+    """Return the document of every factor at which a two-layer block is displaced so far; `chosen` are the other parameters."""
+    parameters = JumpedParameters(**chosen, block=two_layer_entry(block), contact=contact)
+    return JUMPED.document(parameters, _found(factors), citations=("Sugimoto2017",))
+
+
+def _found(factors: Factors) -> Any:
+    """Return the factors as results."""
+    return (
+        (record, entry_of(FACTORS_RESULT, each, curve=tuple(ScanPoint(s, d) for s, d in zip(*each.curve, strict=True))))
+        for record, each in factors
+    )

@@ -1,0 +1,186 @@
+"""What a document is made of: a command, and the types of its parameters and results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import msgspec
+from msgspec import UNSET, Meta, Struct, UnsetType
+
+from seisblock import __version__
+from seisblock.present.documents.versions import schema_name
+from seisblock.records import Record
+
+
+class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
+    """One answer, ready to be written.
+
+    Its type is made by a :class:`Kind`; ``schema``, the first key, names the command and the version of the keys.
+    """
+
+    if TYPE_CHECKING:
+        version: str
+        record: Any
+        parameters: Any
+        results: list[Any]
+        warnings: list[str]
+        citations: list[str]
+
+    @property
+    def command(self) -> str:
+        """The command that answers so."""
+        return str(type(self).__struct_config__.tag).split("/")[1]
+
+
+class RecordEntry(Struct, frozen=True, kw_only=True):
+    """What identifies a record.
+
+    Parameters
+    ----------
+    station : str
+    start : str or None
+        Time of the first sample, ISO 8601, UTC.
+    dt_s : float
+        Sampling interval.
+    samples : int
+    sha256 : str
+        Of the file.
+    format, source : str
+        How it was read, and the file's name.
+    components : list of str
+    offset_s : float
+        Time of the first sample used, from the record's first.
+    history : list of str
+        What was done to it, in this order.
+    """
+
+    station: str
+    start: str | None
+    dt_s: float
+    samples: int
+    sha256: str
+    format: str
+    source: str
+    components: tuple[str, ...]
+    offset_s: float
+    history: tuple[str, ...]
+
+
+def record_entry(record: Record) -> RecordEntry:
+    """Return what identifies a record."""
+    return RecordEntry(
+        station=record.station,
+        start=record.start.isoformat() if record.start else None,
+        dt_s=record.dt,
+        samples=record.samples,
+        sha256=record.sha256,
+        format=record.format,
+        source=Path(record.source).name if record.source else "",
+        components=record.codes,
+        offset_s=record.offset_s,
+        history=tuple(record.history),
+    )
+
+
+class Result(Struct, frozen=True, kw_only=True):
+    """One entry of ``results``."""
+
+    record_index: Annotated[int, Meta(description="Which of the records it is of, where there are several.")] | UnsetType = UNSET
+
+
+def may_be_left_out(kind: Any) -> bool:
+    """Whether a key of this type is missing from documents in which it says nothing."""
+    return UnsetType in getattr(kind, "__args__", ())
+
+
+Found = tuple[Record | None, Result]
+"""A result, and the record it is of."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One kind of document.
+
+    Parameters
+    ----------
+    command : str
+    parameters, result : type
+        What the user could have chosen, and one entry of ``results``.
+    beside : mapping of str to type
+        Further keys, between the results and the warnings.
+    name : str
+        Tells several kinds of one command apart.
+    """
+
+    command: str
+    parameters: type[Struct]
+    result: type[Result]
+    beside: Mapping[str, Any] = field(default_factory=dict)
+    name: str = ""
+
+    @property
+    def schema(self) -> str:
+        """What stands under the key ``schema``."""
+        return schema_name(self.command)
+
+    @cached_property
+    def type(self) -> type[Document]:
+        """The type of such documents; its fields are the keys."""
+        fields = {
+            "version": Annotated[str, Meta(description="Of seisblock.")],
+            "record": Annotated[
+                RecordEntry | list[RecordEntry] | None, Meta(description="The record used, a list of several, null without any.")
+            ],
+            "parameters": self.parameters,
+            "results": list[self.result],  # type: ignore[name-defined]
+            **self.beside,
+            "warnings": Annotated[list[str], Meta(description="What to know before believing the numbers.")],
+            "citations": Annotated[list[str], Meta(description="Keys of the papers relied on; seisblock cite prints them.")],
+        }
+        declared = [(key, kind, UNSET) if may_be_left_out(kind) else (key, kind) for key, kind in fields.items()]
+        name = "".join(part.capitalize() for part in f"{self.command}-{self.name}".replace("-", " ").split()) + "Document"
+        made: Any = msgspec.defstruct(name, declared, bases=(Document,), tag=self.schema, frozen=True, kw_only=True)
+        return made  # type: ignore[no-any-return]
+
+    def document(
+        self,
+        parameters: Struct,
+        found: Iterable[Found],
+        *,
+        records: Sequence[Record] = (),
+        citations: Sequence[str] = (),
+        warnings: Iterable[str] = (),
+        **beside: Any,
+    ) -> Document:
+        """Return the document of some results; with several records each result says which it is of.
+
+        Parameters
+        ----------
+        parameters : Struct
+            Everything the user could have chosen.
+        found : iterable of (Record or None, Result)
+            In the order asked.
+        records : sequence of Record
+            Those that no single result is of.
+        citations, warnings : sequences of str
+            Each is said once.
+        beside
+            The further keys.
+        """
+        pairs = list(found)
+        records = list({id(record): record for record in (*(r for r, _ in pairs), *records) if record is not None}.values())
+        index = {id(record): i for i, record in enumerate(records)} if len(records) > 1 else {}
+        entries = [record_entry(record) for record in records]
+        return self.type(
+            version=__version__,
+            record=entries[0] if len(entries) == 1 else entries or None,
+            parameters=parameters,
+            results=[msgspec.structs.replace(entry, record_index=index[id(r)]) if id(r) in index else entry for r, entry in pairs],
+            warnings=list(dict.fromkeys(warnings)),
+            citations=list(dict.fromkeys(citations)),
+            **beside,
+        )

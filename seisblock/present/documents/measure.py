@@ -1,0 +1,72 @@
+"""What ``seisblock measure`` answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures
+from seisblock.measures.peaks import HorizontalPeak
+from seisblock.present.documents.entry import entry_of, entry_type
+from seisblock.present.documents.kind import Document, Kind
+from seisblock.records import Record
+
+
+class MeasureParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    threshold_m_s2, threshold_from : float and str
+        Threshold of the durations, and where it comes from.
+    velocity_highpass_hz, velocity_baseline : float or None, str
+        What was done before PGV and PGD were taken.
+    fourier_smoothing, fourier_smoothing_hz, fourier_band_hz : str, float, two floats
+        Window of the Fourier amplitude, its bandwidth, and where the dominant frequency was looked for.
+    threshold_side : str
+        Which sign of the acceleration counts.
+    gravity_m_s2 : float
+    """
+
+    threshold_m_s2: float
+    threshold_from: str
+    velocity_highpass_hz: float | None
+    velocity_baseline: str
+    fourier_smoothing: str
+    fourier_smoothing_hz: float
+    fourier_band_hz: tuple[float, float]
+    threshold_side: str
+    gravity_m_s2: float
+
+
+BESIDE = {
+    "jma_intensity": Annotated[float | list[float | None] | None, Meta(description="Instrumental intensity, not rounded.")],
+    "jma_class": Annotated[str | list[str | None] | None, Meta(description="Class of that intensity.")],
+    "peak_horizontal": Annotated[HorizontalPeak | list[HorizontalPeak | None] | None, Meta(description="The longest horizontal vector.")],
+}
+"""What belongs to a record, not to a component; lists where there are several records."""
+
+MEASURE_RESULT = entry_type("MeasureResult", ComponentMeasures)
+MEASURE = Kind("measure", MeasureParameters, MEASURE_RESULT, BESIDE)
+
+
+def document(
+    records: Sequence[Record], measured: Sequence[RecordMeasures], conventions: Conventions, *, threshold: float, threshold_from: str
+) -> Document:
+    """Return the document of some records: one result per component; what belongs to a record stands beside them."""
+    found = [(r, entry_of(MEASURE_RESULT, each)) for r, whole in zip(records, measured, strict=True) for each in whole.components]
+    beside: dict[str, Any] = {
+        "jma_intensity": [whole.jma_intensity for whole in measured],
+        "jma_class": [whole.jma_class for whole in measured],
+        "peak_horizontal": [whole.horizontal for whole in measured],
+    }
+    return MEASURE.document(
+        MeasureParameters(threshold_m_s2=threshold, threshold_from=threshold_from, **asdict(conventions)),
+        found,
+        citations=measured[0].citations,
+        warnings=[text for whole in measured for text in whole.warnings],
+        **{key: values if len(records) > 1 else values[0] for key, values in beside.items()},
+    )

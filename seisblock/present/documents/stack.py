@@ -1,0 +1,175 @@
+"""What ``seisblock stack`` answers: a pile under a record, or the criterion study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from msgspec import Struct
+
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.criteria.gravestones import GravestoneFit, overturning_level, published
+from seisblock.present.documents.bodies import PileContactEntry, PileEntry, pile_contact_entry, pile_entry
+from seisblock.present.documents.entry import COMPONENT, entry_type, outcome_of
+from seisblock.present.documents.kind import Document, Kind, Result
+from seisblock.records import Record
+from seisblock.results import Response
+from seisblock.solvers.stack.outcome import StackOutcome
+from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, frequencies_of
+
+
+class StackParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    points : int
+        Contact points along each side of a joint.
+    mu : float
+        Friction of the joints.
+    vertical, across : bool
+        Whether the vertical and the other horizontal component act.
+    gravity_m_s2, step_s : float
+    contact : PileContactEntry
+    pile : PileEntry
+    """
+
+    points: int
+    mu: float
+    vertical: bool
+    across: bool
+    gravity_m_s2: float
+    step_s: float
+    contact: PileContactEntry
+    pile: PileEntry
+
+
+class StudyParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen for the criterion study.
+
+    Parameters
+    ----------
+    points : int
+        Contact points along each side of a joint.
+    gravity_m_s2 : float
+    criterion : bool
+        True.
+    grid : int
+        Every so many-th amplitude and height was taken.
+    contact : PileContactEntry
+    pile : PileEntry
+    """
+
+    points: int
+    gravity_m_s2: float
+    criterion: bool
+    grid: int
+    contact: PileContactEntry
+    pile: PileEntry
+
+
+class LevelEntry(Struct, frozen=True, kw_only=True):
+    """a(f) = PGA H/B at one frequency.
+
+    Parameters
+    ----------
+    frequency_hz : float
+    level_m_s2 : float or None
+        Of the pile, eq. (7); null where nothing fell.
+    rigid_block_m_s2 : float or None
+        Of one rigid block on the outermost points.
+    published_m_s2 : float
+    """
+
+    frequency_hz: float
+    level_m_s2: float | None
+    rigid_block_m_s2: float | None
+    published_m_s2: float
+
+
+class PublishedEntry(Struct, frozen=True, kw_only=True):
+    """The paper's fit, and the number of its equation."""
+
+    equation: str
+    fit: GravestoneFit
+
+
+class ScaledEntry(Struct, frozen=True, kw_only=True):
+    """One record, scaled, and the thresholds found with it."""
+
+    record: str
+    thresholds: tuple[Threshold, ...]
+
+
+class StudyResult(Result, frozen=True, kw_only=True):
+    """The criterion study.
+
+    Parameters
+    ----------
+    thresholds : list of Threshold
+    levels : list of LevelEntry
+    fit : GravestoneFit or None
+        Least squares of eq. (8); null with too few levels.
+    published : PublishedEntry
+    scaled_records : list of ScaledEntry
+    """
+
+    thresholds: tuple[Threshold, ...]
+    levels: tuple[LevelEntry, ...]
+    fit: GravestoneFit | None
+    published: PublishedEntry
+    scaled_records: tuple[ScaledEntry, ...]
+
+
+STACK_RESULT = entry_type("StackResult", StackOutcome, before=COMPONENT)
+STACK = Kind("stack", StackParameters, STACK_RESULT)
+STUDY = Kind("stack", StudyParameters, StudyResult, name="criterion")
+
+
+def document(responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact) -> Document:
+    """Return the document of one run per direction."""
+    options: dict[str, Any] = {**responses[0].options, "contact": pile_contact_entry(contact)}
+    options |= {name: bool(options[name]) for name in ("vertical", "across")}
+    return STACK.document(
+        StackParameters(**options, pile=pile_entry(pile)),
+        (outcome_of(STACK_RESULT, response) for response in responses),
+        citations=[key for response in responses for key in response.citations],
+        warnings=[text for response in responses for text in response.warnings],
+    )
+
+
+def study_document(
+    study: CriterionStudy,
+    rigid: Mapping[float, float],
+    scaled: Mapping[str, tuple[Threshold, ...]],
+    records: Sequence[Record],
+    *,
+    reinforced: bool,
+    pile: Pile,
+    contact: PileContact,
+    points: int,
+    gravity: float,
+    grid: int,
+) -> Document:
+    """Return the document of the criterion study, of levels of one rigid block, and of thresholds of scaled records by their names."""
+    fit, equation = published(reinforced)
+    result = StudyResult(
+        thresholds=study.thresholds,
+        levels=tuple(
+            LevelEntry(
+                frequency_hz=f,
+                level_m_s2=study.levels.get(f),
+                rigid_block_m_s2=rigid.get(f),
+                published_m_s2=float(overturning_level(f, fit)),
+            )
+            for f in frequencies_of(study)
+        ),
+        fit=study.fit,
+        published=PublishedEntry(equation=equation, fit=fit),
+        scaled_records=tuple(ScaledEntry(record=name, thresholds=found) for name, found in scaled.items()),
+    )
+    parameters = StudyParameters(
+        points=points, gravity_m_s2=gravity, criterion=True, grid=grid, contact=pile_contact_entry(contact), pile=pile_entry(pile)
+    )
+    return STUDY.document(parameters, [(None, result)], records=records, citations=("Furukawa2009",))

@@ -1,0 +1,23 @@
+"""The versions of the documents, one number per command."""
+
+VERSIONS = {
+    "measure": 1,
+    "slide": 1,
+    "rock": 1,
+    "jump": 2,
+    "uplift": 1,
+    "stack": 2,
+    "criteria": 1,
+    "spectrum": 1,
+    "overturn-rate": 2,
+    "infer": 2,
+    "validate": 1,
+    "cite": 1,
+    "samples": 1,
+}
+"""Stepped when a key goes, or changes its name, unit or type; a key that is added leaves it."""
+
+
+def schema_name(command: str) -> str:
+    """Return what stands under the key ``schema``."""
+    return f"seisblock/{command}/{VERSIONS[command]}"

@@ -1,0 +1,62 @@
+"""Every criterion of overturning beside the simulated outcome, for one direction of a record."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from seisblock.bodies.block import Block
+from seisblock.criteria.card import Row, overturning_card
+from seisblock.measures import ComponentMeasures, Conventions, measure
+from seisblock.records import Record, motion_of
+from seisblock.solvers.rock.outcome import RockOutcome
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.studies.rocking.margin import flagged
+
+
+@dataclass(frozen=True)
+class Card:
+    """The criteria of one component beside its simulated outcome.
+
+    Parameters
+    ----------
+    record : Record
+    component : str
+    block : Block
+    measures : ComponentMeasures
+        Peaks and equivalent frequencies that the criteria were given.
+    rows : tuple of Row
+    outcome : RockOutcome
+    velocity_highpass_hz : float or None
+        Filter behind the PGV.
+    warnings : tuple of str
+    """
+
+    record: Record
+    component: str
+    block: Block
+    measures: ComponentMeasures
+    rows: tuple[Row, ...]
+    outcome: RockOutcome
+    velocity_highpass_hz: float | None
+    warnings: tuple[str, ...] = ()
+
+
+def criteria_card(record: Record, component: str, block: Block, *, gravity: float, **options: Any) -> Card:
+    """Return the criteria and the simulated outcome of one component.
+
+    Parameters
+    ----------
+    record : Record
+    component : str
+        A horizontal code, or an azimuth.
+    block : Block
+    gravity : float, m/s^2
+    options
+        ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
+    """
+    rules = Conventions(gravity_m_s2=gravity)
+    measured = measure(record, (component,), conventions=rules).components[0]
+    response = flagged(solve_rock(block, motion_of(record, component), gravity=gravity, **options))
+    rows = overturning_card(block, measured.pga_m_s2, measured.pgv_m_s, asdict(measured.equivalent_frequency_hz), gravity)
+    return Card(record, component, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings)
