@@ -2,8 +2,10 @@
 
 import json
 import re
+from pathlib import Path
 
 import jsonschema
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -11,6 +13,8 @@ from seisblock.cli import COMMANDS, main
 from seisblock.present.documents.catalogue import KINDS, kinds_of, schema_of
 from seisblock.present.documents.units import unit_of
 from seisblock.present.documents.versions import VERSIONS
+from seisblock.present.documents.write import plain
+from seisblock.words import said
 from tests.present.document_keys import gone, lines, stored
 
 WITHOUT_DOCUMENT = {"report", "completion", "schema"}
@@ -151,6 +155,14 @@ def test_the_schema_is_printed_and_the_list_costs_nothing():
     assert json.loads(printed.stdout) == schema_of("rock")
     assert CliRunner().invoke(main, ["schema"]).stdout.split() == [f"seisblock/{name}/{version}" for name, version in VERSIONS.items()]
     assert CliRunner().invoke(main, ["schema", "report"]).exit_code == 2
+
+
+def test_values_of_other_kinds_are_written_plainly():
+    """Texts that remember their template, paths, and numpy's numbers and arrays; what is not a number is null; anything else is refused."""
+    values = {"text": said("{name} falls", name="A"), "path": Path("a/b"), "numbers": np.array([1.5, np.nan]), "flag": np.bool_(True)}
+    assert plain(values) == {"text": "A falls", "path": "a/b", "numbers": [1.5, None], "flag": True}
+    with pytest.raises(NotImplementedError, match="no JSON form for complex"):
+        plain(1j)
 
 
 def test_several_records_are_a_list_and_each_result_says_which(documents):

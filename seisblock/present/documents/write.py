@@ -22,11 +22,11 @@ def plain(value: Any) -> Any:
 
 
 def _foreign(value: Any) -> Any:
-    """Return what JSON has for a value of another package."""
+    """Return what JSON has for a value of another kind: a text that remembers its template, a path, numpy's numbers."""
+    if isinstance(value, (str, Path)):
+        return str(value)
     if isinstance(value, np.generic):
         return value.item()
     if isinstance(value, np.ndarray):
         return value.tolist()
-    if isinstance(value, Path):
-        return str(value)
     raise NotImplementedError(f"no JSON form for {type(value).__name__}")
