@@ -13,6 +13,7 @@ from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, INSET, LENGTH
+from seisblock.words import noted
 
 DEFAULT_BLOCK = "chozusha"
 FITTED_EDGES = "--inset changes nothing here: (9), (10) were fitted to stones whose edges are not sharp; --criterion rigid uses it"
@@ -194,7 +195,7 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     def tables() -> Any:
         from seisblock.present.text.infer import factor_tables
 
-        return factor_tables(curves, gal=output.gal, moved="displacement" if asked["slid"] is None else "slip")
+        return factor_tables(curves, gal=output.gal, moved=noted("displacement") if asked["slid"] is None else noted("slip"))
 
     def figure() -> Any:
         from seisblock.present.figures.infer import factor_figure

@@ -11,6 +11,7 @@ from seisblock.present.text.tables import NOTHING, acceleration, acceleration_un
 from seisblock.records import Record
 from seisblock.studies.inverse.estimate import Interval, ShakingEstimate
 from seisblock.units import GAL, KINE
+from seisblock.words import noted, tell
 
 if TYPE_CHECKING:
     from seisblock.studies.inverse.factors import ScaleFactors
@@ -67,7 +68,7 @@ def _around(middle: float | None, interval: Interval) -> tuple[float | None, flo
     return interval[0], middle, interval[1]
 
 
-def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, moved: str = "displacement") -> Iterator[Any]:
+def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, moved: str) -> Iterator[Any]:
     """Yield what each component needs in a sentence, and its factors as a table; `moved` says what was observed."""
     shown: set[int] = set()
     for record, each in found:
@@ -84,17 +85,21 @@ def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, mo
 
 
 def _needs(each: ScaleFactors, moved: str, *, gal: bool) -> str:
-    """Return what the observed displacement needs, in words."""
-    size = f"{each.component}: {each.observed_m * 100:.4g} cm of {moved}"
-    alone = f"as recorded it is {each.displacement_at_1_m * 100:.3g} cm"
-    if not each.scale_factors:
-        most = f"at most {each.largest_displacement_m * 100:.3g} cm, at factor {each.largest_at_scale:g}"
-        return f"{size}: no factor up to {each.limit:g} moves it so far ({most}); {alone}."
-    told = [
-        f"{f.scale:.3g} times this record ({acceleration(f.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)})" for f in each.scale_factors
-    ]
-    rest = f", or {', '.join(told[1:4])}" + (f" or {len(told) - 4} more" if len(told) > 4 else "") if len(told) > 1 else ""
-    return f"{size} needs {told[0]}{rest}; {alone}."
+    """Return what the observed displacement needs, in words; `moved` is a word for it."""
+    told = [f"{factor.scale:.3g} ({acceleration(factor.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)})" for factor in each.scale_factors]
+    values = {"name": each.component, "size": each.observed_m * 100, "moved": tell(moved), "alone": each.displacement_at_1_m * 100}
+    if not told:
+        text = noted(
+            "{name}: {size:.4g} cm of {moved}: no factor up to {limit:g} moves it so far (at most {most:.3g} cm, at {at:g}); as recorded it "
+            "is {alone:.3g} cm."
+        )
+        return tell(text, **values, limit=each.limit, most=each.largest_displacement_m * 100, at=each.largest_at_scale)
+    if len(told) == 1:
+        text = noted("{name}: {size:.4g} cm of {moved} needs {factor:.3g} times this record ({pga}); as recorded it is {alone:.3g} cm.")
+        pga = f"{acceleration(each.scale_factors[0].pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)}"
+        return tell(text, **values, factor=each.scale_factors[0].scale, pga=pga)
+    text = noted("{name}: {size:.4g} cm of {moved} needs this record times one of {factors}; as recorded it is {alone:.3g} cm.")
+    return tell(text, **values, factors=told)
 
 
 def factor_columns(found: Sequence[tuple[Record, ScaleFactors]]) -> tuple[list[str], list[list[Any]]]:

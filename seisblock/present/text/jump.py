@@ -13,27 +13,28 @@ from seisblock.results import Response
 from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.solvers.jump.solve import JumpOutcome
 from seisblock.solvers.jump.tale import exceeds
+from seisblock.words import noted, tell
 
 Jumps = Sequence[Response[JumpOutcome]]
 
 
 _ROWS: tuple[tuple[str, str], ...] = (
-    ("starts rocking (s)", "rocking_start_s"),
-    ("impact (s)", "impact_s"),
-    ("landing (s)", "landing_s"),
-    ("end (s)", "end_s"),
-    ("above threshold (s)", "time_above_threshold_s"),
-    ("rocking (s)", "rocking_duration_s"),
-    ("jump (s)", "jump_duration_s"),
-    ("rock-slide (s)", "rock_slide_duration_s"),
+    (noted("starts rocking (s)"), "rocking_start_s"),
+    (noted("impact (s)"), "impact_s"),
+    (noted("landing (s)"), "landing_s"),
+    (noted("end (s)"), "end_s"),
+    (noted("above threshold (s)"), "time_above_threshold_s"),
+    (noted("rocking (s)"), "rocking_duration_s"),
+    (noted("jump (s)"), "jump_duration_s"),
+    (noted("rock-slide (s)"), "rock_slide_duration_s"),
 )
 
 
 _LENGTHS: tuple[tuple[str, str], ...] = (
-    ("rise in jump (mm)", "max_rise_m"),
-    ("jump distance (mm)", "jump_displacement_m"),
-    ("rock-slide distance (mm)", "rock_slide_displacement_m"),
-    ("total distance (mm)", "total_displacement_m"),
+    (noted("rise in jump (mm)"), "max_rise_m"),
+    (noted("jump distance (mm)"), "jump_displacement_m"),
+    (noted("rock-slide distance (mm)"), "rock_slide_displacement_m"),
+    (noted("total distance (mm)"), "total_displacement_m"),
 )
 
 
@@ -53,9 +54,13 @@ def tables(responses: Jumps, *, gal: bool, tenon: float | None) -> Iterator[Any]
         yield Text(verdict(response))
         shown = _shown(outcome.chains)
         if shown:
-            threshold = acceleration(outcome.rocking_threshold_m_s2, gal=gal)
-            title = f"{response.motion.name}: {response.body.name}, rocks above {threshold} {acceleration_unit(gal=gal)}"
-            yield table(title, ["chain", *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown]))
+            title = tell(
+                "{name}: {body}, rocks above {threshold}",
+                name=response.motion.name,
+                body=tell(response.body.name),
+                threshold=f"{acceleration(outcome.rocking_threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}",
+            )
+            yield table(title, [tell("chain"), *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown]))
         for sentence in sentences(response, tenon):
             yield Text(sentence)
         yield Text()
@@ -69,14 +74,14 @@ def _shown(chains: Sequence[Chain]) -> list[int]:
 
 def _cells(chains: Sequence[Chain]) -> Iterator[list[str]]:
     """Yield the rows of the table."""
-    yield ["direction", *(chain.direction for chain in chains)]
+    yield [tell("direction"), *(chain.direction for chain in chains)]
     for heading, key in _ROWS:
-        yield [heading, *(seconds(getattr(chain, key)) for chain in chains)]
-    yield ["largest tilt (deg)", *(f"{math.degrees(chain.max_rotation_rad):.2f}" for chain in chains)]
-    yield ["impact velocity (rad/s)", *(_or_dash(chain.impact_velocity_rad_s, "{:.3f}") for chain in chains)]
+        yield [tell(heading), *(seconds(getattr(chain, key)) for chain in chains)]
+    yield [tell("largest tilt (deg)"), *(f"{math.degrees(chain.max_rotation_rad):.2f}" for chain in chains)]
+    yield [tell("impact velocity (rad/s)"), *(_or_dash(chain.impact_velocity_rad_s, "{:.3f}") for chain in chains)]
     for heading, key in _LENGTHS:
-        yield [heading, *(_or_dash(getattr(chain, key), "{:.1f}", 1e3) for chain in chains)]
-    yield ["friction its landing needs", *(_friction(chain.friction_needed_at_landing) for chain in chains)]
+        yield [tell(heading), *(_or_dash(getattr(chain, key), "{:.1f}", 1e3) for chain in chains)]
+    yield [tell("friction its landing needs"), *(_friction(chain.friction_needed_at_landing) for chain in chains)]
 
 
 def _or_dash(value: float | None, form: str, factor: float = 1.0) -> str:
@@ -87,23 +92,26 @@ def _or_dash(value: float | None, form: str, factor: float = 1.0) -> str:
 
 def _friction(needed: float | None) -> str:
     """Return P_x/P_y of a landing; where the ground would have to pull no friction would do."""
-    return "-" if needed is None else f"{needed:.2f}" if math.isfinite(needed) else "none does"
+    return "-" if needed is None else f"{needed:.2f}" if math.isfinite(needed) else tell("none does")
 
 
 def verdict(response: Response[JumpOutcome]) -> str:
     """Return what became of the block in the end, and what friction that takes."""
     outcome, name = response.outcome, response.motion.name or "x"
     if not outcome.chains:
-        return f"{name}: the ground acceleration never exceeds the rocking threshold: the block stays where it is."
-    count = len(outcome.chains)
-    after = f"after {count} chains of motion" if count > 1 else "after one chain of motion"
-    if outcome.outcome in (JUMPED, NO_JUMP):
-        jumps = sum(chain.outcome == JUMPED for chain in outcome.chains)
-        did = f"{'jumped' if jumps == 1 else f'jumped {jumps} times'}" if jumps else "rocked without jumping"
-        ends = f"{name}: {did}, and in the end stands {_signed(outcome.final_displacement_m)} from where it stood, {after}"
+        return tell("{name}: the ground acceleration never exceeds the rocking threshold: the block stays where it is.", name=name)
+    jumps = sum(chain.outcome == JUMPED for chain in outcome.chains)
+    if outcome.outcome not in (JUMPED, NO_JUMP):
+        text = noted("{name}: {outcome}, {moved} from where it stood, in chain {count} of motion.")
+    elif jumps == 0:
+        text = noted("{name}: rocked without jumping, in {count} chains of motion.")
+    elif len(outcome.chains) == 1:
+        text = noted("{name}: jumped, and in the end stands {moved} from where it stood.")
     else:
-        ends = f"{name}: {outcome.outcome}, {_signed(outcome.final_displacement_m)} from where it stood, {after}"
-    return f"{ends}{_held(response)}."
+        text = noted("{name}: jumped {jumps} times in {count} chains of motion, and in the end stands {moved} from where it stood.")
+    moved = _signed(outcome.final_displacement_m)
+    told = tell(text, name=name, outcome=tell(outcome.outcome), moved=moved, count=len(outcome.chains), jumps=jumps)
+    return " ".join([told, *_held(response)])
 
 
 def _signed(length: float) -> str:
@@ -111,44 +119,54 @@ def _signed(length: float) -> str:
     return f"{round(length * 1e3) + 0:+d} mm"
 
 
-def _held(response: Response[JumpOutcome]) -> str:
-    """Return what friction the answer rests on, where that is more than was given."""
-    mu, outcome = response.options["mu"], response.outcome
-    told = []
+def _held(response: Response[JumpOutcome]) -> Iterator[str]:
+    """Yield what friction the answer rests on, where that is more than was given."""
+    mu, needed = response.options["mu"], response.outcome.friction_needed_at_landing
     ratio = response.body.width / 2 / response.body.centroid_height
     if mu < ratio:
-        told.append(f"rocking needs feet that are held: friction {mu:g} is below b/h, {ratio:.2f}, and would let them slide first")
-    needed = outcome.friction_needed_at_landing
-    if exceeds(needed, mu):
-        told.append(f"its landings need a friction of {_friction(needed)}, mu is {mu:g}")
-    return "".join(f"; {text}" for text in told)
+        text = noted("Rocking needs feet that are held: friction {mu:g} is below b/h, {ratio:.2f}, and would let them slide first.")
+        yield tell(text, mu=mu, ratio=ratio)
+    if needed is not None and exceeds(needed, mu):
+        yield tell("Its landings need a friction of {needed}, mu is {mu:g}.", needed=_friction(needed), mu=mu)
 
 
 def sentences(response: Response[JumpOutcome], tenon: float | None = None) -> Iterator[str]:
     """Yield what happened in words, one sentence per chain that the table shows."""
-    chains = response.outcome.chains
+    chains, name = response.outcome.chains, response.motion.name
     shown = _shown(chains)
-    for index in shown:
-        chain = chains[index]
-        told = f"Chain {index + 1}: {chain.outcome}"
+    for number, chain in ((i + 1, chains[i]) for i in shown):
         if chain.outcome == JUMPED and chain.total_displacement_m is not None:
-            told += (
-                f" {_signed(chain.total_displacement_m)} along {response.motion.name}, after {chain.rocking_duration_s:.3f} s of "
-                f"rocking; the ground stayed above the threshold for {chain.time_above_threshold_s:.3f} s"
+            yield tell(
+                "Chain {number}: jumped {moved} along {name}, after {rocking:.3f} s of rocking; the ground stayed above the threshold for "
+                "{above:.3f} s.",
+                number=number,
+                moved=_signed(chain.total_displacement_m),
+                name=name,
+                rocking=chain.rocking_duration_s,
+                above=chain.time_above_threshold_s,
             )
+        else:
+            yield tell("Chain {number}: {outcome}.", number=number, outcome=tell(chain.outcome))
         if tenon is not None and chain.foot_rise_m is not None and chain.max_rise_m is not None:
-            out = chain.foot_rise_m > tenon
-            told += (
-                f"; the lowest foot rose {chain.foot_rise_m * 1e3:.1f} mm (centroid {chain.max_rise_m * 1e3:.1f} mm) against a tenon of "
-                f"{tenon * 1e3:g} mm: it {'left' if out else 'did not leave'} its hole"
-            )
-        yield told + "."
+            yield _hole(chain.foot_rise_m, chain.max_rise_m, tenon)
     if len(shown) < len(chains):
         least = max(abs(chain.total_displacement_m or 0.0) for i, chain in enumerate(chains) if i not in shown)
-        yield f"{len(chains) - len(shown)} more chains, none of which moved it by more than {least * 1e3:.1f} mm."
+        yield tell("{count} more chains moved it by no more than {least:.1f} mm each.", count=len(chains) - len(shown), least=least * 1e3)
     left = [chain.end_angular_velocity_rad_s or 0.0 for chain in chains if chain.outcome == JUMPED]
     if left and response.outcome.landing == "paper":
-        yield (
+        yield tell(
             "A chain ends when the tilt is back at zero: the paper's model ends here, and makes nothing of the angular velocity left, "
-            f"up to {max(left):.2f} rad/s."
+            "up to {most:.2f} rad/s.",
+            most=max(left),
         )
+
+
+def _hole(foot: float, centroid: float, tenon: float) -> str:
+    """Return whether a tenon of a length left its hole, given how far the lowest foot and the centroid rose, all in m."""
+    if foot > tenon:
+        text = noted("The lowest foot rose {foot:.1f} mm (centroid {centroid:.1f} mm) against a tenon of {tenon:g} mm: it left its hole.")
+    else:
+        text = noted(
+            "The lowest foot rose {foot:.1f} mm (centroid {centroid:.1f} mm) against a tenon of {tenon:g} mm: it did not leave its hole."
+        )
+    return tell(text, foot=foot * 1e3, centroid=centroid * 1e3, tenon=tenon * 1e3)

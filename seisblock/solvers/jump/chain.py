@@ -17,14 +17,15 @@ from seisblock.solvers.jump import rocking
 from seisblock.solvers.jump.impact import Launch, centroid_rise, foot_rise
 from seisblock.solvers.jump.touch import Touch, is_landing, touch_of
 from seisblock.typing import FloatArray
+from seisblock.words import noted
 
-NO_JUMP = "rocked without jumping"
-JUMPED = "jumped"
-OVERTURNED_ROCKING = "overturned while rocking"
-OVERTURNED_LANDED = "overturned after landing"
-ENDED_ROCKING = "still rocking a minute after the record"
-ENDED_FLYING = "still in flight a minute after the record"
-ENDED_LANDED = "still moving a minute after the record"
+NO_JUMP = noted("rocked without jumping")
+JUMPED = noted("jumped")
+OVERTURNED_ROCKING = noted("overturned while rocking")
+OVERTURNED_LANDED = noted("overturned after landing")
+ENDED_ROCKING = noted("still rocking a minute after the record")
+ENDED_FLYING = noted("still in flight a minute after the record")
+ENDED_LANDED = noted("still moving a minute after the record")
 
 REST, ROCKING, FLIGHT, LANDED = "rest", "rocking", "flight", "rocking-sliding"
 """Names of the phases."""

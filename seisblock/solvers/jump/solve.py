@@ -25,9 +25,10 @@ from seisblock.solvers.jump.landing import RULES
 from seisblock.solvers.jump.still import follow_on
 from seisblock.solvers.jump.tale import warnings_of, with_curves
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
 
 DIRECTIONS = ("+", "-", "both")
-DID_NOT_ROCK = "did not rock"
+DID_NOT_ROCK = noted("did not rock")
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from seisblock.solvers.jump.chain import (
     curves,
     phases_and_events,
 )
+from seisblock.words import noted, said
 
 ROUND_OFF = 1e-9
 """What is no more than this over a limit, as a share, meets it."""
@@ -32,25 +33,48 @@ def warnings_of(motion: Motion, chains: tuple[Chain, ...], mu: float) -> tuple[s
     """Return what a user should know before believing the chains of a run ([Sugimoto2017]_ 3.10), a sentence each."""
     name, found = motion.name or "motion", []
     for chain in chains:
-        began = f"the chain that began at {chain.rocking_start_s:.3f} s"
         if chain.outcome in (ENDED_ROCKING, ENDED_FLYING, ENDED_LANDED):
-            found.append(f"{name}: {chain.outcome}, {began} is not complete")
+            text = noted("{name}: {outcome}; the chain that began at {start:.3f} s is not complete")
+            found.append(said(text, name=name, outcome=said(chain.outcome), start=chain.rocking_start_s))
     landed = [chain for chain in chains if chain.friction_needed_at_landing is not None]
-    over = [chain for chain in landed if exceeds(chain.friction_needed_at_landing, mu)]
-    if over:
-        worst = max(chain.friction_needed_at_landing or 0.0 for chain in over)
-        ratio = f"a friction of {worst:.2f}" if math.isfinite(worst) else "that the ground pulls"
+    needs = [chain.friction_needed_at_landing or 0.0 for chain in landed if exceeds(chain.friction_needed_at_landing, mu)]
+    if needs and math.isinf(max(needs)):
         found.append(
-            f"{name}: {len(over)} of {len(landed)} landings stop the foot with more than friction can, mu {mu:g}: they need {ratio}; "
-            "the landing rule friction lets it slip on"
+            said(
+                "{name}: the ground would have to pull to stop the foot as {count} of {landed} landings do; the landing rule friction lets "
+                "it slip on",
+                name=name,
+                count=sum(math.isinf(each) for each in needs),
+                landed=len(landed),
+            )
+        )
+    elif needs:
+        found.append(
+            said(
+                "{name}: {count} of {landed} landings stop the foot with more than friction can, mu {mu:g}: they need up to {most:.2f}; the "
+                "landing rule friction lets it slip on",
+                name=name,
+                count=len(needs),
+                landed=len(landed),
+                mu=mu,
+                most=max(needs),
+            )
         )
     gains = [chain for chain in landed if chain.landing_energy_j and exceeds(chain.landing_energy_j[1], chain.landing_energy_j[0])]
     if gains:
         most = max(gains, key=lambda chain: chain.landing_energy_j[1] - chain.landing_energy_j[0] if chain.landing_energy_j else 0.0)
         before, after = most.landing_energy_j or (0.0, 0.0)
         found.append(
-            f"{name}: {len(gains)} of {len(landed)} landings make energy, as at {most.landing_s:.3f} s, {before:.3g} J before and "
-            f"{after:.3g} J after; the landing rule friction never does"
+            said(
+                "{name}: {count} of {landed} landings make energy, as at {time:.3f} s, {before:.3g} J before and {after:.3g} J after; the "
+                "landing rule friction never does",
+                name=name,
+                count=len(gains),
+                landed=len(landed),
+                time=most.landing_s,
+                before=before,
+                after=after,
+            )
         )
     return tuple(found)
 
