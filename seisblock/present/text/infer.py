@@ -90,8 +90,8 @@ def _needs(each: ScaleFactors, moved: str, *, gal: bool) -> str:
     values = {"name": each.component, "size": each.observed_m * 100, "moved": tell(moved), "alone": each.displacement_at_1_m * 100}
     if not told:
         text = noted(
-            "{name}: {size:.4g} cm of {moved}: no factor up to {limit:g} moves it so far (at most {most:.3g} cm, at {at:g}); as recorded it "
-            "is {alone:.3g} cm."
+            "{name}: {size:.4g} cm of {moved}: no factor up to {limit:g} moves it so far (at most {most:.3g} cm, at {at:g}); as recorded "
+            "it is {alone:.3g} cm."
         )
         return tell(text, **values, limit=each.limit, most=each.largest_displacement_m * 100, at=each.largest_at_scale)
     if len(told) == 1:

@@ -51,8 +51,8 @@ def warnings_of(motion: Motion, chains: tuple[Chain, ...], mu: float) -> tuple[s
     elif needs:
         found.append(
             said(
-                "{name}: {count} of {landed} landings stop the foot with more than friction can, mu {mu:g}: they need up to {most:.2f}; the "
-                "landing rule friction lets it slip on",
+                "{name}: {count} of {landed} landings stop the foot with more than friction can, mu {mu:g}: they need up to {most:.2f}; "
+                "the landing rule friction lets it slip on",
                 name=name,
                 count=len(needs),
                 landed=len(landed),
