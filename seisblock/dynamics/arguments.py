@@ -29,13 +29,14 @@ class Ground(NamedTuple):
 
 
 class Shape(NamedTuple):
-    """How large a model is: scratch rows beside the states, guards, tracked states, order, and 1 where parameters end in floors."""
+    """How large a model is: rows of scratch, guards, tracked states, order, 1 where parameters end in floors, sharp guards."""
 
     scratch: int
     guards: int
     tracked: int
     order: int
     floored: int
+    sharp: int
 
 
 class Cursor(NamedTuple):
@@ -102,7 +103,7 @@ class Scratch(NamedTuple):
 
 
 GROUND = _t.NamedTuple((READ_ONLY_MATRIX, VECTOR, _t.float64), Ground)
-SHAPE = _t.NamedUniTuple(_t.int64, 5, Shape)
+SHAPE = _t.NamedUniTuple(_t.int64, 6, Shape)
 CURSOR = _t.NamedTuple((INTEGERS, VECTOR, VECTOR), Cursor)
 KEPT = _t.NamedTuple((MATRIX, INTEGERS, INTEGER_TABLE, VECTOR, BLOCK, MATRIX, INTEGER_TABLE), Kept)
 SCRATCH = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR, VECTOR), Scratch)

@@ -158,7 +158,7 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
                 if h < 1e-12 * dt and rest > 1e-12 * dt:
                     status = STEP_TOO_SMALL
                     break
-            fired, h = first_to_fire(scratch, shape.guards, max(degree, 1), h)
+            fired, h = first_to_fire(scratch, shape, max(degree, 1), h)
             if h > 0.0:
                 if degree > CONSTANT and not move(scratch, degree, h, sample * dt + tau, shape.tracked, y, extrema):
                     status = NOT_FINITE

@@ -65,6 +65,8 @@ class Model:
         Signature ``SKIP``: the short cut through samples at which nothing happens.
     floored : bool
         Whether the parameters end in one size per state below which it counts as that large, for the step's length.
+    sharp : int
+        How many of the first guards are states set to exact values: however small they start, they are not taken for zero.
     """
 
     name: str
@@ -78,6 +80,7 @@ class Model:
     order: int = ORDER
     skip: Callable[..., Any] = hybrid.stay
     floored: bool = False
+    sharp: int = 0
 
     @cached_property
     def pointers(self) -> tuple[Any, Any, Any]:
@@ -87,7 +90,7 @@ class Model:
     @cached_property
     def shape(self) -> Shape:
         """Sizes that the engine needs."""
-        return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.floored))
+        return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.floored), self.sharp)
 
 
 @dataclass(frozen=True)

@@ -106,12 +106,12 @@ def _root_between(c, degree, high):
     return t
 
 
-@kernel(_t.float64(VECTOR, _t.int64, _t.float64, VECTOR, VECTOR))
-def first_crossing(g, degree, h, q, d):
+@kernel(_t.float64(VECTOR, _t.int64, _t.float64, _t.float64, VECTOR, VECTOR))
+def first_below(g, degree, h, round_off, q, d):
     """Return the first time in [0, h] from which a polynomial is negative, or NEVER.
 
-    A zero that is only touched, or passed by less than round-off, is no crossing. A guard that a reset has just left at
-    zero is therefore judged by where it goes, which is the half-open rule (t0, t0 + h]. Zero is returned when the
+    A zero that is only touched, or passed by less than `round_off` of the sum of the terms, is no crossing. A guard that a reset has
+    just left at zero is therefore judged by where it goes, which is the half-open rule (t0, t0 + h]. Zero is returned when the
     polynomial is negative, or becomes negative, at once.
 
     Parameters
@@ -121,6 +121,8 @@ def first_crossing(g, degree, h, q, d):
     degree : int
     h : float
         Length of the step, positive.
+    round_off : float
+        Zero for a polynomial whose every coefficient is meant, however small beside what it grows to within the step.
     q, d : (>= degree + 1,) arrays
         Scratch.
     """
@@ -133,7 +135,7 @@ def first_crossing(g, degree, h, q, d):
         power *= h
     if not total < np.inf:
         return NEVER
-    noise = ROUND_OFF * total
+    noise = round_off * total
     lead = 0
     power = 1.0
     while lead <= degree and abs(g[lead]) * power <= noise:
@@ -151,7 +153,7 @@ def first_crossing(g, degree, h, q, d):
     for k in range(n + 1):
         q[k] = g[lead + k]
     # march over [0, h], halving where the bounds cannot tell
-    noise = ROUND_OFF * total / power
+    noise = round_off * total / power
     start = 0.0
     width = h
     smallest = 1e-14 * h
@@ -170,3 +172,9 @@ def first_crossing(g, degree, h, q, d):
         start += width
         width = h - start
     return NEVER
+
+
+@kernel(_t.float64(VECTOR, _t.int64, _t.float64, VECTOR, VECTOR), inline=True)
+def first_crossing(g, degree, h, q, d):
+    """Return :func:`first_below` of a polynomial whose coefficients carry round-off."""
+    return first_below(g, degree, h, ROUND_OFF, q, d)

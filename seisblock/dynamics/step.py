@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arguments import GROUND, SCRATCH
+from seisblock.dynamics.arguments import GROUND, SCRATCH, SHAPE
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.dynamics.contract import OFF
 from seisblock.dynamics.extrema import keep, keep_turning_points, may_turn
-from seisblock.dynamics.polynomial import NEVER, evaluate_row, first_crossing, lower_bound_of_row
+from seisblock.dynamics.polynomial import NEVER, ROUND_OFF, evaluate_row, first_below, lower_bound_of_row
 
 _t = types()
 
@@ -51,15 +51,15 @@ def read(ground, sample, tau, f):
             f[row, 1] = slope
 
 
-@kernel(_t.Tuple((_t.int64, _t.float64))(SCRATCH, _t.int64, _t.int64, _t.float64), inline=True)
-def first_to_fire(scratch, n_guards, degree, h):
+@kernel(_t.Tuple((_t.int64, _t.float64))(SCRATCH, SHAPE, _t.int64, _t.float64), inline=True)
+def first_to_fire(scratch, shape, degree, h):
     """Return the guard that fires first within a step, -1 for none, and when: the end of the step."""
     g = scratch.g
     fired = -1
-    for k in range(n_guards):
+    for k in range(shape.guards):
         if g[k, 0] == OFF or lower_bound_of_row(g, k, degree, h) > 0.0:
             continue
-        at = first_crossing(g[k], degree, h, scratch.q, scratch.d)
+        at = first_below(g[k], degree, h, 0.0 if k < shape.sharp else ROUND_OFF, scratch.q, scratch.d)
         if at != NEVER and (fired < 0 or at < h):
             fired = k
             h = at
