@@ -38,6 +38,10 @@ from .records.record import Component, Record
 from .results import Channel, Event, Phase, Response, Status
 from .samples import Sample, list_samples, sample_path
 from .solvers.jump.solve import JumpOutcome, solve_jump
+from .solvers.respond.many import Fates, respond_many
+from .solvers.respond.outcome import RespondOutcome
+from .solvers.respond.setting import Setting
+from .solvers.respond.solve import make_setting, solve_respond
 from .solvers.rock.outcome import RockOutcome
 from .solvers.rock.solve import Verdict, rock_verdict, solve_rock
 from .solvers.slide.solve import SlideOutcome, solve_slide
@@ -81,6 +85,7 @@ __all__ = [
     "estimate_shaking",
     "Event",
     "FactorRange",
+    "Fates",
     "find_margin",
     "from_slenderness",
     "highpass",
@@ -96,6 +101,7 @@ __all__ = [
     "load_contact",
     "load_pile",
     "load_two_layer",
+    "make_setting",
     "Margin",
     "marked_survey",
     "measure",
@@ -125,6 +131,8 @@ __all__ = [
     "RecordMeasures",
     "RecordNotFoundError",
     "records",
+    "respond_many",
+    "RespondOutcome",
     "Response",
     "response_spectrum",
     "ResponseSpectrum",
@@ -141,6 +149,7 @@ __all__ = [
     "scale_to_pga",
     "ScaleFactors",
     "SeisblockError",
+    "Setting",
     "ShakingEstimate",
     "slid",
     "slide_study",
@@ -148,6 +157,7 @@ __all__ = [
     "SlidePoint",
     "SlidingBase",
     "solve_jump",
+    "solve_respond",
     "solve_rock",
     "solve_slide",
     "solve_stack",

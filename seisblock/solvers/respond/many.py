@@ -1,0 +1,130 @@
+"""Many runs at once: rows of settings and factors through one record and on to rest, with no Python between the samples."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from seisblock.dynamics import Ensemble, follow_many
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.solvers.respond import names
+from seisblock.solvers.respond.run import STILL_DT, check_settling, still_ground
+from seisblock.solvers.respond.setting import Initial, Setting
+from seisblock.typing import ArrayLike, BoolArray, FloatArray, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class Fates:
+    """The ends of many runs, (m,) arrays, one entry per row.
+
+    Parameters
+    ----------
+    overturned, settled, gave_up : bool
+    towards : int
+        +1 or -1 where it has fallen to +x or -x, else 0.
+    final_displacement_m, max_displacement_m : m
+        Of the centre of gravity from where it started; the former signed.
+    max_rotation_rad : rad
+    slip_path_m : m
+    impacts : int
+    end_s : s
+        After the motion's first sample.
+    """
+
+    overturned: BoolArray
+    settled: BoolArray
+    gave_up: BoolArray
+    towards: IntArray
+    final_displacement_m: FloatArray
+    max_displacement_m: FloatArray
+    max_rotation_rad: FloatArray
+    slip_path_m: FloatArray
+    impacts: IntArray
+    end_s: FloatArray
+
+
+def respond_many(
+    settings: Sequence[Setting],
+    motion: Motion,
+    *,
+    gains: ArrayLike = (1.0, 0.0, 1.0),
+    initial: Initial = None,
+    settle_s: float = 60.0,
+    workers: int | None = None,
+) -> Fates:
+    """Return the fates of many bodies, or of versions of one, under one motion; bit by bit those of single runs ([ShentonJones1991]_).
+
+    Parameters
+    ----------
+    settings : sequence of Setting
+        One per row, all with as many further points, all with tenons or none.
+    motion : Motion
+    gains : (3,) or (m, 3) array
+        Factors on the motion's rows along, across and up: (s cos, s sin, s_v) turns it by an angle and scales it.
+    initial : six floats or None
+        As in :func:`seisblock.solvers.respond.solve.solve_respond`, the same for all.
+    settle_s : float, s
+    workers : int or None
+        Threads; None: one per core. The answer does not depend on it.
+    """
+    check_settling(settle_s)
+    if not settings:
+        raise ParameterError("an ensemble needs at least one row")
+    rows = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (len(settings), 3)))
+    share = -(-len(settings) // (workers or os.cpu_count() or 1))
+    firsts = range(0, len(settings), share)
+    if len(firsts) == 1:
+        return _fates(settings, motion, rows, initial, settle_s)
+
+    def part(first: int) -> Fates:
+        last = first + share
+        return _fates(settings[first:last], motion, rows[first:last], initial, settle_s)
+
+    with ThreadPoolExecutor(len(firsts)) as pool:
+        found = list(pool.map(part, firsts))
+    return Fates(*(np.concatenate([getattr(each, field.name) for each in found]) for field in fields(Fates)))
+
+
+def _fates(settings: Sequence[Setting], motion: Motion, gains: FloatArray, initial: Initial, settle_s: float) -> Fates:
+    """Return the fates of some rows, on this thread."""
+    starts = np.array([setting.state(initial) for setting in settings])
+    model = settings[0].model
+    shaken = follow_many(
+        model, motion, [setting.parameters(motion.dt) for setting in settings], starts, settings[0].first_mode, gains=gains
+    )
+    final, mode, end = shaken.final.copy(), shaken.final_mode.copy(), shaken.end_time.copy()
+    high, low = _extrema(shaken)
+    moving = (mode >= 0) & (mode % names.HELD != names.REST)
+    if settle_s > 0.0 and moving.any():
+        p = np.array([setting.parameters(STILL_DT, still=True) for setting in settings])
+        for kind in np.unique(mode[moving]):
+            rows = np.flatnonzero(moving & (shaken.final_mode == kind))
+            after = follow_many(model, still_ground(settle_s), p[rows], shaken.final[rows], int(kind), gains=(1.0, 0.0, 1.0))
+            final[rows], mode[rows] = after.final, after.final_mode
+            end[rows] = (motion.samples - 1) * motion.dt + after.end_time
+            higher, lower = _extrema(after)
+            high[rows], low[rows] = np.maximum(high[rows], higher), np.minimum(low[rows], lower)
+    fallen = mode == names.OVERTURNED
+    origin = starts[:, names.X]
+    return Fates(
+        overturned=fallen,
+        settled=(mode == names.SETTLED) | ((mode >= 0) & (mode % names.HELD == names.REST)),
+        gave_up=mode == names.GAVE_UP,
+        towards=np.where(fallen, np.sign(final[:, names.THETA]), 0.0).astype(np.int64),
+        final_displacement_m=final[:, names.X] - origin,
+        max_displacement_m=np.maximum(high[:, names.X] - origin, origin - low[:, names.X]),
+        max_rotation_rad=np.maximum(high[:, names.THETA], -low[:, names.THETA]),
+        slip_path_m=final[:, names.PATH],
+        impacts=final[:, names.IMPACTS].astype(np.int64),
+        end_s=end,
+    )
+
+
+def _extrema(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:
+    """Return the highest and the lowest values of the tracked states, (m, 2) each."""
+    return ensemble.extrema[:, :, 0].copy(), ensemble.extrema[:, :, 2].copy()

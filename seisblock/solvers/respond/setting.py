@@ -1,0 +1,217 @@
+"""What a run is given: the body as the model sees it, its contact with the ground, and where it starts; checked once, in one record."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.dynamics import Model
+from seisblock.errors import BodyError, ParameterError
+from seisblock.records import Motion
+from seisblock.records.given import Factor, vertical_gain
+from seisblock.solvers.respond.model import model_with
+from seisblock.solvers.respond.names import (
+    GAP_LEFT,
+    GAP_RIGHT,
+    HELD,
+    NONE,
+    OMEGA,
+    RATE_LEFT,
+    RATE_RIGHT,
+    SPEED,
+    START,
+    STATES,
+    THETA,
+    X,
+)
+from seisblock.typing import FloatArray
+
+MOST_IMPACTS = 50_000
+"""Impacts after which a motion counts as one of hops without end."""
+
+SMALL_RATE = 1e-12
+"""v_z over sqrt(g R): hops below it are at their end."""
+
+TOUCHING = 1e-12
+"""Share of R below which a corner put down counts as touching, and of sqrt(g R) below which its rate counts as zero."""
+
+Body = Block | TwoLayerBlock
+Initial = Sequence[float] | None
+
+
+@dataclass(frozen=True)
+class Stand:
+    """A rigid body as it stands on the ground, in the plane of the motion.
+
+    Parameters
+    ----------
+    right, left : float, m
+        Horizontal distances from the lower corners about which it turns to its centre of gravity, b2 and b1.
+    height : float, m
+        Of the centre above the base, h.
+    gyration_squared : float, m^2
+        About the centre.
+    mass : float, kg
+    name : str
+    """
+
+    right: float
+    left: float
+    height: float
+    gyration_squared: float
+    mass: float
+    name: str
+
+    def __post_init__(self) -> None:
+        if not (self.right > 0.0 and self.left > 0.0):
+            raise BodyError(
+                f"{self.name}: the centre of gravity must lie above the base; it lies {self.left:g} m to +x of the left corner "
+                f"and {self.right:g} m to -x of the right one"
+            )
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Distances from the right and the left corner to the centre, m."""
+        return math.hypot(self.right, self.height), math.hypot(self.left, self.height)
+
+    @property
+    def slendernesses(self) -> tuple[float, float]:
+        """Angles alpha at the right and the left corner, rad."""
+        return math.atan2(self.right, self.height), math.atan2(self.left, self.height)
+
+    @property
+    def friction_limit(self) -> float:
+        """Kinetic friction below which no slip can jam: the least 2 sqrt(kappa (1 + kappa)), kappa = k^2/R^2 ([GenotBrogliato1999]_)."""
+        kappa = self.gyration_squared / max(self.radii) ** 2
+        return 2.0 * math.sqrt(kappa * (1.0 + kappa))
+
+
+def stand(body: Body) -> Stand:
+    """Return how a block, or a two-layer block as one rigid body, stands on the ground ([Sugimoto2017]_ eqs. (1), (3), (7b))."""
+    if isinstance(body, TwoLayerBlock):
+        half = body.width / 2
+        return Stand(half, half, body.centroid_height, body.centroid_inertia / body.mass, body.mass, body.name)
+    right, left = body.arms
+    return Stand(right, left, body.centre, body.gyration_squared, body.total_mass, body.name)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Everything but the motion that determines a run.
+
+    Parameters
+    ----------
+    stand : Stand
+    mu, mu_kinetic : float
+        Static and kinetic friction; kinetic inside impacts.
+    restitution : float
+        Poisson's, of one corner's impact.
+    rocking_restitution : float or None
+        Ratio of angular velocities in a rocking impact, in place of the impact law.
+    gravity : float, m/s^2
+    tenon : float, m
+        Depth to which tenons hold the feet; 0 without.
+    further_points : tuple of (float, float), m
+        Points of the body, to +x of its centre and above it, that end the motion when they meet the ground.
+    """
+
+    stand: Stand
+    mu: float
+    mu_kinetic: float
+    restitution: float = 0.0
+    rocking_restitution: float | None = None
+    gravity: float = 9.80665
+    tenon: float = 0.0
+    further_points: tuple[tuple[float, float], ...] = ()
+
+    def __post_init__(self) -> None:
+        _within("the friction coefficient mu", self.mu, 0.0, math.inf, "zero or more")
+        _within("the kinetic friction coefficient", self.mu_kinetic, 0.0, math.inf, "zero or more")
+        if self.mu_kinetic > self.mu:
+            raise ParameterError(f"kinetic friction must not exceed static friction, found {self.mu_kinetic:g} above {self.mu:g}")
+        if not 0.0 <= self.restitution < 1.0:
+            raise ParameterError(f"the restitution must lie in [0, 1), found {self.restitution:g}")
+        if self.rocking_restitution is not None and not 0.0 <= self.rocking_restitution <= 1.0:
+            raise ParameterError(
+                f"the rocking restitution, a ratio of angular velocities, must lie in [0, 1], found {self.rocking_restitution:g}"
+            )
+        if not (math.isfinite(self.gravity) and self.gravity > 0.0):
+            raise ParameterError(f"gravity must be positive, found {self.gravity:g} m/s^2")
+        _within("the tenon's depth", self.tenon, 0.0, math.inf, "zero or more, m")
+        for point in self.further_points:
+            if len(point) != 2 or not all(math.isfinite(value) for value in point):
+                raise ParameterError(f"a further point is two lengths, to +x of the centre of gravity and above it, found {point}")
+            if not point[1] > -self.stand.height:
+                raise ParameterError(f"a further point must lie above the base, {self.stand.height:g} m below the centre, found {point}")
+
+    @property
+    def small_rate(self) -> float:
+        """v_z, m/s."""
+        return SMALL_RATE * math.sqrt(self.gravity * max(self.stand.radii))
+
+    @property
+    def may_jam(self) -> bool:
+        """Whether kinetic friction reaches Painleve's limit ([GenotBrogliato1999]_)."""
+        return self.mu_kinetic >= self.stand.friction_limit
+
+    @property
+    def model(self) -> Model:
+        """The model that follows this body."""
+        return model_with(len(self.further_points))
+
+    @property
+    def first_mode(self) -> int:
+        """The mode in which the model puts the body down."""
+        return START + HELD if self.tenon > 0.0 else START
+
+    def parameters(self, dt: float, *, still: bool = False) -> FloatArray:
+        """Return the parameters of the model in the order of its names ([ShentonJones1991]_)."""
+        body = self.stand
+        given = NONE if self.rocking_restitution is None else self.rocking_restitution
+        row = [
+            self.gravity, dt, self.mu, self.mu_kinetic, self.restitution, given, body.right, body.left, body.height, body.gyration_squared,
+            self.tenon, float(self.mu_kinetic >= 0.999 * body.friction_limit), float(still), self.small_rate, MOST_IMPACTS,
+        ]  # fmt: skip
+        return np.array(row + [value for point in self.further_points for value in point])
+
+    def state(self, initial: Initial) -> FloatArray:
+        """Return the state of a body put down upright and at rest, or with the given six numbers ([ShentonJones1991]_)."""
+        y = np.zeros(len(STATES))
+        if initial is None:
+            return y
+        if len(initial) != 6 or not all(math.isfinite(value) for value in initial):
+            raise ParameterError(f"the initial state is six numbers, x_G, y_G, theta and their rates, found {tuple(initial)}")
+        x, height, theta, x_rate, rise, omega = (float(value) for value in initial)
+        if not abs(theta) < math.pi / 2:
+            raise ParameterError(f"the initial lean must lie within pi/2 rad, found {theta:g} rad")
+        y[X], y[THETA], y[SPEED], y[OMEGA] = x, theta, x_rate, omega
+        size = max(self.stand.radii)
+        slow = TOUCHING * math.sqrt(self.gravity * size)
+        for xi, gap_row, rate_row in ((-self.stand.left, GAP_LEFT, RATE_LEFT), (self.stand.right, GAP_RIGHT, RATE_RIGHT)):
+            rx = xi * math.cos(theta) - self.stand.height * math.sin(theta)
+            gap = height - xi * math.sin(theta) - self.stand.height * math.cos(theta)
+            rate = rise - rx * omega
+            if gap < -TOUCHING * size:
+                raise ParameterError(f"{self.stand.name}: the initial state has a corner {-gap:.3g} m below the ground")
+            y[gap_row] = gap if gap > TOUCHING * size else 0.0
+            y[rate_row] = rate if abs(rate) > slow + TOUCHING * (abs(rise) + abs(rx * omega)) else 0.0
+        for ahead, above in self.further_points:
+            if height - ahead * math.sin(theta) + above * math.cos(theta) <= 0.0:
+                raise ParameterError(f"{self.stand.name}: the initial state has a further point below the ground")
+        return y
+
+
+def _within(what: str, value: float, least: float, most: float, expected: str) -> None:
+    """Refuse a number outside its range."""
+    if not (math.isfinite(value) and least <= value <= most):
+        raise ParameterError(f"{what} must be {expected}, found {value:g}")
+
+
+def gains(motion: Motion, vertical: Factor | None) -> tuple[float, float, float]:
+    """Return the factors on the motion's rows; `vertical` None: the vertical motion acts where there is one ([ShentonJones1991]_)."""
+    return 1.0, 0.0, vertical_gain(motion, True if vertical is None else vertical, needed=vertical is not None)

@@ -1,0 +1,197 @@
+"""What a free-standing body does under a motion, whichever comes: from a body, a motion and friction to a response."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.records import Motion
+from seisblock.records.given import Factor, check_call
+from seisblock.results import Channel, Response
+from seisblock.solvers.respond import names
+from seisblock.solvers.respond.curves import curves
+from seisblock.solvers.respond.outcome import RespondOutcome, event_log, gather, motion_modes, phases, status, warnings
+from seisblock.solvers.respond.run import Run, check_settling, run
+from seisblock.solvers.respond.setting import Body, Initial, Setting, gains, stand
+from seisblock.typing import FloatArray
+from seisblock.units import STANDARD_GRAVITY
+
+CITATIONS = ("ShentonJones1991", "Shenton1996", "Housner1963", "WangMason1992", "Moreau1988", "GenotBrogliato1999")
+
+NUDGE = 1e-6
+"""Change of the input, as a share, that must not change a verdict."""
+
+
+def solve_respond(
+    block: Body,
+    motion: Motion,
+    *,
+    mu: float,
+    mu_kinetic: float | None = None,
+    restitution: float = 0.0,
+    rocking_restitution: float | None = None,
+    vertical: Factor | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    initial: Initial = None,
+    settle_s: float = 60.0,
+    tenon: float = 0.0,
+    further_points: Sequence[tuple[float, float]] = (),
+    sensitivity: bool = True,
+) -> Response[RespondOutcome]:
+    """Return what a free-standing rigid body does under a motion: rests, slides, rocks, slides while rocking, flies, falls.
+
+    Plane motion of a rigid body on rigid ground with Coulomb friction, every change of mode located exactly; see
+    :mod:`seisblock.solvers.respond.model` for the model. After the record's last sample the ground is still, until the body rests.
+
+    Parameters
+    ----------
+    block : Block or TwoLayerBlock
+        The latter as one rigid body.
+    motion : Motion
+        Ground acceleration, m/s^2.
+    mu : float
+        Static friction coefficient, 0 or more.
+    mu_kinetic : float or None
+        Kinetic friction coefficient, 0 to `mu`, also inside impacts; None: as `mu`.
+    restitution : float
+        Poisson's, of an impact at one corner, in [0, 1).
+    rocking_restitution : float or None
+        Angular velocity after over before when the other corner comes down, in [0, 1], in place of the impact law, where energy allows
+        it; landings keep `restitution`.
+    vertical : bool, float or None
+        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
+    gravity : float, m/s^2
+    initial : six floats or None
+        x and y of the centre of gravity relative to the ground, m, lean, rad, and their rates at the first sample; None: upright, at rest.
+    settle_s : float, s
+        How long the body is followed after the record.
+    tenon : float, m
+        Depth to which tenons hold the feet against sliding, until in flight the lower one has risen by as much; 0: none. Ours.
+    further_points : sequence of (float, float), m
+        Points of the body, to +x of the centre of gravity and above it, that end the motion when they meet the ground.
+    sensitivity : bool
+        Whether to look, by two more runs, if a change of the input by 1e-6 changes the verdict.
+
+    Returns
+    -------
+    Response[RespondOutcome]
+        Channels ``rotation`` (rad), ``angular_velocity`` (rad/s), ``displacement`` and ``velocity`` of the centre of gravity, its
+        ``height``, ``lift`` of the lowest corner, ``slip_velocity`` and ``slip_path`` of the foot, ``ground_acceleration`` and
+        ``vertical_acceleration``; SI, relative to the ground, on to the end of the motion.
+
+    Raises
+    ------
+    ParameterError
+        If a number lies outside its range.
+    BodyError
+        If the centre of gravity does not lie above the base.
+    KindError
+        If body or motion is something else.
+    ComponentError
+        If the vertical motion is asked of a record without one.
+    SolverError
+        If the motion overflows.
+
+    References
+    ----------
+    [ShentonJones1991]_, [Shenton1996]_, [Housner1963]_, [WangMason1992]_, [Moreau1988]_, [GenotBrogliato1999]_, [Sugimoto2017]_
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> for mu in (0.2, 0.5):
+    ...     outcome = solve_respond(Block(0.24, 0.8), pulse, mu=mu).outcome
+    ...     print(outcome.outcome, outcome.overturned_towards, f"{outcome.slip_path_m:.2f} m")
+    slides None 0.58 m
+    overturns -x 0.01 m
+    """
+    check_call(block, TwoLayerBlock if isinstance(block, TwoLayerBlock) else Block, motion)
+    setting = make_setting(
+        block, mu=mu, mu_kinetic=mu_kinetic, restitution=restitution, rocking_restitution=rocking_restitution, gravity=gravity,
+        tenon=tenon, further_points=further_points,
+    )  # fmt: skip
+    check_settling(settle_s)
+    factors = gains(motion, vertical)
+    found = run(setting, motion, factors, initial, settle_s)
+    sensitive = is_sensitive(found, setting, motion, factors, initial, settle_s) if sensitivity else None
+    outcome = gather(found, setting, motion.start_s, sensitive)
+    options = {
+        "mu": setting.mu, "mu_kinetic": setting.mu_kinetic, "restitution": restitution, "rocking_restitution": rocking_restitution,
+        "vertical": factors[2], "gravity_m_s2": gravity, "initial": None if initial is None else list(initial), "settle_s": settle_s,
+        "tenon_m": tenon, "further_points_m": [list(point) for point in setting.further_points],
+    }  # fmt: skip
+    time, channels = _channels(found, setting, motion, factors)
+    return Response(
+        "respond", outcome, motion, block, motion.start_s + time, channels, phases(outcome.events, outcome.end_s),
+        event_log(found, motion.start_s), options, status(found), warnings(found, setting, outcome, settle_s), CITATIONS,
+    )  # fmt: skip
+
+
+def make_setting(
+    block: Body,
+    *,
+    mu: float,
+    mu_kinetic: float | None = None,
+    restitution: float = 0.0,
+    rocking_restitution: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    tenon: float = 0.0,
+    further_points: Sequence[tuple[float, float]] = (),
+) -> Setting:
+    """Return all that determines a run but the motion, checked, as :func:`respond_many` takes it ([ShentonJones1991]_).
+
+    Parameters
+    ----------
+    block : Block or TwoLayerBlock
+    mu, mu_kinetic, restitution, rocking_restitution, gravity, tenon, further_points
+        As in :func:`solve_respond`.
+
+    Raises
+    ------
+    ParameterError
+        If a number lies outside its range.
+    BodyError
+        If the centre of gravity does not lie above the base.
+    """
+    return Setting(
+        stand(block), mu, mu if mu_kinetic is None else mu_kinetic, restitution, rocking_restitution, gravity, tenon,
+        tuple((float(ahead), float(above)) for ahead, above in further_points),
+    )  # fmt: skip
+
+
+def verdict(found: Run) -> tuple[bool, bool]:
+    """Return whether the body has fallen, and whether to +x ([Housner1963]_)."""
+    fallen = found.mode == names.OVERTURNED
+    return fallen, fallen and bool(found.final[names.THETA] > 0.0)
+
+
+def is_sensitive(
+    found: Run, setting: Setting, motion: Motion, factors: tuple[float, float, float], initial: Initial, settle_s: float
+) -> bool:
+    """Whether 1 - 1e-6 or 1 + 1e-6 times the motion leads to another verdict ([Housner1963]_)."""
+    for factor in (1.0 - NUDGE, 1.0 + NUDGE):
+        along, across, up = (factor * gain for gain in factors)
+        if verdict(run(setting, motion, (along, across, up), initial, settle_s, keep=False)) != verdict(found):
+            return True
+    return False
+
+
+def _channels(found: Run, setting: Setting, motion: Motion, factors: tuple[float, float, float]) -> tuple[FloatArray, tuple[Channel, ...]]:
+    """Return the time axis and the curves on it."""
+    time, states, modes = found.table()
+    of = curves(setting.stand, states, motion_modes(found, modes))
+    speed, acceleration = "m/s", "m/s^2"
+    return time, (
+        Channel("rotation", "rad", of.rotation, "θ"),
+        Channel("angular_velocity", "rad/s", of.angular_velocity, "θ'"),
+        Channel("displacement", "m", of.displacement, "x"),
+        Channel("velocity", speed, of.velocity, "x'"),
+        Channel("height", "m", of.height, "y"),
+        Channel("lift", "m", of.lift, ""),
+        Channel("slip_velocity", speed, of.slip_velocity, "v"),
+        Channel("slip_path", "m", states[:, names.PATH], ""),
+        Channel("ground_acceleration", acceleration, found.sampled(motion.horizontal), "a"),
+        Channel("vertical_acceleration", acceleration, factors[2] * found.sampled(motion.vertical), "a_v"),
+    )

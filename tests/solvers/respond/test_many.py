@@ -1,0 +1,65 @@
+"""Many runs at once are the single runs, bit by bit, whatever the threads."""
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.solvers.respond import make_setting, respond_many, solve_respond
+from tests.solvers.respond.cases import shaking
+
+MOTION = shaking(9, 9.0, seconds=8.0)
+
+
+def versions(n=40):
+    """Return versions of a block that do all sorts of things."""
+    rng = np.random.default_rng(3)
+    blocks = [Block(0.35 * a, 0.9 * b, centroid_offset=0.05 * c) for a, b, c in rng.uniform(0.7, 1.3, (n, 3))]
+    numbers = zip(blocks, rng.uniform(0.1, 0.9, n), rng.choice([0.0, 0.3], n), strict=True)
+    return [(block, {"mu": mu, "restitution": e}) for block, mu, e in numbers]
+
+
+def test_rows_are_single_runs():
+    """Verdict, displacements, leans, paths, impacts and times are equal to the last bit."""
+    rows = versions()
+    many = respond_many([make_setting(block, **options) for block, options in rows], MOTION)
+    assert 0 < many.overturned.sum() < len(rows)
+    for row, (block, options) in enumerate(rows):
+        one = solve_respond(block, MOTION, sensitivity=False, **options).outcome
+        assert many.overturned[row] == one.overturned
+        assert many.settled[row] == one.settled
+        assert many.towards[row] == {"+x": 1, "-x": -1, None: 0}[one.overturned_towards]
+        for name in ("final_displacement_m", "max_displacement_m", "max_rotation_rad", "slip_path_m", "impacts", "end_s"):
+            assert getattr(many, name)[row] == getattr(one, name), name
+
+
+def test_threads_do_not_matter():
+    """One, two or seven threads give the same arrays."""
+    settings = [make_setting(block, **options) for block, options in versions(15)]
+    one, *others = (respond_many(settings, MOTION, workers=workers) for workers in (1, 2, 7))
+    for other in others:
+        for name in vars(one):
+            np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+
+
+def test_gains_turn_and_scale_the_motion():
+    """Factors on the rows along and across turn the motion by an angle, without a copy of it."""
+    rng = np.random.default_rng(1)
+    rows = np.array([MOTION.horizontal, np.roll(MOTION.horizontal, 40), MOTION.vertical])
+    motion = Motion(rows, MOTION.dt)
+    angles = rng.uniform(0.0, 2.0 * np.pi, 6)
+    setting = make_setting(Block(0.4, 0.9), mu=0.35)
+    many = respond_many([setting] * 6, motion, gains=np.stack([0.8 * np.cos(angles), 0.8 * np.sin(angles), np.full(6, 0.8)], axis=1))
+    for row, angle in enumerate(angles):
+        turned = Motion.from_arrays(0.8 * np.cos(angle) * rows[0] + 0.8 * np.sin(angle) * rows[1], motion.dt, vertical=0.8 * rows[2])
+        one = solve_respond(Block(0.4, 0.9), turned, mu=0.35, sensitivity=False).outcome
+        assert many.overturned[row] == one.overturned
+        assert many.end_s[row] == pytest.approx(one.end_s, abs=1e-6)
+        assert many.final_displacement_m[row] == pytest.approx(one.final_displacement_m, abs=1e-6)
+
+
+def test_nothing_is_no_ensemble():
+    """No row at all is refused."""
+    with pytest.raises(ParameterError, match="one row"):
+        respond_many([], MOTION)
