@@ -1,6 +1,9 @@
-"""Whether a column of times is even, and its step."""
+"""Whether a column of times is even within the digits it is printed with, and its step."""
 
 from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -8,35 +11,99 @@ from seisblock.errors import RecordFormatError
 from seisblock.typing import FloatArray
 
 TOLERANCE = 1e-6
-"""How far, in s, a time may lie from its place on an even clock."""
+"""How far, in s, a time may lie from its place on an even clock, where more digits are printed than that."""
+
+LEAST_ROUNDED, ROUNDED_SHARE = 3, 0.05
+"""How many steps, and which share of them, must differ from the usual one before the digits printed are blamed for it."""
+
+_NUMBER = re.compile(r"[-+]?(\d*)\.?(\d*)(?:[eEdD]([-+]?\d+))?")
 
 
-def even_dt(name: str, seconds: FloatArray) -> float:
+def even_dt(name: str, times: FloatArray, written: Callable[[], Sequence[str]] | None = None, *, unit: float = 1.0) -> float:
     """Return the sampling interval of a column of times, s.
 
     Among the intervals that fit, one of six digits or a whole number of samples per second is preferred: 0.02, not 0.020000000000000004.
+    Times printed to few digits (100.001, 100.002, 100.004 for steps of 0.00125 s) are even when such an interval explains each of them
+    to half a unit of its last digit.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for messages.
+    times : (n,) array
+        As read, in `unit`.
+    written : callable or None
+        Returns the times as the file writes them; asked for only when they are not even to 1e-6 s.
+    unit : float, s
+        Unit of the times.
 
     Raises
     ------
     RecordFormatError
-        If there are fewer than two times, or one lies more than 1e-6 s from its even place.
+        If there are fewer than two times, or one lies off its even place.
     """
+    seconds = times * unit
     count = seconds.size
     if count < 2:
         raise RecordFormatError(f"{name}: a record needs at least 2 samples, found {count}")
     dt = float(seconds[-1] - seconds[0]) / (count - 1)
     # the interval that most rows have shows which row is wrong; the mean only that one is
     usual = float(np.median(np.diff(seconds)))
+    off = np.abs(seconds - (seconds[0] + dt * np.arange(count)))
+    if usual > 0.0 and off.max() <= TOLERANCE * (1.0 + 1e-3) + 4.0 * np.finfo(float).eps * abs(seconds).max():
+        return next((plain for plain in _plain(dt) if abs(plain - dt) * (count - 1) <= TOLERANCE), dt)
+    if written is not None and dt > 0.0:
+        slack = unit * half_units(written())
+        for plain in _plain(dt, digits=4):
+            if _explains(plain, seconds, slack):
+                return plain
     if not usual > 0.0:
         raise RecordFormatError(f"{name}: its time does not increase (step {usual:g} s): expected an even time in s")
-    off = np.abs(seconds - (seconds[0] + dt * np.arange(count)))
-    if off.max() > TOLERANCE * (1.0 + 1e-3) + 4.0 * np.finfo(float).eps * abs(seconds).max():
-        row = int(np.argmax(np.abs(np.diff(seconds) - usual)))
-        raise RecordFormatError(
-            f"{name}: its time is uneven: from {seconds[row]:.9g} to {seconds[row + 1]:.9g} s, where most steps are {usual:.9g} s; "
-            "expected steps even to 1e-6 s: resample the record"
-        )
-    for candidate in (float(f"{dt:.6g}"), 1.0 / round(1.0 / dt) if dt < 0.5 else dt):
-        if abs(candidate - dt) * (count - 1) <= TOLERANCE:
-            return candidate
-    return dt
+    row = int(np.argmax(np.abs(np.diff(seconds) - usual)))
+    raise RecordFormatError(
+        f"{name}: its time is uneven: from {seconds[row]:.9g} to {seconds[row + 1]:.9g} s, where most steps are {usual:.9g} s: a line is "
+        "missing or stands twice, or the sampling is uneven; expected steps even to 1e-6 s or within the digits printed"
+    )
+
+
+def half_units(written: Sequence[str]) -> FloatArray:
+    """Return half a unit of the last digit to which each number is printed, (n,), in the unit of the numbers.
+
+    A program prints a fixed number of decimals, or a fixed number of significant digits and then without the zeros at the end: the most
+    of either that any number shows is what it printed to.
+
+    Examples
+    --------
+    >>> half_units(["0.00125", "0.0025", "100.001"])
+    array([5.e-06, 5.e-06, 5.e-04])
+    """
+    places, leading, significant = [], [], []
+    for text in written:
+        match = _NUMBER.fullmatch(text)
+        whole, fraction, exponent = (match[1], match[2], int(match[3] or 0)) if match else ("", "", 0)
+        digits = (whole + fraction).lstrip("0")
+        places.append(len(fraction) - exponent)
+        significant.append(len(digits))
+        leading.append(len(digits) - len(fraction) + exponent)  # the first digit stands for 10 to this, less one
+    finest, most = max(places, default=0), max(significant, default=1)
+    return 0.5 * 10.0 ** np.maximum(-float(finest), np.array(leading, dtype=np.float64) - most)
+
+
+def _plain(dt: float, *, digits: int = 6) -> tuple[float, ...]:
+    """Return the intervals near a mean step that a recorder would have: few digits, or a whole number of samples per second."""
+    rounded = float(f"{dt:.{digits}g}")
+    return (rounded, 1.0 / round(1.0 / dt)) if 0.0 < dt < 0.5 else (rounded,)
+
+
+def _explains(dt: float, seconds: FloatArray, slack: FloatArray) -> bool:
+    """Return whether times lie within half a unit of their last digit of an even clock, whose first tick may be rounded, too.
+
+    Rounding leaves its mark on many steps; one or two that are off are a missing or a repeated line.
+    """
+    steps = np.diff(seconds)
+    odd = np.count_nonzero(np.abs(steps - np.median(steps)) > 1e-3 * dt)
+    if odd < max(LEAST_ROUNDED, ROUNDED_SHARE * steps.size):
+        return False
+    slack = slack + 1e-9 + 4.0 * np.finfo(float).eps * np.abs(seconds)
+    off = seconds - dt * np.arange(seconds.size)
+    return bool((off - slack).max() <= (off + slack).min())

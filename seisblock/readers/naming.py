@@ -1,23 +1,29 @@
-"""What a column's name says: component, time or unit."""
+"""What stands in a column's name besides its direction: the time, a unit, another quantity."""
 
 from __future__ import annotations
 
 import re
 import unicodedata
 
+from seisblock.readers.directions import direction_of
+
 TIME = "TIME"
 
-_CODES = {
-    "NS": ("ns", "n", "north", "northsouth", "南北", "南北動", "南北成分"),
-    "EW": ("ew", "e", "east", "eastwest", "東西", "東西動", "東西成分"),
-    "UD": ("ud", "u", "z", "up", "updown", "vertical", "vert", "v", "上下", "上下動", "上下成分", "鉛直"),
+_NAMES = {
     "ACC": ("acc", "acceleration", "accel", "a", "加速度"),
     TIME: ("time", "t", "relativetime", "elapsedtime", "時間", "時刻", "経過時間", "秒"),
 }
-_CODE = {spelling: code for code, spellings in _CODES.items() for spelling in spellings}
-_QUANTITY = re.compile(r"^(?:acc(?:eleration)?|a)[ _-]+(?=.)|(?<=.)[ _-]+(?:acc(?:eleration)?|component|comp)$|加速度", re.IGNORECASE)
-_BRACKETED = re.compile(r"^(.*?)\s*[(\[{<]\s*(.*?)\s*[)\]}>]\s*$")
-_SUFFIXED = re.compile(r"^(.*?)[ _]+((?:cm|mm|m)[/_ ]?s(?:ec)?[\^_]?2|(?:cm|mm|m)/s(?:ec)?/s(?:ec)?|gals?|g|ガル|sec|s|ms)$", re.IGNORECASE)
+_NAME = {spelling: code for code, spellings in _NAMES.items() for spelling in spellings}
+_QUANTITY = re.compile(
+    r"^(?:acc(?:el(?:eration)?)?|a)[ ,_-]+(?=.)|^acc(?=[xyz]$)|^a(?=[xyz]$)|(?<=.)[ _-]+(?:acc(?:el(?:eration)?)?|component|comp)$|加速度",
+    re.IGNORECASE,
+)
+_BRACKETED = re.compile(r"^(.*?)\s*[(\[{<]\s*([^)\]}>]*?)\s*[)\]}>]\s*$")
+_WITHIN = re.compile(r"^(.*?)\s*[(\[{<]\s*([^)\]}>]*?)\s*[)\]}>]\W")
+_SUFFIXED = re.compile(
+    r"^(.*?)[ _]+((?:cm|mm|m)[/_ ]?s(?:ec)?[\^_]?2|(?:cm|mm|m)/s(?:ec)?/s(?:ec)?|(?:cm|mm|m)/s(?:ec)?|gals?|kines?|g|ガル|sec|s|ms)$",
+    re.IGNORECASE,
+)
 _UNITS = {
     "gal": "gal",
     "gals": "gal",
@@ -28,7 +34,21 @@ _UNITS = {
     "g": "g",
     "gs": "g",
 }
-_TIME_UNITS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "秒": 1.0, "ms": 1e-3, "msec": 1e-3}
+_TIME_UNITS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "秒": 1.0, "ms": 1e-3, "msec": 1e-3, "min": 60.0}
+_OTHER_UNITS = {
+    "a velocity": ("m/s", "cm/s", "mm/s", "m/sec", "cm/sec", "kine", "kines", "カイン"),
+    "a displacement": ("m", "cm", "mm"),
+    "an angle": ("deg", "rad"),
+    "a frequency": ("hz",),
+}
+_OTHER_NAMES = {
+    "a velocity": ("vel", "velocity", "速度"),
+    "a displacement": ("disp", "displacement", "変位"),
+    "a number of the line": ("index", "no", "nr", "number", "#", "sample", "samples", "count", "id", "step", "番号"),
+    "a note": ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
+}
+_OTHER_UNIT = {spelling: what for what, spellings in _OTHER_UNITS.items() for spelling in spellings}
+_OTHER_NAME = {spelling: what for what, spellings in _OTHER_NAMES.items() for spelling in spellings}
 
 
 def tidy(text: str) -> str:
@@ -58,23 +78,48 @@ def split_unit(text: str) -> tuple[str, str]:
 
     Examples
     --------
-    >>> split_unit("EW (gal)"), split_unit("ns_m_s2"), split_unit("UD")
-    (('EW', 'gal'), ('ns', 'm_s2'), ('UD', ''))
+    >>> split_unit("EW (gal)"), split_unit("ns_m_s2"), split_unit("UD"), split_unit("Time [s] - Plot 0")
+    (('EW', 'gal'), ('ns', 'm_s2'), ('UD', ''), ('Time', 's'))
     """
     plain = tidy(text)
     match = _BRACKETED.match(plain) or _SUFFIXED.match(plain)
+    if match is None:
+        within = _WITHIN.match(plain)
+        match = within if within and (normal_unit(within[2]) or time_unit(within[2])) else None
     return (match[1].strip(), match[2]) if match else (plain, "")
 
 
-def code_of(text: str) -> str:
-    """Return the component code that a column's name means: ``NS``, ``EW``, ``UD``, ``TIME``, else the name in capitals.
+def bare_name(text: str) -> str:
+    """Return a column's name without unit and without the word acceleration: ``x`` of ``acc_x (gal)``."""
+    name = split_unit(text)[0]
+    return (_QUANTITY.sub("", name) or name).strip()
+
+
+def other_quantity(text: str) -> str | None:
+    """Return what a column holds that is no acceleration and no time by its own name or unit, or None.
 
     Examples
     --------
-    >>> [code_of(name) for name in ("N-S(gal)", "東西", "ud_gal", "relative time (s)", "acc (g)")]
-    ['NS', 'EW', 'UD', 'TIME', 'ACC']
+    >>> other_quantity("vel (cm/s)"), other_quantity("index"), other_quantity("NS (gal)")
+    ('a velocity', 'a number of the line', None)
     """
-    name = split_unit(text)[0]
-    stripped = _QUANTITY.sub("", name) or name
+    name, unit = split_unit(text)
+    if normal_unit(unit) or time_unit(unit):
+        return None
+    return _OTHER_UNIT.get(unit.lower()) or _OTHER_NAME.get(re.sub(r"[\s_.]", "", name).lower())
+
+
+def code_of(text: str) -> str:
+    """Return the component code that a column's name means: ``NS``, ``EW``, ``UD``, an azimuth, ``TIME``, else the name in capitals.
+
+    Examples
+    --------
+    >>> [code_of(name) for name in ("N-S(gal)", "東西", "ud_gal", "relative time (s)", "acc (g)", "acc_x", "N80W")]
+    ['NS', 'EW', 'UD', 'TIME', 'ACC', 'X', '280']
+    """
+    stripped = bare_name(text)
     key = re.sub(r"[\s_\-.]", "", stripped).lower()
-    return _CODE.get(key, name.strip().upper())
+    if key in _NAME:
+        return _NAME[key]
+    direction = direction_of(stripped)
+    return direction.code if direction and not direction.bare else stripped.upper()

@@ -82,10 +82,15 @@ def test_without_a_header_an_even_first_column_is_time(table):
     assert read(table("0.1\n0.2\n-0.1\n"), units="g", dt=0.01).samples == 3
 
 
-def test_other_columns_are_left_out(table):
-    """Beside NS and EW an index and a note do not matter; their text is not read."""
-    record = read(table("index,time,NS (gal),EW (gal),note\n1,0,1,2,a\n2,0.01,3,4,b\n"))
+def test_columns_that_say_they_are_no_acceleration_are_left_out_and_told(table):
+    """Beside NS and EW an index, a velocity and a note do not matter; their text is not read, and each is named."""
+    record = read(table("index,time,NS (gal),EW (gal),vel (cm/s),note\n1,0,1,2,9,a\n2,0.01,3,4,9,b\n"))
     assert record.codes == ("NS", "EW")
+    assert record.history == (
+        "left out column 'index': a number of the line",
+        "left out column 'vel (cm/s)': a velocity",
+        "left out column 'note': a note",
+    )
 
 
 @settings(max_examples=60, deadline=None)
@@ -149,6 +154,8 @@ def test_uneven_time_is_refused_and_a_last_digit_is_not(table):
         ("time,NS (gal)\n0,1\n", {}, RecordFormatError, "at least 2 samples"),
         ("time (s)\n0\n0.01\n", {}, RecordFormatError, "nothing else"),
         ("time,NS (gal),N-S (gal)\n0,1,1\n0.01,2,2\n", {}, RecordFormatError, "several columns mean NS"),
+        ("time,NS (gal),EW (gal),foo\n0,1,2,3\n0.01,2,3,4\n", {}, RecordFormatError, "column not understood: 'foo'; expected a direction"),
+        ("time (JST),NS (gal)\n0,1\n0.01,2\n", {}, UnitError, "unknown unit of time 'JST'"),
         ("abc def\n", {}, RecordFormatError, "no format known"),
         ("# only\n# comments\n", {}, RecordFormatError, "no format known"),
     ],

@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock.errors import RecordFormatError
 from seisblock.readers.cells import fail
+from seisblock.readers.directions import direction_of
 from seisblock.readers.header import number
 from seisblock.readers.source import Blob, decode
 from seisblock.records import Component, Record
@@ -24,8 +25,6 @@ _NAME = re.compile(
     r"^(?P<base>.*?[^0-9_-])?[-_ ]*(?P<direction>\d{3}|UPDN|UP|DWN|DOWN|DN|VERT|VER|UD|NS|EW|V)(?:[-_](?:hor|ver|up|h|v)\w*)?$",
     re.IGNORECASE,
 )
-_UP, _DOWN = {"UP", "VERT", "VER", "V", "Z", "UD", "UPDN", "VERTICAL"}, {"DWN", "DOWN", "DN"}
-_POINTS = {"N": 0.0, "E": 90.0, "S": 180.0, "W": 270.0, "NS": 0.0, "EW": 90.0}
 
 
 def is_at2(head: bytes) -> bool:
@@ -70,23 +69,10 @@ def orientation(direction: str) -> tuple[str, float | None, float]:
     >>> orientation("360"), orientation("090"), orientation("164"), orientation("DWN"), orientation("N21E")
     (('NS', 0.0, 1.0), ('EW', 90.0, 1.0), ('164', 164.0, 1.0), ('UD', None, -1.0), ('21', 21.0, 1.0))
     """
-    text = re.sub(r"[\s.]", "", direction.upper())
-    if text in _UP:
-        return "UD", None, 1.0
-    if text in _DOWN:
-        return "UD", None, -1.0
-    quadrant = re.fullmatch(r"([NS])(\d{1,2})([EW])", text)
-    if quadrant:
-        angle = float(quadrant[2])
-        azimuth = {"NE": angle, "SE": 180.0 - angle, "SW": 180.0 + angle, "NW": 360.0 - angle}[quadrant[1] + quadrant[3]]
-    elif text in _POINTS:
-        azimuth = _POINTS[text]
-    elif re.fullmatch(r"\d{1,3}", text) and float(text) <= 360.0:
-        azimuth = float(text)
-    else:
-        return text or "H1", None, 1.0
-    azimuth %= 360.0
-    return {0.0: "NS", 90.0: "EW"}.get(azimuth, f"{azimuth:g}"), azimuth, 1.0
+    found = direction_of(direction)
+    if found is None:
+        return re.sub(r"[\s.]", "", direction.upper()) or "H1", None, 1.0
+    return found.code, found.azimuth_deg, found.sign
 
 
 def set_name(basename: str) -> tuple[str, str] | None:

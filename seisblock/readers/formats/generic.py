@@ -11,6 +11,7 @@ import numpy as np
 
 from seisblock.errors import ParameterError, RecordFormatError, UnitError
 from seisblock.readers.cells import to_si
+from seisblock.readers.directions import Direction, direction_of
 from seisblock.readers.naming import normal_unit
 from seisblock.readers.source import Blob
 from seisblock.records import Component, Record
@@ -103,10 +104,10 @@ def _record(name: str, trace: Any, waveform: str, unit: str) -> Record:
     metadata: dict[str, object] = {"unit": unit, "channel": trace.id}
     if stats.calib != 1.0:
         metadata["warnings"] = (f"{trace.id}: the calibration factor {stats.calib:g} of the file was not applied: units are as you said",)
-    code = _LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC")
+    direction = direction_of(stats.channel) or Direction(_LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC"))
     start = stats.starttime.datetime.replace(tzinfo=UTC) if stats.starttime.timestamp else None
     return Record(
-        (Component(code, to_si(values, unit)),),
+        (Component(direction.code, direction.sign * to_si(values, unit), direction.azimuth_deg),),
         float(stats.delta),
         station=stats.station,
         start=start,

@@ -17,6 +17,7 @@ from seisblock.records import Component, Record
 
 FORMAT = "JMA-CSV"
 _HEADER_LINES = 40  # 7 in every file seen; old ones may carry more
+_CODES = ("NS", "EW", "UD", "X", "Y")
 _KEY = re.compile(r"\s*([A-Za-z. ]+?)\s*=\s*(.*)")
 
 
@@ -39,7 +40,7 @@ def read_jma_csv(blob: Blob) -> Record:
     names = [cell.strip().strip('"') for cell in lines[last].split(",")]
     while names and not names[-1]:
         names.pop()
-    columns = {code_of(name): index for index, name in enumerate(names)}
+    columns = _columns(blob.name, last + 1, names)
     dt = 1.0 / _rate(blob.name, header)
     unit = _unit(blob.name, header)
     start = _start(blob.name, header)
@@ -64,10 +65,21 @@ def _read_header(name: str, lines: list[str]) -> tuple[dict[str, tuple[int, str]
         match = _KEY.match(line)
         if match:
             header[" ".join(match[1].upper().split())] = (index + 1, match[2].strip())
-        elif len({code_of(cell) for cell in line.split(",")} & {"NS", "EW", "UD", "X", "Y"}) >= 2:
+        elif len({code_of(cell) for cell in line.split(",")} & set(_CODES)) >= 2:
             return header, index
     count = sum(1 for line in lines[:_HEADER_LINES] if line.strip())
     raise RecordFormatError(f"{name}: the JMA header is cut short: {count} lines, none of which names the components (NS,EW,UD)")
+
+
+def _columns(name: str, line: int, names: list[str]) -> dict[str, int]:
+    """Return which column holds which component; a column that is none, or stands twice, is refused."""
+    columns: dict[str, int] = {}
+    for index, written in enumerate(names):
+        code = code_of(written)
+        if code not in _CODES or code in columns:
+            fail(name, line, f"expected the components NS, EW and UD once each, found {', '.join(repr(n) for n in names)}")
+        columns[code] = index
+    return columns
 
 
 def _value(name: str, header: dict[str, tuple[int, str]], *keys: str) -> tuple[int, str]:

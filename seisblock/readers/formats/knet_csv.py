@@ -70,8 +70,11 @@ def _sensors(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
     sensors: dict[str, dict[str, int]] = {}
     for index, column in enumerate(names):
         code, level = _CHANNELS.get(column.split("(")[0], (code_of(column), ""))
-        if code != TIME:
-            sensors.setdefault(level, {})[code] = index
+        if code == TIME:
+            continue
+        if code not in ("NS", "EW", "UD") or code in sensors.get(level, {}):
+            raise RecordFormatError(f"{name}: column {column!r} is none of N-S, E-W, U-D (or 1 to 6), or stands twice: the file is damaged")
+        sensors.setdefault(level, {})[code] = index
     if not sensors:
         raise RecordFormatError(f"{name}: no column of acceleration among {', '.join(names)}")
     return sensors

@@ -1,0 +1,103 @@
+"""Which direction a word means: a compass point, an azimuth, an axis, a SEED code."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+_POINTS = {
+    0.0: ("ns", "n", "north", "northsouth", "northward", "南北", "南北動", "南北成分"),
+    90.0: ("ew", "e", "east", "eastwest", "eastward", "東西", "東西動", "東西成分"),
+    180.0: ("s", "south", "southward"),
+    270.0: ("w", "west", "westward"),
+}
+_UP = ("ud", "u", "z", "up", "updn", "updown", "upward", "vertical", "vert", "ver", "v", "上下", "上下動", "上下成分", "鉛直")
+_DOWN = ("dwn", "down", "dn", "downward")
+_AXES = {
+    "X": ("x",),
+    "Y": ("y",),
+    "L": ("l", "long", "longitudinal"),
+    "T": ("tr", "trans", "transverse", "tran"),
+    "R": ("r", "radial"),
+    "H1": ("h1",),
+    "H2": ("h2",),
+}
+_POINT = {word: azimuth for azimuth, words in _POINTS.items() for word in words}
+_AXIS = {word: code for code, words in _AXES.items() for word in words}
+_QUADRANT = re.compile(r"([NS])(\d{1,2}(?:\.\d+)?)([EW])", re.IGNORECASE)
+_DEGREES = re.compile(r"(?:az(?:imuth)?)?(\d{1,3}(?:\.\d+)?)(deg(?:rees?)?|°|度)?", re.IGNORECASE)
+_SEED = re.compile(r"(?:.*\.)?([FGDCESHBMLV][NLGH])([NEZ123])", re.IGNORECASE)
+_SEED_POINTS = {"N": "NS", "E": "EW", "Z": "UD"}
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A direction of ground motion.
+
+    Parameters
+    ----------
+    code : str
+        ``NS``, ``EW``, ``UD``; the azimuth in degrees (``164``); else the name of an axis whose azimuth is not known.
+    azimuth_deg : float or None
+        Of the positive direction, clockwise from north; None when vertical or not known.
+    sign : float
+        -1 where the name is positive down: the samples are turned to ``UD``.
+    bare : bool
+        A number without the word degrees: an azimuth only in company.
+    velocity : bool
+        A SEED code of an instrument that measures velocity.
+    """
+
+    code: str
+    azimuth_deg: float | None = None
+    sign: float = 1.0
+    bare: bool = False
+    velocity: bool = False
+
+
+def towards(azimuth_deg: float, *, bare: bool = False) -> Direction:
+    """Return the direction of an azimuth: 0 and 360 are called ``NS``, 90 ``EW``, any other by its degrees."""
+    azimuth = azimuth_deg % 360.0
+    return Direction({0.0: "NS", 90.0: "EW"}.get(azimuth, f"{azimuth:g}"), azimuth, bare=bare)
+
+
+def direction_of(text: str) -> Direction | None:
+    """Return the direction that a word means, or None.
+
+    Parameters
+    ----------
+    text : str
+        ``NS``, ``N-S``, ``E/W``, ``north``, ``東西``; ``N10E``, ``S80W``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``, ``Z``; ``L``,
+        ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``. A lone ``T`` is not among them: it may be the time.
+
+    Examples
+    --------
+    >>> [direction_of(word).code for word in ("N-S", "E/W", "UP", "N80W", "280°", "HNZ", "HN1", "Y")]
+    ['NS', 'EW', 'UD', '280', '280', 'UD', 'HN1', 'Y']
+    >>> direction_of("pressure") is None
+    True
+    """
+    word = re.sub(r"[\s_\-./]", "", text)
+    key = word.lower()
+    if key in _POINT:
+        return towards(_POINT[key])
+    if key in _UP:
+        return Direction("UD")
+    if key in _DOWN:
+        return Direction("UD", sign=-1.0)
+    if key in _AXIS:
+        return Direction(_AXIS[key])
+    quadrant = _QUADRANT.fullmatch(re.sub(r"[°度]", "", re.sub(r"[\s_-]", "", text)))
+    if quadrant and float(quadrant[2]) <= 90.0:
+        angle = float(quadrant[2])
+        turned = {"NE": angle, "SE": 180.0 - angle, "SW": 180.0 + angle, "NW": 360.0 - angle}
+        return towards(turned[(quadrant[1] + quadrant[3]).upper()])
+    degrees = _DEGREES.fullmatch(re.sub(r"[\s_:=-]", "", text))
+    if degrees and float(degrees[1]) <= 360.0:
+        return towards(float(degrees[1]), bare=degrees[0] == degrees[1])
+    seed = _SEED.fullmatch(text.strip())
+    if seed:
+        letter, instrument = seed[2].upper(), seed[1].upper()
+        code = _SEED_POINTS.get(letter, instrument + letter)
+        return Direction(code, {"NS": 0.0, "EW": 90.0}.get(code), velocity=instrument[1] in "HL")
+    return None

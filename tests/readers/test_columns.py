@@ -1,0 +1,171 @@
+"""No column of a table vanishes: each is read as what it says it is, left out by name, or refused with what would be understood."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.errors import InputError, RecordFormatError, UnitError
+from seisblock.readers import read
+from seisblock.readers.clock import even_dt
+from seisblock.readers.formats.knet_csv import read_knet_csv
+from seisblock.readers.source import Blob
+from seisblock.records import motion_of
+from tests.readers.files import JMA_BODY, JMA_HEADER, KNET_CSV
+
+T = np.arange(400) * 0.01
+NORTH, EAST, UP = np.sin(7 * T), 0.6 * np.sin(11 * T + 0.3), 0.2 * np.sin(23 * T)
+
+
+@pytest.fixture
+def table(tmp_path):
+    """Return a function that writes a table and returns its path."""
+
+    def write(header, *rows, name="table.csv"):
+        path = tmp_path / name
+        columns = rows or (T, NORTH, EAST, UP)
+        path.write_text(header + "\n" + "".join(",".join(f"{x:.17g}" for x in row) + "\n" for row in zip(*columns, strict=True)))
+        return path
+
+    return write
+
+
+def codes(record):
+    """Return code and azimuth of each component."""
+    return [(c.code, c.azimuth_deg) for c in record.components]
+
+
+@pytest.mark.parametrize(
+    ("header", "expected"),
+    [
+        ("time,N10E,N80W,UD", [("10", 10.0), ("280", 280.0), ("UD", None)]),
+        ("time,10,280,UD", [("10", 10.0), ("280", 280.0), ("UD", None)]),
+        ("time,010°,100°,UD", [("10", 10.0), ("100", 100.0), ("UD", None)]),
+        ("time,S45W,S45E,up", [("225", 225.0), ("135", 135.0), ("UD", None)]),
+        ("time,0,90,UD", [("NS", 0.0), ("EW", 90.0), ("UD", None)]),
+        ("time,X,Y,Z", [("X", None), ("Y", None), ("UD", None)]),
+        ("time,acc_x,acc_y,acc_z", [("X", None), ("Y", None), ("UD", None)]),
+        ("time,ax,ay,az", [("X", None), ("Y", None), ("UD", None)]),
+        ("time,L,T,V", [("L", None), ("T", None), ("UD", None)]),
+        ("t,L,T,V", [("L", None), ("T", None), ("UD", None)]),
+        ("time,HNN,HNE,HNZ", [("NS", 0.0), ("EW", 90.0), ("UD", None)]),
+        ("time,IU.ANMO.00.HN1,IU.ANMO.00.HN2,IU.ANMO.00.HNZ", [("HN1", None), ("HN2", None), ("UD", None)]),
+        ("time,N/S,E/W,U/D", [("NS", 0.0), ("EW", 90.0), ("UD", None)]),
+    ],
+)
+def test_three_components_stay_three(table, header, expected):
+    """Azimuths, X/Y/Z, L/T/V, SEED codes, N/S: all three columns are read, with their samples and the azimuths they tell."""
+    record = read(table(header), units="m/s2")
+    assert codes(record) == expected
+    for component, samples in zip(record.components, (NORTH, EAST, UP), strict=True):
+        np.testing.assert_array_equal(component.acceleration, samples)
+
+
+def test_a_unit_of_acceleration_beats_the_time(table):
+    """``L,T,V (gal)``: T is transverse, and the one unit that is written counts for all, which is told."""
+    record = read(table("L,T,V (gal)", NORTH, EAST, UP), dt=0.01)
+    assert codes(record) == [("L", None), ("T", None), ("UD", None)]
+    np.testing.assert_allclose(record.component("T").acceleration, EAST / 100, rtol=1e-15)
+    assert record.history == ("took gal, which 'V (gal)' states, for 'L', 'T', too",)
+    with pytest.raises(UnitError, match="'T' may be the time or the transverse direction"):
+        read(table("L,T,V", NORTH, EAST, UP), dt=0.01)
+
+
+def test_down_is_turned_up(table):
+    """A column that is positive down is UD with the sign turned, which is told."""
+    record = read(table("time,NS (gal),EW (gal),DOWN (gal)"))
+    np.testing.assert_allclose(record.component("UD").acceleration, -UP / 100, rtol=1e-15)
+    assert "positive down" in record.history[0]
+
+
+def test_the_azimuths_of_a_pair_are_used(table):
+    """``--component 37`` of a record of N10E and N80W is what north and east give towards 37 degrees."""
+    angle = np.radians(10.0)
+    first, second = NORTH * np.cos(angle) + EAST * np.sin(angle), NORTH * np.sin(angle) - EAST * np.cos(angle)
+    record = read(table("time,N10E (m/s2),N80W (m/s2),UD (m/s2)", T, first, second, UP))
+    north, east = np.cos(np.radians(37.0)), np.sin(np.radians(37.0))
+    np.testing.assert_allclose(motion_of(record, "37").horizontal, NORTH * north + EAST * east, atol=1e-12)
+    path = table("time,10,280,UD", T, first, second, UP, name="bare.csv")
+    ran = CliRunner().invoke(main, ["measure", str(path), "--units", "m/s2", "--component", "37", "--json", "--quiet"])
+    assert json.loads(ran.stdout)["results"][0]["pga_m_s2"] == pytest.approx(np.abs(NORTH * north + EAST * east).max(), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("header", "error", "says"),
+    [
+        ("time,NS (gal),N-S (gal),UD (gal)", RecordFormatError, "several columns mean NS ('NS (gal)', 'N-S (gal)')"),
+        ("time,NS (gal),0° (gal),UD (gal)", RecordFormatError, "several columns mean NS"),
+        ("Time,RelativeTime,NS (gal),EW (gal)", RecordFormatError, "several columns mean the time"),
+        ("time,gal,gal,gal", RecordFormatError, "'gal' stands where column 2 should have a name"),
+        ("time,TRUE,EW (gal),UD (gal)", RecordFormatError, "'TRUE' stands where column 2"),
+        ("time,NS (gal),EW (gal),pressure", RecordFormatError, "column not understood: 'pressure'"),
+        ("time,NS (gal),EW (gal),p (hPa)", UnitError, "unknown unit 'hPa'"),
+        ("time,one,two,three", RecordFormatError, "column not understood: 'one', 'two', 'three'; expected a direction"),
+        ("time,10,200,UD", RecordFormatError, "no names in the header: '10', '200'; azimuths come as a perpendicular pair"),
+        ("0.01,1,x,3", RecordFormatError, "no names in the header: '0.01', '1', '3'"),
+        ("time,HHN,HHE,HHZ", UnitError, "codes of instruments that measure velocity: 'HHN', 'HHE', 'HHZ'"),
+        ("time,NS (gal),EW (m/s2),UD", UnitError, "column 'UD' has no unit"),
+    ],
+)
+def test_what_is_not_understood_is_refused_by_name(table, header, error, says):
+    """Twice the same, a unit for a name, a word that is no direction: named, with what would be understood."""
+    with pytest.raises(error) as caught:
+        read(table(header))
+    assert says in str(caught.value)
+
+
+def test_with_a_unit_from_the_caller_unknown_names_are_channels(table):
+    """Where no name is a direction, the option says that all columns are accelerations: they keep their names."""
+    assert codes(read(table("time,table,base,top"), units="gal")) == [("TABLE", None), ("BASE", None), ("TOP", None)]
+    assert codes(read(table("time,sensor A (gal),sensor B (gal),c (gal)"))) == [("SENSOR A", None), ("SENSOR B", None), ("C", None)]
+
+
+def test_other_formats_lose_no_column_either(tmp_path):
+    """A second NS, or a name that is none, in a JMA or K-NET CSV is refused."""
+    path = tmp_path / "jma.csv"
+    for names in (" NS,NS,UD", " NS,EW,UD,foo"):
+        path.write_bytes((JMA_HEADER.replace(" NS,EW,UD", names) + JMA_BODY).encode("cp932"))
+        with pytest.raises(RecordFormatError, match="line 7: expected the components NS, EW and UD once each"):
+            read(path)
+    for old, new in (("E-W(gal),U-D(gal)\n2019", "N-S(gal),U-D(gal)\n2019"), ("U-D(gal)\n2019", "W-D(gal)\n2019")):
+        with pytest.raises(RecordFormatError, match="is none of N-S, E-W, U-D"):
+            read_knet_csv(Blob("k.csv", KNET_CSV.replace(old, new).encode()))
+
+
+def test_plot_names_are_time_and_units(table):
+    """``Time [s] - Plot 0`` is the time, ``NS [gal] - Plot 1`` NS in gal."""
+    record = read(table("Time [s] - Plot 0,NS [gal] - Plot 1,EW [gal] - Plot 1,UD [gal] - Plot 2"))
+    assert (record.codes, record.dt) == (("NS", "EW", "UD"), 0.01)
+
+
+@pytest.mark.parametrize("dt", [0.00125, 0.005, 1 / 128, 0.02, 1 / 300])
+@pytest.mark.parametrize("form", ["{:.6g}", "{:.5e}", "{:.4f}", "{:.8f}"])
+@pytest.mark.parametrize("first", [0.0, 37.25])
+def test_times_printed_to_few_digits_are_even(dt, form, first):
+    """Six significant digits, or four decimals, hide a clock of 800 Hz after 100 s; within the digits printed it is even."""
+    written = [form.format(first + i * dt) for i in range(120_000)]
+    assert even_dt("t", np.array([float(text) for text in written]), lambda: written) == pytest.approx(dt, rel=1e-12)
+
+
+@pytest.mark.parametrize("form", ["{:.2f}", "{:.3f}", "{:.6g}"])
+@pytest.mark.parametrize("spoil", ["missing", "twice"])
+@pytest.mark.parametrize("row", [1, 500, 3000, 5998])
+def test_a_missing_or_repeated_line_does_not_hide_in_the_digits(form, spoil, row):
+    """However few digits are printed, a line that is missing or stands twice is refused, with its place."""
+    written = [form.format(i * 0.01) for i in range(6000)]
+    written[row : row + 1] = [] if spoil == "missing" else [written[row]] * 2
+    with pytest.raises(InputError, match="a line is missing or stands twice"):
+        even_dt("t", np.array([float(text) for text in written]), lambda: written)
+
+
+@pytest.mark.parametrize("separator", [",", "\t", " "])
+def test_a_file_with_times_of_six_digits_is_read(tmp_path, separator):
+    """800 Hz around 100 s, written with %.6g: 99.9975, 99.9988, 100, 100.001 ..."""
+    path = tmp_path / "six.txt"
+    rows = [separator.join((f"{99.0 + i * 0.00125:.6g}", "1", "2")) for i in range(3000)]
+    path.write_text("\n".join([separator.join(("time", "NS(gal)", "EW(gal)")), "# a comment", *rows]) + "\n")
+    assert read(path).dt == 0.00125
