@@ -23,7 +23,7 @@ _WIDTH_TOLERANT = {",", ";", "\t"}
 
 
 @dataclass(frozen=True)
-class Layout:
+class TableLayout:
     """Where the numbers of a table begin and what its columns are called."""
 
     names: tuple[str, ...]
@@ -131,7 +131,7 @@ def _interval(name: str, column: Column, row: FloatArray, body: Sequence[str], s
     return found
 
 
-def layout_of(name: str, lines: Sequence[str]) -> Layout:
+def layout_of(name: str, lines: Sequence[str]) -> TableLayout:
     """Return where the numbers begin, the names of the columns and the separator."""
     first = next((i for i, line in enumerate(lines) if _is_data(line)), None)
     if first is None:
@@ -139,16 +139,16 @@ def layout_of(name: str, lines: Sequence[str]) -> Layout:
     separator = separator_of(lines[first])
     if not _all_numbers(lines[first], separator):
         names = tuple(_split(lines[first], separator))
-        return _closed(lines, Layout(names, first + 1, separator))
+        return _closed(lines, TableLayout(names, first + 1, separator))
     width = len(_split(lines[first], separator))
     comment = next((line for line in reversed(lines[:first]) if line.strip()), "").lstrip("\ufeff# ")
     names = tuple(_split(comment, separator if separator in _WIDTH_TOLERANT else separator_of(comment)))
     if comment and len(names) == width and means_something(names):
-        return _closed(lines, Layout(names, first, separator))
-    return _closed(lines, Layout(("",) * width, first, separator))
+        return _closed(lines, TableLayout(names, first, separator))
+    return _closed(lines, TableLayout(("",) * width, first, separator))
 
 
-def _closed(lines: Sequence[str], layout: Layout) -> Layout:
+def _closed(lines: Sequence[str], layout: TableLayout) -> TableLayout:
     """Return the layout after a look at the first line of numbers: trailing empty names off, another separator, decimal commas."""
     names = list(layout.names)
     while len(names) > 1 and not names[-1].strip() and any(names):
@@ -157,7 +157,7 @@ def _closed(lines: Sequence[str], layout: Layout) -> Layout:
     separator = layout.separator
     if sample and separator is not None and separator not in sample and len(names) > 1:
         separator = separator_of(sample)
-    return Layout(tuple(names), layout.body, separator, decimal_comma=separator not in (",", None) and "," in sample and "." not in sample)
+    return TableLayout(tuple(names), layout.body, separator, decimal_comma=separator not in (",", None) and "," in sample and "." not in sample)
 
 
 def separator_of(line: str) -> str | None:
