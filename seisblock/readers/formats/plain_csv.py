@@ -157,7 +157,9 @@ def _closed(lines: Sequence[str], layout: TableLayout) -> TableLayout:
     separator = layout.separator
     if sample and separator is not None and separator not in sample and len(names) > 1:
         separator = separator_of(sample)
-    return TableLayout(tuple(names), layout.body, separator, decimal_comma=separator not in (",", None) and "," in sample and "." not in sample)
+    return TableLayout(
+        tuple(names), layout.body, separator, decimal_comma=separator not in (",", None) and "," in sample and "." not in sample
+    )
 
 
 def separator_of(line: str) -> str | None:
