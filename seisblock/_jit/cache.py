@@ -13,13 +13,18 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any, TypeVar, cast
 
+from seisblock.words import Said, said
+
 Compiled = TypeVar("Compiled")
 
 KERNELS = ("_jit", "dynamics", "measures", "solvers")
 """Packages that define kernels, or say how they are compiled."""
 
-UNREADABLE = (OSError, EOFError, pickle.PickleError, ValueError, TypeError, LookupError, AttributeError, ImportError, RuntimeError)
-"""What a cached kernel with lost bytes raises, and what a full or read-only disk does; never an error in the kernel itself."""
+UNREADABLE = (
+    *(OSError, EOFError, pickle.PickleError, ValueError, TypeError, LookupError, AttributeError),
+    *(ImportError, RuntimeError, ArithmeticError, MemoryError),
+)
+"""What a kernel that lost or changed its bytes raises when it is read, and what a full disk does; numba's own errors are none of them."""
 
 _given_up = False
 
@@ -61,7 +66,7 @@ def _writable() -> bool:
 
 
 @functools.cache
-def _said(say: Callable[[str], None], message: str) -> None:
+def _once(say: Callable[[str], None], message: Said) -> None:
     """Say a line, once in a process."""
     say(message)
 
@@ -97,28 +102,24 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
     global _given_up
     place = directory()
     if not _writable():
-        _said(say, f"{place}: cannot be written: compiling the kernels afresh; SEISBLOCK_CACHE_DIR names another folder")
+        _once(say, said("{place}: cannot be written: compiling afresh; SEISBLOCK_CACHE_DIR names another folder", place=str(place)))
         _given_up = True
     if _given_up:
         return compiled(False)
     if not any(place.iterdir()):
-        _said(say, "compiling the kernels, once; a few seconds...")
+        _once(say, said("compiling the kernels, once; a few seconds..."))
     with _numba_keeps_in(place):
         try:
             return compiled(True)
         except UNREADABLE as error:
-            _said(say, f"{place}: {_reason(error)}: compiling afresh what cannot be kept there or read from there")
+            why = error.strerror if isinstance(error, OSError) and error.strerror else said("a damaged kernel")
+            _once(say, said("{place}: {why}: compiling afresh what cannot be read or kept there", place=str(place), why=why))
         try:
             _remove(cast(FunctionType, function))
             return compiled(True)
         except UNREADABLE:
             _given_up = True
     return compiled(False)
-
-
-def _reason(error: BaseException) -> str:
-    """Return what is wrong with the cache, in words."""
-    return error.strerror.lower() if isinstance(error, OSError) and error.strerror else "damaged"
 
 
 def _remove(function: FunctionType) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arguments import FIRST_EVENT, FOUND, MODE, SAMPLE, SHAPE, STEPS_LEFT, TAU, Cursor, Ground, Kept
 from seisblock.dynamics.arrays import BLOCK, INTEGER_BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX
+from seisblock.dynamics.halt import heed
 from seisblock.dynamics.hybrid import POINTERS, go_on, room
 from seisblock.dynamics.model import SLICE, Instant, Model, cursor_at
 from seisblock.dynamics.status import FAILURES, PAUSED
@@ -154,6 +155,7 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     grounds = Grounds(motion.acceleration, scale, motion.dt)
     row = 0
     while row < m:
+        heed()
         row = integrate_rows(*model.pointers, grounds, model.shape, p, rows, row, SLICE)
     end_time = rows.places[:, SAMPLE] * motion.dt + rows.clocks[:, TAU]
     for row in np.flatnonzero(np.isin(rows.statuses, list(FAILURES)))[:1]:

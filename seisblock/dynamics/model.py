@@ -26,6 +26,7 @@ from seisblock.dynamics.arguments import (
     Kept,
     Shape,
 )
+from seisblock.dynamics.halt import heed
 from seisblock.dynamics.status import FAILURES, PAUSED, TOO_MANY_EVENTS
 from seisblock.errors import SolverError
 from seisblock.records.motion import Motion
@@ -260,6 +261,7 @@ def follow_on(model: Model, ground: Ground, p: FloatArray, cursor: Cursor, kept:
     """Follow a trajectory on to its end, in slices between which Python may be interrupted; return the status."""
     status = PAUSED
     while status == PAUSED:
+        heed()
         cursor.place[STEPS_LEFT] = SLICE
         status = hybrid.integrate(*model.pointers, ground, model.shape, p, cursor, kept)
     return int(status)

@@ -6,8 +6,10 @@ import itertools
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from threading import Event
 from typing import TypeVar
 
+from seisblock.dynamics.halt import halting, heeding
 from seisblock.typing import Progress
 
 Item = TypeVar("Item")
@@ -46,12 +48,21 @@ def in_threads(
     remaining = iter(items)
     finished = 0
     pool = ThreadPoolExecutor(workers or cores())
+    gone = Event()
+    events = (*halting(), gone)
+
+    def run(item: Item) -> Answer:
+        """Do one run, as long as anybody waits for it."""
+        with heeding(events):
+            return work(item)
+
     try:
         while chunk := list(itertools.islice(remaining, CHUNK)):
-            yield from pool.map(work, chunk)
+            yield from pool.map(run, chunk)
             finished += len(chunk)
             if progress is not None:
                 progress(finished, len(items))
     finally:
-        # an interruption waits for the runs under way, not for those that have not begun
+        # after an interruption no run begins, and those under way end at the next pause of their kernels
+        gone.set()
         pool.shutdown(cancel_futures=True)

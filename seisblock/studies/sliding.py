@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-import os
 from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -20,6 +18,7 @@ from seisblock.records.motion import Motion
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
 from seisblock.solvers.slide.solve import check, refuse_lift_off
+from seisblock.studies.runs import cores, in_threads
 from seisblock.typing import Progress
 from seisblock.units import STANDARD_GRAVITY
 
@@ -129,7 +128,7 @@ def slide_study(
     # the horizontal motion alone is what beta compares with
     computed = tuple(dict.fromkeys((*scales, 0.0))) if any(scales) else scales
     rows = [(base, scale) for base in bases if isinstance(base, SlidingBase) for scale in computed]
-    found = _run(chosen, rows, gravity, progress, workers or os.cpu_count() or 1)
+    found = _run(chosen, rows, gravity, progress, workers or cores())
     points = []
     for motion, base in itertools.product(chosen, bases):
         if isinstance(base, SlidingBase):
@@ -180,17 +179,12 @@ def _run(
         share = max(1, min(SAMPLES_AT_ONCE // motion.samples, math.ceil(len(rows) / workers)))
         jobs += [(motion, rows[first : first + share]) for first in range(0, len(rows), share)]
     total = len(motions) * len(rows)
-    done = 0
-    if len(jobs) == 1:
-        return iter(_points(*jobs[0], gravity))
-    with ThreadPoolExecutor(workers) as pool:
-        futures = {pool.submit(_points, *job, gravity): len(job[1]) for job in jobs}
-        for future in as_completed(futures):
-            future.result()
-            done += futures[future]
-            if progress is not None:
-                progress(done, total)
-    return itertools.chain.from_iterable(future.result() for future in futures)
+    points: list[SlidePoint] = []
+    for found in in_threads(lambda job: _points(*job, gravity), jobs, workers=workers):
+        points += found
+        if progress is not None:
+            progress(len(points), total)
+    return iter(points)
 
 
 def _points(motion: Motion, rows: Sequence[tuple[SlidingBase, float]], gravity: float) -> list[SlidePoint]:

@@ -146,7 +146,7 @@ def test_the_pile_does_not_load_the_engine():
     """What shares the engine's statuses and array types only does not wait for its kernels."""
     script = "import sys, seisblock.solvers.stack.solve; print(*(name for name in sys.modules if name.startswith('seisblock.dynamics.')))"
     loaded = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
-    assert sorted(loaded) == ["seisblock.dynamics.arrays", "seisblock.dynamics.status"]
+    assert sorted(loaded) == ["seisblock.dynamics.arrays", "seisblock.dynamics.halt", "seisblock.dynamics.status"]
 
 
 def test_no_command_imports_heavy_packages_at_its_top():

@@ -11,7 +11,7 @@ from seisblock.typing import FloatArray, IntArray
 _t = types()
 
 
-class Layout(NamedTuple):
+class PileLayout(NamedTuple):
     """What does not change; the meaning of columns stands where they are named.
 
     Parameters
@@ -41,7 +41,7 @@ class Layout(NamedTuple):
     inert: FloatArray
 
 
-class Memory(NamedTuple):
+class PileMemory(NamedTuple):
     """What contacts remember from step to step.
 
     Parameters
@@ -69,7 +69,7 @@ class Memory(NamedTuple):
     work: FloatArray
 
 
-class Settings(NamedTuple):
+class PileSettings(NamedTuple):
     """How a run goes.
 
     Parameters
@@ -97,7 +97,7 @@ class Settings(NamedTuple):
     quiet: int
 
 
-class Cursor(NamedTuple):
+class PileCursor(NamedTuple):
     """Where a run is; the loop moves it on, and goes on from it when it is called again: integers, and the bodies, the ground last."""
 
     place: IntArray
@@ -111,7 +111,7 @@ steps may be taken before the loop pauses."""
 PLACE = 6
 
 
-class Kept(NamedTuple):
+class PileKept(NamedTuple):
     """What a run leaves behind.
 
     Parameters
@@ -145,9 +145,9 @@ LAYOUT = _t.NamedTuple(
         INTEGERS,
         MATRIX,
     ),
-    Layout,
+    PileLayout,
 )
-MEMORY = _t.NamedTuple((FOURFOLD, FOURFOLD, FOURFOLD, INTEGERS, MATRIX, MATRIX, MATRIX), Memory)
-SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.float64, _t.int64, _t.int64), Settings)
-CURSOR = _t.NamedTuple((INTEGERS, MATRIX), Cursor)
-KEPT = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR), Kept)
+MEMORY = _t.NamedTuple((FOURFOLD, FOURFOLD, FOURFOLD, INTEGERS, MATRIX, MATRIX, MATRIX), PileMemory)
+SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.float64, _t.int64, _t.int64), PileSettings)
+CURSOR = _t.NamedTuple((INTEGERS, MATRIX), PileCursor)
+KEPT = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR), PileKept)

@@ -10,7 +10,7 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import Joint
 from seisblock.errors import ParameterError
-from seisblock.solvers.stack.arguments import Layout, Memory
+from seisblock.solvers.stack.arguments import PileLayout, PileMemory
 from seisblock.solvers.stack.contact import SLOT
 from seisblock.solvers.stack.frames import AT, BODY, BOX, INERT, INERTIA, INVERSE, MASS, Q, R, X
 from seisblock.solvers.stack.step import ALL_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH, SIGMA
@@ -65,14 +65,14 @@ class PileArrays:
     members: tuple[tuple[int, ...], ...]
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> PileLayout:
         """What does not change, as the kernels take it."""
-        return Layout(*(getattr(self, name) for name in Layout._fields))
+        return PileLayout(*(getattr(self, name) for name in PileLayout._fields))
 
-    def memory(self) -> Memory:
+    def memory(self) -> PileMemory:
         """Return empty memory."""
         n, p, bodies = self.joints.shape[0], self.pairs.shape[0], self.bodies.shape[0]
-        return Memory(
+        return PileMemory(
             np.zeros((n, self.grids.shape[1], 4, 2)),
             np.zeros((p, 2, MOST_CORNERS, SLOT)),
             np.zeros((p, 2, 2 * ALL_EDGES, SLOT)),

@@ -10,7 +10,7 @@ import numpy as np
 from seisblock.bodies.pile.stone import GROUND
 from seisblock.errors import SolverError
 from seisblock.results import Channel
-from seisblock.solvers.stack.arguments import Kept
+from seisblock.solvers.stack.arguments import PileKept
 from seisblock.solvers.stack.arrays import PileArrays
 from seisblock.solvers.stack.frames import AT, MASS, V
 from seisblock.solvers.stack.run import CREATED, FALL_TIME, FALL_X, FALL_Y, IMPULSE, LEAST_COSINE, LOST, WORK
@@ -174,7 +174,7 @@ def channels(pile: PileArrays, track: Track) -> tuple[Channel, ...]:
 def stack_outcome(
     pile: PileArrays,
     track: Track,
-    kept: Kept,
+    kept: PileKept,
     bodies: FloatArray,
     *,
     start: float,
@@ -215,7 +215,7 @@ def stack_outcome(
     )
 
 
-def _fate(pile: PileArrays, track: Track, i: int, kept: Kept, start: float, ended: float) -> StoneFate:
+def _fate(pile: PileArrays, track: Track, i: int, kept: PileKept, start: float, ended: float) -> StoneFate:
     """Return what became of one stone."""
     slip, turn = _slip(pile, track, i)[-1], _turn(track, i)
     b = int(pile.owner[i])

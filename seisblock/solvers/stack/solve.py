@@ -10,11 +10,12 @@ import numpy as np
 
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
+from seisblock.dynamics.halt import heed
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import ACROSS, UP, Motion
 from seisblock.results import Event, Phase, Response, Status
-from seisblock.solvers.stack.arguments import KEPT_ROWS, PLACE, SAMPLE, STEPS_LEFT, Cursor, Kept, Memory, Settings
+from seisblock.solvers.stack.arguments import KEPT_ROWS, PLACE, SAMPLE, STEPS_LEFT, PileCursor, PileKept, PileMemory, PileSettings
 from seisblock.solvers.stack.arrays import PileArrays, pile_arrays
 from seisblock.solvers.stack.frames import Q, X, orient
 from seisblock.solvers.stack.outcome import StackOutcome, channels, stack_outcome, stone_track
@@ -35,8 +36,8 @@ AFTERWARDS = 10.0
 MOVED = 1e-5
 LONGEST_GAP = 0.1
 
-POINTS_AT_ONCE = 5_000_000
-"""Contact points that are looked at before Python may be interrupted: about 0.1 s."""
+POINTS_AT_ONCE = 2_500_000
+"""Contact points that are looked at before Python may be interrupted: 0.05 s or so."""
 
 
 def solve_stack(
@@ -105,9 +106,9 @@ def solve_stack(
     shaking[:, : motion.samples] = motion.acceleration
     shaking[[ACROSS, UP]] *= np.array([[float(across)], [vertical_gain(motion, vertical, needed=False)]])
     memory = pile.memory()
-    cursor = Cursor(np.zeros(PLACE, dtype=np.int64), pile.bodies.copy())
+    cursor = PileCursor(np.zeros(PLACE, dtype=np.int64), pile.bodies.copy())
     sink(pile, gravity, cursor.bodies, memory.stretches)
-    kept = Kept(
+    kept = PileKept(
         fates=_fates(pile, cursor.bodies),
         rows=np.zeros((shaking.shape[1], 1 + 7 * len(pile.members))),
         last_touch=np.full((len(cursor.bodies), len(cursor.bodies)), -1.0),
@@ -116,7 +117,7 @@ def solve_stack(
     for name, angle in (tilts or {}).items():
         _lean(pile, cursor.bodies, name, angle)
     gap = max(1, round(LONGEST_GAP / motion.dt))
-    settings = Settings(gravity, motion.dt, steps, stop_at_fall, MOVED, gap, motion.samples - 1)
+    settings = PileSettings(gravity, motion.dt, steps, stop_at_fall, MOVED, gap, motion.samples - 1)
     status = _run(shaking, settings, pile, memory, cursor, kept, progress)
     ended = float(cursor.place[SAMPLE]) * motion.dt
     if status == Status.NOT_FINITE:
@@ -148,11 +149,11 @@ def solve_stack(
 
 def _run(
     shaking: FloatArray,
-    settings: Settings,
+    settings: PileSettings,
     pile: PileArrays,
-    memory: Memory,
-    cursor: Cursor,
-    kept: Kept,
+    memory: PileMemory,
+    cursor: PileCursor,
+    kept: PileKept,
     progress: Callable[[int, int], None] | None,
 ) -> Status:
     """Follow the pile to the end, in slices between which Python may be interrupted."""
@@ -160,6 +161,7 @@ def _run(
     layout = pile.layout
     shaking.flags.writeable = False
     while True:
+        heed()
         cursor.place[STEPS_LEFT] = slice_
         status = Status(run(shaking, settings, layout, memory, cursor, kept))
         if status != Status.PAUSED:

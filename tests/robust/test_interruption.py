@@ -1,0 +1,93 @@
+"""Ctrl-C ends a long run at once, though compiled code and threads hear no signal."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads what a process has spent from /proc")
+
+AT_ONCE = 0.5
+"""Processor time, s, that may pass between the signal and the end of the run; of the processor, so that a busy machine does not count."""
+
+WELL_UNDER_WAY = 1.0
+"""Processor time, s, that the run itself has had before it is interrupted."""
+
+COMMANDS = {
+    "a pile on 25 x 25 points": ["stack", "--points", "25"],
+    "a pile in fine steps": ["stack", "--step", "1e-6"],
+    "a criterion study": ["stack", "--criterion"],
+    "a study of sliding": ["slide", "--mu", "0.02:0.5:0.0005", "--kappa", "0.1:1.0:0.005"],
+}
+
+SETTING_OUT = """
+import os, sys, time
+import numpy as np
+os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])
+"""
+"""One core, so that one worker is to be stopped and processor time is time."""
+
+COMMAND = """
+from seisblock.cli import main
+import seisblock.solvers.slide.solve, seisblock.solvers.stack.solve, seisblock.studies.sliding
+print("go", flush=True)
+try:
+    main(sys.argv[1:])
+finally:
+    print(time.process_time(), flush=True)
+"""
+
+LIBRARY = """
+from seisblock import Motion, SpringBlock, solve_uplift
+rng = np.random.default_rng(0)
+motion = Motion.from_arrays(0.1 * rng.normal(size=3_000_000), 0.01)
+block = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)
+solve_uplift(block, Motion.from_arrays(np.zeros(3), 0.01))
+print("go", flush=True)
+try:
+    solve_uplift(block, motion)
+except KeyboardInterrupt:
+    print(time.process_time(), flush=True)
+    sys.exit(130)
+"""
+
+
+def spent(pid):
+    """Return the processor time of a process, s."""
+    user, system = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[11:13]
+    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+
+
+def interrupted(script, words, cwd):
+    """Start a script, interrupt it when it is well under way; return exit code, stderr and the processor time that it took to end."""
+    pipe = subprocess.PIPE
+    command = [sys.executable, "-c", SETTING_OUT + script, *words]
+    with subprocess.Popen(command, cwd=cwd, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
+        assert process.stdout.readline() == "go\n", process.stderr.read()
+        began = spent(process.pid)
+        while spent(process.pid) < began + WELL_UNDER_WAY:
+            assert process.poll() is None, process.stderr.read()
+            time.sleep(0.02)
+        at = spent(process.pid)
+        process.send_signal(signal.SIGINT)
+        out, said = process.communicate(timeout=120)
+        return process.returncode, said.strip(), float(out.split()[-1]) - at
+
+
+@pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
+def test_a_command_ends_at_once(words, tmp_path):
+    """In the middle of a run that would take minutes: exit 130, one line, no traceback, in half a second."""
+    code, said, took = interrupted(COMMAND, [*words, "--quiet"], tmp_path)
+    assert (code, said) == (130, "seisblock: interrupted; no half-written file is left")
+    assert took < AT_ONCE
+
+
+def test_a_call_of_the_library_ends_at_once(tmp_path):
+    """A solver called from Python raises KeyboardInterrupt in the middle of eight hours of record."""
+    code, said, took = interrupted(LIBRARY, [], tmp_path)
+    assert (code, said) == (130, "")
+    assert took < AT_ONCE

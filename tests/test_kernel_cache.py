@@ -1,0 +1,103 @@
+"""Compiled kernels are kept for the next process; a folder that is damaged, full or closed costs time and nothing else."""
+
+import os
+import resource
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SCRIPT = (
+    "import sys; from seisblock import _jit; _jit.announce = lambda text: print(text, file=sys.stderr)\n"
+    "import numpy as np; from seisblock.dynamics.polynomial import evaluate, first_crossing\n"
+    "print(evaluate(np.array([1.0, 2.0]), 1, 0.5), first_crossing(np.array([1.0, -4.0]), 1, 1.0, np.zeros(2), np.zeros(2)))"
+)
+"""Loads the polynomials' kernels, nothing else, and calls two of them."""
+
+ANSWER = "2.0 0.25"
+
+
+def answers(folder, **options):
+    """Run the script with a cache folder; return what it says beside its answer, which is right."""
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT],
+        env={**os.environ, "SEISBLOCK_CACHE_DIR": str(folder)},
+        capture_output=True,
+        text=True,
+        check=False,
+        **options,
+    )
+    assert (done.returncode, done.stdout.strip()) == (0, ANSWER), done.stderr
+    return done.stderr.splitlines()
+
+
+@pytest.fixture(scope="module")
+def filled(tmp_path_factory):
+    """A folder with the kernels compiled."""
+    folder = tmp_path_factory.mktemp("kernels")
+    assert answers(folder) == ["compiling the kernels, once; a few seconds..."]
+    return folder
+
+
+@pytest.fixture
+def folder(filled, tmp_path):
+    """A copy of it to spoil."""
+    return Path(shutil.copytree(filled, tmp_path / "kernels"))
+
+
+def kept(folder):
+    """Return what is kept of each kernel, by name."""
+    return {path.name: path.read_bytes() for path in folder.rglob("*.nb[ci]")}
+
+
+def test_a_second_process_compiles_nothing(folder):
+    """What one process compiled the next one finds, in silence, and leaves as it is."""
+    before = kept(folder)
+    assert len(before) > 10
+    assert answers(folder) == []
+    assert kept(folder) == before
+
+
+@pytest.mark.parametrize(
+    "spoil", [lambda data: b"", lambda data: data[: len(data) // 2], lambda data: data[:-1]], ids=["empty", "half", "last byte"]
+)
+@pytest.mark.parametrize("suffix", ["nbc", "nbi"])
+def test_a_damaged_kernel_is_compiled_afresh(folder, suffix, spoil):
+    """Files that lost their bytes, as after a power cut: the answer stands, one line says so, and the next run finds them whole."""
+    spoilt = sorted(folder.rglob(f"*.{suffix}"))[:3]
+    for path in spoilt:
+        path.write_bytes(spoil(path.read_bytes()))
+    said = answers(folder)
+    assert len(said) == 1 and "a damaged kernel: compiling afresh" in said[0] and str(folder) in said[0]
+    assert answers(folder) == []
+
+
+def test_a_full_disk_is_no_reason_to_stop(tmp_path):
+    """Nothing can be written: the kernels are compiled for this run, and one line names the folder and why."""
+    said = answers(tmp_path / "kernels", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
+    assert said[0] == "compiling the kernels, once; a few seconds..."
+    assert len(said) == 2 and "compiling afresh" in said[1] and os.strerror(27) in said[1]
+
+
+@pytest.mark.parametrize("where", ["file", "file/below"])
+def test_a_folder_that_cannot_be_made_is_no_reason_to_stop(tmp_path, where):
+    """A file stands where the folder should be: compiled for this run, and one line says how to name another."""
+    (tmp_path / "file").touch()
+    said = answers(tmp_path / where)
+    assert len(said) == 1 and "SEISBLOCK_CACHE_DIR names another folder" in said[0]
+    assert list(tmp_path.iterdir()) == [tmp_path / "file"]
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="to root nothing is read-only")
+def test_a_read_only_folder_is_no_reason_to_stop(folder):
+    """A folder of somebody else's is left alone."""
+    for path in [folder, *folder.rglob("*")]:
+        path.chmod(0o555 if path.is_dir() else 0o444)
+    try:
+        said = answers(folder)
+    finally:
+        for path in [folder, *folder.rglob("*")]:
+            path.chmod(0o755 if path.is_dir() else 0o644)
+    assert len(said) == 1 and "SEISBLOCK_CACHE_DIR names another folder" in said[0]
