@@ -16,7 +16,6 @@ from seisblock.cli.types import FLOATS, INSET, LENGTH
 from seisblock.words import noted
 
 DEFAULT_BLOCK = "chozusha"
-FITTED_EDGES = "--inset changes nothing here: (9), (10) were fitted to stones whose edges are not sharp; --criterion rigid uses it"
 FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 
 
@@ -30,9 +29,10 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 @record_options
 @option(
     "--cemetery",
+    multiple=True,
     metavar="FILE|NAME",
     section="Body",
-    help="CSV of gravestones; a column fallen says which fell (1, yes, 転倒) and which stand (0, no, 残存).",
+    help="CSV of gravestones; a column fallen says which fell (1, yes, 転倒) and which stand (0, no, 残存); several: all of one shaking.",
 )
 @option("--rate", metavar="K/N", section="Body", help="K of N stones fell, in a place whose stones are proportioned as in --cemetery.")
 @option("--slid", type=LENGTH, metavar="M", section="Body", help="How far an object slid, m or with a unit; needs --mu.")
@@ -76,11 +76,15 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 @option(
     "--common-error",
     type=float,
-    default=0.3,
-    show_default=True,
-    help="Stones: standard deviation of ln PGA that all stones share (criterion, ground, record).",
+    help="Stones: standard deviation of ln PGA that all stones share (criterion, ground, record). [default: 0.3; 0.29 with --inset]",
 )
-@option("--stone-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln PGA of each stone by itself.")
+@option("--stone-error", type=float, default=0.2, show_default=True, help="Stones: standard deviation of ln PGA of each stone by itself.")
+@option(
+    "--bias",
+    type=float,
+    help="Stones: how much more PGA records need than the criterion says, in ln PGA. [default: 0.33; 0.52 - 2.9 --inset; rigid: 0]",
+)
+@option("--frequency-error", type=float, default=0.1, show_default=True, help="Stones: standard deviation of ln f of a given frequency, 1.")
 @option("--largest", is_flag=True, help="slid: the largest slip was observed, not the one left at the end.")
 @option("--vertical", is_flag=True, help="slid: let the vertical component act too.")
 @option("--flight-only", is_flag=True, help="jumped: the jump alone was observed, not the rocking-sliding after it.")
@@ -98,70 +102,83 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 @option("--steps", type=click.IntRange(min=1), default=300, show_default=True, help="slid, jumped: steps of the scan up to it.")
 @gravity_option
 @output_options
-def infer(source: Source, output: Output, cemetery: str | None, rate: str | None, **asked: Any) -> None:
+def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str | None, **asked: Any) -> None:
     """Read shaking back from what it did.
 
     From gravestones: PGA, PGV and JMA intensity with their intervals, for an equivalent frequency or over 0.5 to 3 Hz
     (Furukawa et al. 2009 read backwards). From a displacement: every factor on each candidate RECORD that gives it.
     """
-    forms = {"--cemetery": cemetery, "--slid": asked["slid"], "--jumped": asked["jumped"]}
+    forms = {"--cemetery": cemetery or None, "--slid": asked["slid"], "--jumped": asked["jumped"]}
     asks = [name for name, value in forms.items() if value is not None]
     if len(asks) != 1:
         raise click.UsageError(f"give one of {FORMS}; found {' and '.join(asks) or 'none'}")
-    if cemetery is None:
+    if not cemetery:
         if rate is not None:
             raise click.UsageError("--rate needs --cemetery, the proportions of the stones: for example aoyama.csv")
         return _displacement(source, output, asked)
     if source.record:
         raise click.UsageError(f"stones need no RECORD, found {source.record[0]}; give its equivalent frequency with --frequency")
+    if len(cemetery) > 1 and rate is not None:
+        raise click.UsageError("--rate is of one place: several cemeteries need a column fallen each")
     return _stones(output, cemetery, rate, asked)
 
 
-def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, Any]) -> None:
+def _stones(output: Output, cemetery: tuple[str, ...], rate: str | None, asked: dict[str, Any]) -> None:
     """Answer from fallen stones."""
-    from functools import partial
-
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.present.documents.infer import StonesParameters, stones_document
-    from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
     from seisblock.studies.cemetery.rate import FREQUENCIES
-    from seisblock.studies.inverse.estimate import Assumptions, contour, estimate_shaking, groups_of, remarks_of
+    from seisblock.studies.inverse.estimate import contour, estimate_shaking, groups_of, remarks_of
+    from seisblock.studies.inverse.joint import joint_estimate, remarks_of_joint
+    from seisblock.studies.inverse.plausible import remark_on_plausibility
     from seisblock.studies.inverse.survey import counted_survey, marked_survey, parse_rate
 
-    stones = read_cemetery(cemetery)
-    for note in stones.notes[:1]:
-        say(f"{cemetery}: {note}")
-    survey = marked_survey(stones) if rate is None else counted_survey(stones, *parse_rate(rate))
-    inset, criterion = asked["inset"] or WORN, asked["criterion"]
-    limits = partial(rigid_limits, inset=inset, gravity=asked["gravity"]) if criterion == "rigid" else fitted_limits
-    assumptions = Assumptions(asked["common_error"], asked["stone_error"], asked["confidence"], limits)
+    places = [read_cemetery(name) for name in cemetery]
+    for name, place in zip(cemetery, places, strict=True):
+        for note in place.notes[:1]:
+            say("{cemetery}: {note}", cemetery=name, note=note)
+    surveys = [(p.name, marked_survey(p) if rate is None else counted_survey(p, *parse_rate(rate))) for p in places]
+    assumptions = _assumptions(asked)
     frequencies = asked["frequency"] or (None, *FREQUENCIES)
-    estimates = [estimate_shaking(part, f, assumptions, stones=name) for name, part in groups_of(survey) for f in frequencies]
-    line = contour(survey, assumptions)
-    warnings = [FITTED_EDGES] if asked["inset"] is not None and criterion == "furukawa" else []
-    warnings += dict.fromkeys(text for each in estimates for text in remarks_of(each))
+    several = len(surveys) > 1
+    estimates = [
+        estimate_shaking(part, f, assumptions, stones=f"{place}, {kind}" if several else kind)
+        for place, survey in surveys
+        for kind, part in groups_of(survey)
+        for f in frequencies
+    ]
+    joint = [joint_estimate(surveys, f, assumptions) for f in frequencies] if several else []
+    line = contour(surveys[0][1], assumptions)
+    warnings = list(dict.fromkeys(text for each in estimates for text in remarks_of(each)))
+    warnings += [text for name, survey in surveys if (text := remark_on_plausibility(name, survey, assumptions))]
+    warnings += remarks_of_joint(joint[0]) if joint else []
     parameters = StonesParameters(
-        cemetery=cemetery,
-        stones=stones.size,
+        cemetery=", ".join(cemetery),
+        stones=sum(place.size for place in places),
         rate=rate,
-        unknown_stones=0 if rate else stones.size - survey.judged,
+        unknown_stones=0 if rate else sum(p.size - s.judged for p, (_, s) in zip(places, surveys, strict=True)),
         confidence=assumptions.level,
         common_error_ln_pga=assumptions.common_error,
         stone_error_ln_pga=assumptions.stone_error,
-        criterion=criterion,
-        inset=inset if criterion == "rigid" else None,
+        bias_ln_pga=assumptions.bias,
+        frequency_error_ln_f=assumptions.frequency_error,
+        criterion=asked["criterion"],
+        inset=asked["inset"] if asked["criterion"] != "rigid" else asked["inset"] or WORN,
     )
-    answer = stones_document(estimates, line, parameters, warnings)
+    answer = stones_document(estimates, line, parameters, warnings, joint)
+    whole, name = surveys[0][1], ", ".join(place.name for place in places)
 
     def tables() -> Any:
         from seisblock.present.text.infer import estimate_tables
 
-        return estimate_tables(stones.name, estimates, gal=output.gal, level=assumptions.level)
+        return estimate_tables(name, estimates, joint, assumptions, gal=output.gal)
 
     def figure() -> Any:
         from seisblock.present.figures.infer import estimate_figure
 
-        return estimate_figure(stones.name, survey, assumptions, estimates)
+        return estimate_figure(
+            surveys[0][0], whole, assumptions, [e for e in estimates if not several or e.stones.startswith(surveys[0][0])]
+        )
 
     def csv(path: Path) -> None:
         from seisblock.present.files import write_table
@@ -170,6 +187,21 @@ def _stones(output: Output, cemetery: str, rate: str | None, asked: dict[str, An
         write_table(path, *estimate_columns(line))
 
     emit(answer, output, tables=tables, figure=figure, csv=csv)
+
+
+def _assumptions(asked: dict[str, Any]) -> Any:
+    """Return what an estimate rests on: the criterion, and how far it and the stones are to be trusted."""
+    from functools import partial
+
+    from seisblock.studies.cemetery.limits import rigid_limits
+    from seisblock.studies.inverse.estimate import assumptions_for
+
+    given = {name: asked[name] for name in ("common_error", "stone_error", "bias", "frequency_error")}
+    given["level"] = asked["confidence"]
+    if asked["criterion"] != "rigid":
+        return assumptions_for(asked["inset"], **given)
+    given["bias"] = 0.0 if given["bias"] is None else given["bias"]
+    return assumptions_for(None, limits=partial(rigid_limits, inset=asked["inset"] or WORN, gravity=asked["gravity"]), **given)
 
 
 def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None:

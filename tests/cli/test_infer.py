@@ -57,8 +57,11 @@ def survey(tmp_path):
 
 
 def test_a_rate(document):
-    """35 of 100 stones like Aoyama's: PGA and PGV for a frequency, near Kofu's 725 gal, the contour beside it."""
-    found = document("--rate", "35/100", "--cemetery", "aoyama.csv", "--frequency", 2.75)
+    """35 of 100 stones like Aoyama's: PGA and PGV for a frequency, near Kofu's 725 gal, the contour beside it; the bias adds to it."""
+    bare = ("--bias", 0, "--stone-error", 0.1, "--frequency-error", 0)
+    found = document("--rate", "35/100", "--cemetery", "aoyama.csv", "--frequency", 2.75, *bare)
+    (biased,) = document("--rate", "35/100", "--cemetery", "aoyama.csv", "--frequency", 2.75, *bare[2:])["results"]
+    assert biased["pga_m_s2"] == pytest.approx(math.exp(0.33) * found["results"][0]["pga_m_s2"], rel=1e-6)
     assert found["schema"] == "seisblock/infer/2"
     (each,) = found["results"]
     assert set(each) == ESTIMATE
@@ -84,7 +87,7 @@ def test_a_survey_with_marks(run, document, survey):
     assert [each["stones"] for each in found["results"]] == ["not reinforced", "reinforced", "all"]
     assert [each["fallen"] + each["standing"] for each in found["results"]] == [90, 10, 100]
     assert found["parameters"]["unknown_stones"] == 1
-    plain = found["results"][0]
+    plain = document("--cemetery", survey, "--frequency", 2, "--bias", 0, "--stone-error", 0.05)["results"][0]
     assert plain["pga_m_s2"] == pytest.approx(float(overturning_level(2.0)) / 2.84, rel=0.05)
     shown = run("--cemetery", survey, "--frequency", 2).stdout
     assert "survey, stones not reinforced: 32 of 90 fell" in shown
@@ -184,3 +187,28 @@ def test_bad_input_is_one_sentence(run, tmp_path, words, code, message):
     assert message in " ".join(found.stderr.split())
     assert "Traceback" not in found.stderr
     assert found.stdout == ""
+
+
+def test_several_cemeteries_are_one_estimate(document, survey):
+    """N10: each by itself, and all together; none is dropped."""
+    found = document("--cemetery", survey, "--cemetery", survey, "--frequency", 2)
+    assert len(found["results"]) == 6 and len(found["joint"]) == 1
+    assert found["joint"][0]["contradicts"] == []
+    assert found["parameters"]["stones"] == 2 * 101
+
+
+def test_cemeteries_that_contradict_each_other(document, tmp_path):
+    """N10: the sentence names both."""
+    for name, falls in (("one", "転倒"), ("other", "残存")):
+        rows = ["H/B,fallen"] + [f"{1.6 + 0.05 * i},{falls if i not in (0, 49) else ('残存' if i == 0 else '転倒')}" for i in range(50)]
+        (tmp_path / f"{name}.csv").write_text("\n".join(rows))
+    found = document("--cemetery", tmp_path / "one.csv", "--cemetery", tmp_path / "other.csv", "--frequency", 2)
+    assert any("one and other contradict each other" in text for text in found["warnings"])
+
+
+def test_an_impossible_survey_is_named(document, tmp_path):
+    """N10: squat stones fell, slender ones stand."""
+    rows = ["H/B,fallen"] + [f"{1.3 + 0.03 * i},1" for i in range(30)] + [f"{3.5 + 0.05 * i},0" for i in range(30)]
+    (tmp_path / "odd.csv").write_text("\n".join(rows))
+    found = document("--cemetery", tmp_path / "odd.csv", "--frequency", 2)
+    assert any("no shaking of the ground explains this survey" in text for text in found["warnings"])

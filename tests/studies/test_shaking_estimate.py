@@ -14,8 +14,18 @@ from seisblock.criteria.intensity import intensity_from_velocity
 from seisblock.errors import BodyError, ParameterError
 from seisblock.measures import jma_class
 from seisblock.studies.cemetery.limits import fitted_limits
-from seisblock.studies.inverse.estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, Assumptions, contour, estimate_shaking, groups_of
+from seisblock.studies.inverse.estimate import (
+    ALL_STONES,
+    DOWELLED_STONES,
+    FREQUENCY_ERROR,
+    PLAIN_STONES,
+    Assumptions,
+    contour,
+    estimate_shaking,
+    groups_of,
+)
 from seisblock.studies.inverse.survey import (
+    BIAS,
     COMMON_ERROR,
     STONE_ERROR,
     counted_survey,
@@ -26,7 +36,10 @@ from seisblock.studies.inverse.survey import (
 )
 
 AOYAMA = read_cemetery("aoyama.csv")
-SHARP = Assumptions(stone_error=0.02)
+SHARP = Assumptions(stone_error=0.02, bias=0.0, frequency_error=0.0)
+PLAIN_FREQUENCY = Assumptions(frequency_error=0.0)
+PLAIN = Assumptions(bias=0.0, frequency_error=0.0)
+"""The criterion as printed, at a frequency that is known."""
 
 
 def marked(cemetery: Cemetery, falls) -> Cemetery:
@@ -38,7 +51,7 @@ def simulated(rng, cemetery: Cemetery, pga: float, frequency: float) -> np.ndarr
     """Return which stones fall when the errors of the model are drawn at random."""
     common = rng.normal(0.0, COMMON_ERROR)
     own = rng.normal(0.0, STONE_ERROR, cemetery.size)
-    return np.log(pga) + common + own > np.log(fitted_limits(cemetery, frequency))
+    return np.log(pga) - BIAS + common + own > np.log(fitted_limits(cemetery, frequency))
 
 
 def holds(estimate, truth: float) -> bool:
@@ -52,13 +65,14 @@ def held_of_200(form: str, seed: int) -> float:
     rng, held = np.random.default_rng(seed), 0
     for _ in range(200):
         frequency = float(rng.uniform(0.5, 3.0))
-        truth = float(np.exp(rng.uniform(np.log(0.25), np.log(0.45))) * overturning_level(frequency))
+        truth = float(np.exp(BIAS + rng.uniform(np.log(0.25), np.log(0.45))) * overturning_level(frequency))
+        told = frequency * float(np.exp(rng.normal(0.0, FREQUENCY_ERROR)))
         if form == "counted":
             place = Cemetery(tuple(AOYAMA.stones[i] for i in rng.integers(0, 100, 60)))
             survey = counted_survey(AOYAMA, int(simulated(rng, place, truth, frequency).sum()), 60)
         else:
             survey = marked_survey(marked(AOYAMA, simulated(rng, AOYAMA, truth, frequency)))
-        held += holds(estimate_shaking(survey, frequency), truth)
+        held += holds(estimate_shaking(survey, told), truth)
     return held / 200
 
 
@@ -80,15 +94,15 @@ def test_an_exact_survey_gives_the_threshold_back():
 
 def test_the_common_error_is_in_the_interval():
     """However many stones are counted, the interval stays as wide as the error common to the cemetery: 1.645 times 0.3 in ln PGA."""
-    low, high = estimate_shaking(counted_survey(AOYAMA, 35_000, 100_000), 2.0).pga_interval_m_s2
+    low, high = estimate_shaking(counted_survey(AOYAMA, 35_000, 100_000), 2.0, PLAIN).pga_interval_m_s2
     assert np.log(high / low) == pytest.approx(2 * 1.6449 * COMMON_ERROR, rel=2e-3)
-    wider = estimate_shaking(counted_survey(AOYAMA, 7, 20), 2.0).pga_interval_m_s2
+    wider = estimate_shaking(counted_survey(AOYAMA, 7, 20), 2.0, PLAIN).pga_interval_m_s2
     assert wider[1] / wider[0] > high / low
 
 
 def test_pga_and_frequency_trade_off_as_a_of_f():
     """A survey pins PGA/a(f): along the contour PGA follows eq. (8), and the threshold H/B stays."""
-    found = contour(counted_survey(AOYAMA, 35, 100))
+    found = contour(counted_survey(AOYAMA, 35, 100), PLAIN)
     level = [e.pga_m_s2 / float(overturning_level(e.frequency_hz)) for e in found]
     np.testing.assert_allclose(level, level[0], rtol=1e-6)
     np.testing.assert_allclose([e.threshold_ratio for e in found], found[0].threshold_ratio, rtol=1e-6)
@@ -97,7 +111,7 @@ def test_pga_and_frequency_trade_off_as_a_of_f():
 def test_without_a_frequency_the_band_is_averaged():
     """The interval over 0.5 to 3 Hz is wider than at any frequency in it, and reaches neither beyond its lowest nor its highest."""
     survey = counted_survey(AOYAMA, 35, 100)
-    whole, ends = estimate_shaking(survey).pga_interval_m_s2, [e.pga_interval_m_s2 for e in contour(survey)]
+    whole, ends = estimate_shaking(survey).pga_interval_m_s2, [e.pga_interval_m_s2 for e in contour(survey, PLAIN_FREQUENCY)]
     assert whole[0] > min(low for low, _ in ends)
     assert whole[1] < max(high for _, high in ends)
     assert whole[1] / whole[0] > max(high / low for low, high in ends)
@@ -107,7 +121,7 @@ def test_without_a_frequency_the_band_is_averaged():
 def test_none_and_all_give_bounds():
     """When no stone fell there is an upper bound, at which that had the probability of one tail; when all did, a lower one."""
     survey = marked_survey(marked(AOYAMA, np.zeros(100)))
-    none = estimate_shaking(survey, 2.0)
+    none = estimate_shaking(survey, 2.0, PLAIN_FREQUENCY)
     assert none.bound == "upper"
     assert none.pga_m_s2 is None
     assert none.pga_interval_m_s2[0] is None
@@ -148,7 +162,7 @@ def test_the_likelihood_is_the_integral_over_the_common_error():
     from scipy.integrate import quad
 
     survey = marked_survey(marked(AOYAMA, AOYAMA.ratios > 2.84))
-    found = likelihood(survey, 2.0)
+    found = likelihood(survey, 2.0, bias=0.0)
     probe = np.log([4.2, 4.8])
 
     def integrand(error: float, at: float) -> float:

@@ -16,6 +16,7 @@ from seisblock.present.documents.kind import Document, Kind
 from seisblock.records import Record
 from seisblock.studies.inverse.estimate import ShakingEstimate
 from seisblock.studies.inverse.factors import ScaleFactors
+from seisblock.studies.inverse.joint import JointEstimate
 
 
 class StonesParameters(Struct, frozen=True, kw_only=True):
@@ -33,6 +34,8 @@ class StonesParameters(Struct, frozen=True, kw_only=True):
         Level of the intervals.
     common_error_ln_pga, stone_error_ln_pga : float
         Standard deviations in ln PGA, of a cemetery and of each stone.
+    bias_ln_pga, frequency_error_ln_f : float
+        How much more PGA than the criterion's the ground must have; standard deviation of a given frequency.
     criterion, prior, intensity : str
         What the estimate rests on.
     inset : Inset or None
@@ -46,6 +49,8 @@ class StonesParameters(Struct, frozen=True, kw_only=True):
     confidence: float
     common_error_ln_pga: float
     stone_error_ln_pga: float
+    bias_ln_pga: float
+    frequency_error_ln_f: float
     criterion: str
     inset: Inset | None
     prior: str = "flat in ln PGA, and in ln f over 0.5 to 3 Hz where no frequency is given"
@@ -133,7 +138,10 @@ class ScanPoint:
     displacement_m: float
 
 
-CONTOUR = {"contour": Annotated[list[ShakingEstimate], Meta(description="The estimate frequency by frequency.")]}
+CONTOUR = {
+    "contour": Annotated[list[ShakingEstimate], Meta(description="The estimate frequency by frequency.")],
+    "joint": Annotated[list[JointEstimate], Meta(description="What several cemeteries say together, at each frequency; empty for one.")],
+}
 STONES_RESULT = entry_type("StonesResult", ShakingEstimate)
 STONES = Kind("infer", StonesParameters, STONES_RESULT, CONTOUR, name="stones")
 
@@ -146,12 +154,16 @@ Factors = Sequence[tuple[Record | None, ScaleFactors]]
 
 
 def stones_document(
-    estimates: Sequence[ShakingEstimate], contour: Sequence[ShakingEstimate], parameters: StonesParameters, warnings: Sequence[str]
+    estimates: Sequence[ShakingEstimate],
+    contour: Sequence[ShakingEstimate],
+    parameters: StonesParameters,
+    warnings: Sequence[str],
+    joint: Sequence[JointEstimate] = (),
 ) -> Document:
     """Return the document of what fallen stones say of the shaking."""
     found = ((None, entry_of(STONES_RESULT, each)) for each in estimates)
     citations = ("Furukawa2009", *(("Housner1963",) if parameters.criterion == "rigid" else ()), "Midorikawa1999")
-    return STONES.document(parameters, found, citations=citations, warnings=warnings, contour=list(contour))
+    return STONES.document(parameters, found, citations=citations, warnings=warnings, contour=list(contour), joint=list(joint))
 
 
 def slid_document(factors: Factors, **chosen: Any) -> Document:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +10,8 @@ from rich.text import Text
 
 from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, table
 from seisblock.records import Record
-from seisblock.studies.inverse.estimate import Interval, ShakingEstimate
+from seisblock.studies.inverse.estimate import Assumptions, Interval, ShakingEstimate
+from seisblock.studies.inverse.joint import JointEstimate
 from seisblock.units import GAL, KINE
 from seisblock.words import noted, tell
 
@@ -17,8 +19,23 @@ if TYPE_CHECKING:
     from seisblock.studies.inverse.factors import ScaleFactors
 
 
-def estimate_tables(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, level: float) -> Iterator[Any]:
-    """Yield one table per group of stones: PGA, PGV, threshold H/B and JMA intensity at each frequency."""
+def estimate_tables(
+    name: str, estimates: Sequence[ShakingEstimate], joint: Sequence[JointEstimate], assumptions: Assumptions, *, gal: bool
+) -> Iterator[Any]:
+    """Yield what all cemeteries say together, one table per group of stones (PGA, PGV, threshold H/B, JMA intensity), and the notes."""
+    level = assumptions.level
+    for each in joint[:1]:
+        low, high = (acceleration(end, gal=gal) for end in each.pga_interval_m_s2)
+        yield Text(
+            tell(
+                "{names} together: PGA {pga} {unit} ({low} to {high}).",
+                names=list(each.names),
+                pga=acceleration(each.pga_m_s2, gal=gal),
+                unit=acceleration_unit(gal=gal),
+                low=low,
+                high=high,
+            )
+        )
     speed, unit = (KINE, "kine") if gal else (1.0, "m/s")
     head = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal)})", "", f"PGV ({unit})", "", "H/B", "JMA intensity")
     for stones in dict.fromkeys(each.stones for each in estimates):
@@ -37,6 +54,15 @@ def estimate_tables(name: str, estimates: Sequence[ShakingEstimate], *, gal: boo
             for each in group
         ]
         yield table(title, head, rows, caption=f"median and {100 * level:g} % interval; H/B: stones more slender than this fell")
+    if assumptions.bias:
+        yield Text(
+            tell(
+                "Records need {factor:.2f} times the PGA that the criterion, fitted to sines, says: measured with rigid blocks, and taken "
+                "into account here (--bias 0 leaves it out).",
+                factor=math.exp(assumptions.bias),
+            ),
+            style="dim",
+        )
 
 
 def _range(interval: Interval, unit: float) -> str:

