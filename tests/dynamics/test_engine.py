@@ -9,7 +9,7 @@ from seisblock.dynamics import Instant, follow
 from seisblock.errors import SolverError
 from seisblock.records import Motion
 from seisblock.results import Status
-from tests.dynamics.toy_models import BALL, FLIP, PENDULUM, SLED
+from tests.dynamics.toy_models import BALL, FLIP, PENDULUM, RACE, SLED
 
 pytestmark = pytest.mark.kernel
 
@@ -90,6 +90,16 @@ def test_chattering_is_reported_not_looped():
     """Two modes that return to each other at one instant are an error with its time."""
     with pytest.raises(SolverError, match="two modes"):
         follow(FLIP, STILL, [], [0.0], 0)
+
+
+@pytest.mark.parametrize("at", [0.0, 0.013, 0.02, 0.005])
+def test_of_guards_that_cross_together_the_first_fires(at):
+    """At one instant, inside a sample, on one, or at the start, the order of the model decides; else the earlier guard does."""
+    late = at + 1e-9
+    for gates, first in (((at, at), 0), ((at, late), 0), ((late, at), 1)):
+        answer = follow(RACE, STILL, gates, [0.0], 0)
+        assert [change.guard for change in answer.changes] == [first]
+        assert answer.end_time == pytest.approx(at, abs=1e-16)
 
 
 def test_mirror():

@@ -93,3 +93,21 @@ def flip_reset(mode, guard, y, f, p):
 
 
 FLIP = Model("flip", flip_series, flip_reset, ("nothing",), ("always",), ("heads", "tails"), tracked=0)
+
+
+@kernel(SERIES)
+def race_series(mode, y, f, p, order, c, g):
+    """A point that moves at speed 1 towards two gates, at p[0] and p[1]; and through both at once where they are one."""
+    c[0, 0], c[0, 1] = y[0], 1.0
+    for k in range(2):
+        g[k, 0], g[k, 1] = p[k] - y[0], -1.0
+    return 1
+
+
+@kernel(RESET)
+def race_reset(mode, guard, y, f, p):
+    """The gate passed decides where it ends."""
+    return -1 - guard
+
+
+RACE = Model("race", race_series, race_reset, ("place",), ("first gate", "second gate"), ("on its way", "by the second", "by the first"))

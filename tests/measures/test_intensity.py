@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from seisblock.measures import arias_intensity, jma_class, jma_intensity, measure, significant_duration
+from seisblock.measures.intensity import _jma_filter
 from seisblock.records import Component, Record
 
 G = 9.80665
@@ -44,6 +45,13 @@ def test_significant_duration_through_zero():
 def test_significant_duration_of_rest_is_zero():
     """No energy, no duration, no division by zero."""
     assert significant_duration(np.zeros(10), 0.1) == 0.0
+
+
+def test_jma_filter_where_every_coefficient_counts():
+    """[JMA1996]_ at 20 Hz: the squares of y = 2 in 1, 0.694, 0.241, 0.0557, 0.009664, 0.00134, 0.000155 add up to 15.677824, by hand."""
+    terms = [1.0, 2.776, 3.856, 3.5648, 2.473984, 1.37216, 0.63488]
+    assert sum(terms) == pytest.approx(15.677824, rel=1e-14)
+    assert _jma_filter(np.array([0.0, 20.0])).tolist() == [0.0, pytest.approx((20.0 * 15.677824) ** -0.5, rel=1e-14)]
 
 
 @pytest.mark.parametrize("f", [0.3, 1.0, 2.0, 8.0])

@@ -43,6 +43,17 @@ def test_crop_keeps_the_time_axis():
     np.testing.assert_array_equal(twice.component("EW").acceleration, RECORD.component("EW").acceleration[300:401])
 
 
+@pytest.mark.parametrize(
+    ("start", "end", "first", "last"),
+    [(2.0, 3.0, 200, 300), (2.003, 2.997, 201, 299), (2.0099, 3.0001, 201, 300), (1.9999, 2.9999, 200, 299)],
+)
+def test_crop_takes_the_samples_inside_and_no_other(start, end, first, last):
+    """A window that begins or ends between two samples holds the ones inside it; one on a sample holds that sample."""
+    part = crop(RECORD, start, end)
+    assert part.offset_s == pytest.approx(first * 0.01, abs=1e-12)
+    np.testing.assert_array_equal(part.component("NS").acceleration, RECORD.component("NS").acceleration[first : last + 1])
+
+
 def test_crop_keeps_everything_bit_by_bit_when_the_window_is_the_record():
     """The window from the first to the last sample changes nothing."""
     np.testing.assert_array_equal(crop(RECORD, 0.0, RECORD.duration_s).component("NS").acceleration, RECORD.component("NS").acceleration)

@@ -125,6 +125,18 @@ def test_a_toppled_block_comes_to_lie_on_its_side():
     assert fate.fell_towards_deg == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.parametrize(("ratio", "falls_at"), [(3.0, 60.0), (0.5, math.degrees(math.atan(2.0) + 0.1))])
+def test_a_stone_has_fallen_when_it_leans_by_60_degrees_and_more_than_it_can(ratio, falls_at):
+    """Let go beyond its balance it counts as fallen as it passes 60 degrees, a squat one 0.1 rad beyond its critical angle."""
+    lean = math.atan(1.0 / ratio) + 0.02
+    response = solve_stack(block(ratio, mu=2.0), Motion.from_arrays(np.zeros(3), 0.01), points=2, contact=STIFF, tilts={"block": lean})
+    fell_at = response.outcome.stones[0].fell_at_s
+    assert fell_at is not None
+    # rows are kept at samples, between which the stone turns by less than 2 degrees
+    tilt = np.degrees(np.interp(fell_at, response.time, response["block_tilt"]))
+    assert tilt == pytest.approx(falls_at, abs=0.5)
+
+
 def test_a_free_body_keeps_its_energy():
     """A block that turns about all its axes in the air keeps its energy until it lands."""
     from seisblock.solvers.stack.arrays import pile_arrays

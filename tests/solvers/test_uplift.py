@@ -13,7 +13,7 @@ from seisblock.dynamics.model import follow
 from seisblock.records.motion import Motion, motion_of
 from seisblock.records.record import Component, Record
 from seisblock.solvers.uplift.harmonic import uplift_thresholds
-from seisblock.solvers.uplift.model import UPLIFT, W, X, at_rest, contact_name, parameters, rotations
+from seisblock.solvers.uplift.model import UPLIFT, F, W, X, at_rest, contact_name, parameters, rotations
 from seisblock.solvers.uplift.modes import natural_modes
 from seisblock.solvers.uplift.solve import solve_uplift
 from seisblock.units import STANDARD_GRAVITY
@@ -216,6 +216,27 @@ def test_a_hop_of_the_whole_block():
     assert "in the air" in [phase.name for phase in response.phases]
     assert response["lean_along"] == pytest.approx(0.0, abs=1e-12)
     assert contact_name(9) == "on corners 1 4"
+
+
+def test_a_landing_is_felt_by_its_dashpot_at_once():
+    """A corner that comes down presses with c times its speed at that instant, before its spring does; without a dashpot with nothing."""
+    up = np.zeros((3, 200))
+    up[2, :10], up[2, 10:14] = 40.0, -60.0
+    for damping in (0.0, 0.3, 0.9):
+        body = SpringBlock.from_frequency(0.6, 0.6, 0.6, frequency_vertical=15.0, beta=1.0, damping=damping, mass=80.0)
+        response = solve_uplift(body, Motion(up, 0.01))
+        # four dashpots c = 2 zeta k / omega, four springs k = m omega^2 / 4
+        c = 2.0 * damping * body.mass * body.omega[2] / 4.0
+        landings = [event for event in response.events if event.name.endswith("lands")]
+        assert len(landings) >= 4
+        for event in landings:
+            corner = int(event.name.split()[1]) - 1
+            speed = event.before[W + corner]
+            assert speed < -0.1
+            assert body.mass * event.after[F + corner] == pytest.approx(-c * speed, rel=1e-12, abs=1e-9)
+            assert body.mass * event.before[F + corner] == 0.0
+        force = c * max(-event.before[W + int(event.name.split()[1]) - 1] for event in landings)
+        assert response.outcome.max_contact_force_n >= force
 
 
 def test_a_large_lean_is_said_to_be_beyond_the_model():

@@ -89,6 +89,16 @@ def test_probability_at_a_flip_is_a_half():
     assert found.probability_interval[0] < 0.5 < found.probability_interval[1]
 
 
+@pytest.mark.parametrize(("above", "share"), [(0.01, 0.25), (-0.01, 0.75), (0.021, 0.0), (-0.021, 1.0)])
+def test_changes_are_uniform_within_their_half_width(above, share):
+    """Amplitudes within 2 % lie evenly: a quarter of them beyond a flip 1 % above the middle, none beyond one at 2.1 %."""
+    flip = find_margin(BLOCK, one_sine(3.0), restitution=0.9).flips[0]
+    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0)
+    found = perturb(BLOCK, one_sine(3.0 * flip / (1.0 + above)), 2000, restitution=0.9, spread=only)
+    # 2000 draws scatter by 0.0097 about a quarter; normal ones would leave 0.31 there, and 0.16 beyond the half width
+    assert found.probability == pytest.approx(share, abs=0.03 if 0.0 < share < 1.0 else 0.0)
+
+
 def test_same_seed_same_runs():
     """The seed decides."""
     motion = one_sine(3.0)
