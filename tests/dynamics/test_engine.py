@@ -92,6 +92,12 @@ def test_chattering_is_reported_not_looped():
         follow(FLIP, STILL, [], [0.0], 0)
 
 
+def test_of_guards_that_are_behind_already_the_first_fires():
+    """Two gates behind the start are passed at once, the model's first one for the record."""
+    answer = follow(RACE, STILL, [-1.0, -2.0], [0.0], 0)
+    assert [(change.time, change.guard) for change in answer.changes] == [(0.0, 0)]
+
+
 @pytest.mark.parametrize("at", [0.0, 0.013, 0.02, 0.005])
 def test_of_guards_that_cross_together_the_first_fires(at):
     """At one instant, inside a sample, on one, or at the start, the order of the model decides; else the earlier guard does."""
