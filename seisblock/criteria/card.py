@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, overturning_pga
 from seisblock.criteria.overturning import (
@@ -18,10 +17,14 @@ from seisblock.criteria.overturning import (
     tsutsui_velocity,
     velocity_step,
 )
-from seisblock.criteria.pulses import half_sine_ratio, one_sine_ratio, rectangular_ratio
+from seisblock.criteria.pulses import half_sine_acceleration, half_sine_ratio, one_sine_ratio, rectangular_ratio
+from seisblock.errors import ParameterError
 from seisblock.units import STANDARD_GRAVITY
 
 ACCELERATION, VELOCITY = "m/s^2", "m/s"
+
+OWN_FREQUENCY = "pga_pgv"
+"""The equivalent frequency for which the criterion of gravestones was tried on records ([Furukawa2009]_ section 3(5)e)."""
 
 
 @dataclass(frozen=True)
@@ -78,8 +81,9 @@ def overturning_card(
     ParameterError
         If a peak is negative or not a number.
     """
-    checks.not_negative("the PGA", pga, "m/s^2")
-    checks.not_negative("the PGV", pgv, "m/s")
+    for name, value in (("PGA", pga), ("PGV", pgv)):
+        if not (math.isfinite(value) and value >= 0.0):
+            raise ParameterError(f"the {name} must be zero or positive, found {value}")
     width, height = 2 * min(block.arms), 2 * block.centre
     alpha, p = block.slenderness, block.frequency_parameter(gravity)
     rows = [
@@ -98,7 +102,8 @@ def overturning_card(
     by_frequency: tuple[tuple[str, str, Callable[[float], float]], ...] = (
         ("Housner, first form", "[Furukawa2009]_ eq. (6)", lambda f: housner_acceleration(alpha, p, f, gravity)),
         ("Housner, as printed", "[Furukawa2009]_ eq. (6)", lambda f: housner_acceleration_as_printed(width, height, f, gravity)),
-        ("half sine, exact", "[Housner1963]_", lambda f: gravity * alpha * half_sine_ratio(2 * math.pi * f / p)),
+        ("half sine, linear", "[Housner1963]_", lambda f: gravity * alpha * half_sine_ratio(2 * math.pi * f / p)),
+        ("half sine, nonlinear", "[Housner1963]_", lambda f: half_sine_acceleration(alpha, p, f, gravity)),
         ("one sine, no impact", "[Zhang2001]_", lambda f: gravity * alpha * one_sine_ratio(2 * math.pi * f / p)),
         ("rectangular pulse", "[Housner1963]_", lambda f: gravity * alpha * rectangular_ratio(1 / (math.pi * f), p)),
         ("gravestone", "[Furukawa2009]_ eq. (9)", gravestone(PLAIN)),
@@ -109,6 +114,23 @@ def overturning_card(
             if f is not None:
                 rows.append(_row(criterion, where, ACCELERATION, threshold(f), pga, name, f))
     return tuple(rows)
+
+
+def once_each(rows: Sequence[Row], frequency: str = OWN_FREQUENCY) -> tuple[Row, ...]:
+    """Return one row for each criterion: where it was given several frequencies that of one definition, else its first.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        Of :func:`overturning_card`.
+    frequency : str
+        PGA/(2 pi PGV) by default, the choice of [Furukawa2009]_ section 3(5)e.
+    """
+    chosen: dict[str, Row] = {}
+    for row in rows:
+        if row.criterion not in chosen or row.frequency == frequency:
+            chosen[row.criterion] = row
+    return tuple(chosen.values())
 
 
 def _row(

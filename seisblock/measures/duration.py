@@ -7,7 +7,6 @@ from typing import Literal
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.errors import ParameterError
 from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
@@ -54,8 +53,8 @@ def block_threshold(width: float, height: float, *, gravity: float = STANDARD_GR
     ParameterError
         If a size is not positive.
     """
-    checks.positive("width of the block", width, "m")
-    checks.positive("height of the block", height, "m")
+    if not (np.isfinite(width) and np.isfinite(height) and width > 0 and height > 0):
+        raise ParameterError(f"the sizes of a block must be positive, found width {width:g} m and height {height:g} m")
     return gravity * width / height
 
 
@@ -86,7 +85,8 @@ def stretches_above(acceleration: FloatArray, dt: float, threshold: float, *, si
     ParameterError
         If the threshold is not positive.
     """
-    checks.positive("the threshold", threshold, "m/s^2")
+    if not (np.isfinite(threshold) and threshold > 0):
+        raise ParameterError(f"the threshold must be positive, found {threshold} m/s^2")
     signs = {"both": (1.0, -1.0), "positive": (1.0,), "negative": (-1.0,)}.get(side)
     if signs is None:
         raise ParameterError(f"side must be both, positive or negative, found {side!r}")

@@ -16,7 +16,6 @@ PAPERS: tuple[str, ...] = (
     "housner",
     "furukawa_rocking",
     "furukawa",
-    "furukawa_field",
     "furukawa_pile",
 )
 """Modules of this package that export CASES."""

@@ -30,7 +30,7 @@ def test_document(run):
             assert row["where"].startswith("[")
             assert row["demand"] in (result["pga_m_s2"], result["pgv_m_s"])
         names = {row["criterion"] for row in result["criteria"]}
-        assert len(names) == 13
+        assert len(names) == 14
         frequencies = {row["frequency"] for row in result["criteria"]} - {None}
         assert frequencies == {"pga_pgv", "fourier", "pulse_width"}
 
@@ -50,9 +50,9 @@ def test_table_file_and_figure(run, tmp_path):
     answer = run("--block", "gravestone", "--component", "EW", "--csv", "card.csv", "--plot", "card.png", "--scale", 0.3)
     assert answer.exit_code == 0, answer.output
     assert "EW, simulated:" in answer.stdout
-    assert "half sine, exact" in answer.stdout
+    assert "half sine, nonlinear" in answer.stdout
     rows = list(csv.DictReader((tmp_path / "card.csv").open()))
-    assert len(rows) == 27
+    assert len(rows) == 30
     assert {row["unit"] for row in rows} == {"m/s^2", "m/s"}
     assert (tmp_path / "card.png").stat().st_size > 10_000
 

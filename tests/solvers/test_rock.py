@@ -10,7 +10,8 @@ from seisblock import solve_rock
 from seisblock.bodies.block import Block, from_slenderness
 from seisblock.dynamics import follow
 from seisblock.errors import BodyError, ParameterError, SolverError
-from seisblock.records import Motion
+from seisblock.readers import read
+from seisblock.records import Motion, motion_of
 from seisblock.solvers.rock import model as rock_model
 from seisblock.solvers.rock.aftermath import fate, sides
 from seisblock.units import STANDARD_GRAVITY as G
@@ -91,6 +92,20 @@ def test_unequal_corners():
     onto_right, onto_left = block.restitutions
     assert onto_right > onto_left
     assert onto_left == pytest.approx((block.gyration_squared + 0.25 - 0.03) / (block.gyration_squared + 0.25 + 0.09))
+
+
+def test_no_restitution_is_the_limit_of_little():
+    """Restitution 0 is allowed: every swing ends at its impact, and the answer is that of 1e-9 (N13)."""
+    motion = motion_of(read("synthetic_jma.csv"), "NS")
+    for factor in (0.5, 0.7, 1.0):
+        scaled = Motion(factor * motion.acceleration, motion.dt)
+        none, little = (solve_rock(Block(0.5, 2.0, centroid_offset=0.05), scaled, restitution=e).outcome for e in (0.0, 1e-9))
+        assert none.rocks
+        assert none.overturned == little.overturned
+        assert none.max_rotation_rad == pytest.approx(little.max_rotation_rad, rel=1e-8)
+    released = solve_rock(Block(0.3, 1.0), Motion.from_arrays(np.zeros(400), 0.01), restitution=0.0, initial=(0.1, 0.0))
+    assert released.outcome.impacts == 1
+    assert [phase.name for phase in released.phases] == ["rocks to +x", "rest"]
 
 
 def test_very_wide_block_stops_at_the_impact():
@@ -193,7 +208,7 @@ def test_impossible_blocks_are_refused(sizes, says):
 @pytest.mark.parametrize(
     "options",
     [
-        {"restitution": 0.0},
+        {"restitution": -0.1},
         {"restitution": 1.1},
         {"restitution": math.nan},
         {"gravity": 0.0},

@@ -240,9 +240,17 @@ def test_a_landing_is_felt_by_its_dashpot_at_once():
 
 
 def test_a_large_lean_is_said_to_be_beyond_the_model():
-    """Beyond a tenth of the slenderness the answer carries a warning that points to rock."""
+    """Beyond a tenth of the slenderness the outcome says that the model does not hold, and the answer points to rock (N16)."""
     response = solve_uplift(SLENDER, shaking(6.0, 0.01, peaks=(9.0, 9.0, 3.0)))
     assert any("seisblock rock" in message for message in response.warnings)
+    assert response.outcome.within_model is False
+    assert response.outcome.lean_ratio > 0.1
+    slenderness = np.array([SLENDER.height / SLENDER.width, SLENDER.height / SLENDER.depth])
+    leans = np.abs(np.array([response["lean_along"], response["lean_across"]])).max(axis=1) * slenderness
+    assert response.outcome.lean_ratio == pytest.approx(leans.max())
+    weak = solve_uplift(SLENDER, shaking(6.0, 0.01, peaks=(1.0, 0.8, 0.5))).outcome
+    assert weak.within_model
+    assert weak.lean_ratio < 0.1
 
 
 def test_a_motion_that_round_off_decides_is_said_to_be_one():

@@ -46,11 +46,20 @@ def test_verdicts_on_both_sides_of_each_flip():
         assert below != above
 
 
+def test_the_first_fall_found_and_how_often_it_falls_above():
+    """The boundary is fractal: the margin names the first fall that it found, and the share of factors above at which it falls (N11)."""
+    margin = find_margin(BLOCK, one_sine(4.0), restitution=0.9, linear=True)
+    assert margin.first_fall == margin.flips[0]
+    assert margin.first_fall * 4 == pytest.approx(3.019, abs=1e-3)
+    falls = (6.318 - 3.019 + 12.0 - 7.168) / (12.0 - 3.019)
+    assert margin.falls_above_first == pytest.approx(falls, abs=2e-3)
+
+
 def test_block_that_never_falls_has_one_window():
-    """No flip, no nearest flip."""
+    """No flip, no nearest flip, no first fall."""
     margin = find_margin(BLOCK, Motion.from_arrays(0.01 * np.ones(50), 0.01))
     assert margin.flips == ()
-    assert margin.nearest_flip is None
+    assert margin.nearest_flip is margin.first_fall is margin.falls_above_first is None
     assert len(margin.windows) == 1
 
 
@@ -84,7 +93,7 @@ def test_probability_far_from_any_flip_is_certain():
 def test_probability_at_a_flip_is_a_half():
     """With the amplitude alone changing, half of the runs lie on each side of a flip."""
     flip = find_margin(BLOCK, one_sine(3.0), restitution=0.9).flips[0]
-    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0)
+    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
     found = perturb(BLOCK, one_sine(3.0 * flip), 400, restitution=0.9, spread=only)
     assert found.probability_interval[0] < 0.5 < found.probability_interval[1]
 
@@ -93,10 +102,29 @@ def test_probability_at_a_flip_is_a_half():
 def test_changes_are_uniform_within_their_half_width(above, share):
     """Amplitudes within 2 % lie evenly: a quarter of them beyond a flip 1 % above the middle, none beyond one at 2.1 %."""
     flip = find_margin(BLOCK, one_sine(3.0), restitution=0.9).flips[0]
-    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0)
+    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.02, azimuth_deg=0.0, inset=0.0)
     found = perturb(BLOCK, one_sine(3.0 * flip / (1.0 + above)), 2000, restitution=0.9, spread=only)
     # 2000 draws scatter by 0.0097 about a quarter; normal ones would leave 0.31 there, and 0.16 beyond the half width
     assert found.probability == pytest.approx(share, abs=0.03 if 0.0 < share < 1.0 else 0.0)
+
+
+def test_what_the_interval_is_of():
+    """The share is one among versions of the model, and says so; it is not the chance of the stone (N12)."""
+    assert perturb(BLOCK, one_sine(3.0), 5).interval_of == "this model's own scatter"
+
+
+def test_edges_are_worn_between_nothing_and_a_tenth():
+    """With nothing else changing, a stone that falls only when it is worn by more than half of that falls in half of the runs."""
+    motion = one_sine(2.8)
+    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+    share = next(x for x in np.linspace(0.0, 0.1, 401) if rock_verdict(BLOCK.worn(float(x)), motion, restitution=0.9).overturned)
+    assert 0.01 < share < 0.09
+    found = perturb(BLOCK, motion, 400, restitution=0.9, spread=only)
+    low, high = found.probability_interval
+    assert low < 1.0 - share / 0.1 < high
+    sharp = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0, inset=0.0)
+    assert perturb(BLOCK, motion, 5, restitution=0.9, spread=sharp).overturned == 0
+    assert perturb(BLOCK.worn(0.1), motion, 5, restitution=0.9, spread=sharp).overturned == 5
 
 
 def test_same_seed_same_runs():
@@ -133,9 +161,9 @@ def test_wilson_interval(count, runs, low, high):
     assert wilson_interval(count, runs) == pytest.approx((low, high), abs=5e-5)
 
 
-@pytest.mark.parametrize("spread", [{"size": 1.0}, {"amplitude": -0.1}, {"slenderness": math.nan}, {"azimuth_deg": 200.0}])
+@pytest.mark.parametrize("spread", [{"size": 1.0}, {"amplitude": -0.1}, {"slenderness": math.nan}, {"azimuth_deg": 200.0}, {"inset": 0.5}])
 def test_impossible_spreads_are_refused(spread):
-    """Shares lie in [0, 1), degrees in [0, 180]."""
+    """Shares lie in [0, 1), that of the inset in [0, 0.5), degrees in [0, 180]."""
     with pytest.raises(ParameterError, match="spread"):
         Spread(**spread)
 

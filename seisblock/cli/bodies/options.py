@@ -61,7 +61,7 @@ def rocking_options(function: Callable[..., Any]) -> Callable[..., Any]:
                 "--restitution",
                 type=float,
                 metavar="E",
-                help="Angular velocity after an impact over that before, (0, 1]. [default: 1 - 1.5 sin^2(alpha), or the body's own]",
+                help="Angular velocity after an impact over that before, 0 to 1. [default: 1 - 1.5 sin^2(alpha), or the body's own]",
             ),
             option("--linear", is_flag=True, help="The linearised equation of slender blocks. [default: the exact one]"),
             option("--vertical", is_flag=True, help="Let the vertical component act, too. [default: horizontal motion alone]"),

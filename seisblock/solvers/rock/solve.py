@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.block import Block, Restitution
 from seisblock.dynamics import Trajectory, follow
 from seisblock.errors import ParameterError
@@ -23,14 +22,15 @@ CITATIONS = ("Housner1963", "Zhang2001", "Ishiyama1982")
 
 
 def check_options(restitution: Restitution, gravity: float) -> None:
-    """Refuse a restitution outside (0, 1] and a gravity that is not positive ([Housner1963]_)."""
+    """Refuse a restitution outside [0, 1] and a gravity that is not positive ([Housner1963]_)."""
     given = () if restitution is None else restitution if isinstance(restitution, tuple) else (restitution,)
-    if not all(0.0 < ratio <= 1.0 for ratio in given):
+    if not all(0.0 <= ratio <= 1.0 for ratio in given):
         raise ParameterError(
-            f"the restitution, a ratio of angular velocities, must lie in (0, 1], found {restitution}; "
+            f"the restitution, a ratio of angular velocities, must lie in [0, 1], found {restitution}; "
             "leave it out for 1 - 1.5 sin^2(alpha)"
         )
-    checks.gravity(gravity)
+    if not (math.isfinite(gravity) and gravity > 0.0):
+        raise ParameterError(f"gravity must be positive, found {gravity} m/s^2")
 
 
 def solve_rock(
@@ -54,7 +54,7 @@ def solve_rock(
     motion : Motion
         Ground acceleration, m/s^2.
     restitution : float, or a pair
-        Ratio of angular velocities at an impact, in (0, 1], or that onto the right and that onto the left corner; by default from
+        Ratio of angular velocities at an impact, in [0, 1], or that onto the right and that onto the left corner; by default from
         the angular momentum about the corner that is struck, 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_).
     linear : bool
         Whether to use the linear equation of slender blocks ([Zhang2001]_ eqs. (4), (5)).
@@ -72,7 +72,7 @@ def solve_rock(
     Raises
     ------
     ParameterError
-        If the restitution lies outside (0, 1] or gravity is not positive.
+        If the restitution lies outside [0, 1] or gravity is not positive.
     ComponentError
         If the vertical motion is asked of a record without one.
     SolverError
@@ -124,11 +124,7 @@ def start_mode(block: Block, initial: tuple[float, float]) -> int:
     """Return the mode in which a block with this lean and angular velocity is ([Housner1963]_)."""
     theta, omega = initial
     if not (abs(theta) < math.pi / 2 and math.isfinite(omega)):
-        raise ParameterError(
-            "the initial lean must lie within pi/2 rad and its rate be finite, found {theta} rad and {omega} rad/s",
-            theta=theta,
-            omega=omega,
-        )
+        raise ParameterError(f"the initial lean must lie within pi/2 rad and its rate be finite, found {theta} rad and {omega} rad/s")
     if theta == 0.0 and omega == 0.0:
         return model.REST
     right, left = block.slendernesses

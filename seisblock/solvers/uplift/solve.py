@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.dynamics.model import Trajectory, follow
 from seisblock.records.given import Factor, check_call, vertical_gain
@@ -16,6 +15,7 @@ from seisblock.solvers.uplift.model import GLUED, UPLIFT, UPLIFT_AGAIN, WHOLE_BA
 from seisblock.solvers.uplift.modes import natural_modes
 from seisblock.typing import BoolArray, FloatArray
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import said
 
 SMALL = 0.1
 """Largest slenderness times rotation for which leaving the weight's lever out (P-delta) is defensible."""
@@ -85,6 +85,11 @@ class UpliftOutcome:
         Factor on the record at which a corner just lifts: below it the response is linear.
     max_rotation_rad : float
         Largest rotation about x or y, at samples and contact changes.
+    lean_ratio : float
+        The same over the slenderness of that side.
+    within_model : bool
+        Whether that stays below 0.1, so that leaving out the weight's lever is defensible; where it does not, sizes and times of the
+        motion are no answers, only the first uplift is.
     static_settlement_m : float
     corners : tuple of CornerOutcome
     """
@@ -102,6 +107,8 @@ class UpliftOutcome:
     share_on_corners: dict[str, float]
     uplift_scale: float | None
     max_rotation_rad: float
+    lean_ratio: float
+    within_model: bool
     static_settlement_m: float
     corners: tuple[CornerOutcome, ...]
 
@@ -144,7 +151,6 @@ def solve_uplift(
     True
     """
     check_call(body, SpringBlock, motion)
-    checks.gravity(gravity)
     gains = (1.0, 1.0, vertical_gain(motion, vertical, needed=False))
     p, start = parameters(body, gravity), at_rest(body, gravity)
     trajectory = follow(UPLIFT, motion, p, start, WHOLE_BASE, gains=gains)
@@ -152,13 +158,13 @@ def solve_uplift(
     again = follow(UPLIFT_AGAIN, motion, p, start, WHOLE_BASE, gains=gains, keep_path=False, keep_events=False)
     time, states, _ = trajectory.table()
     theta_x, theta_y = rotations(states, body)
-    slenderness = max(body.height / body.depth * np.abs(theta_x).max(), body.height / body.width * np.abs(theta_y).max())
+    lean = float(max(body.height / body.depth * np.abs(theta_x).max(), body.height / body.width * np.abs(theta_y).max()))
     settlement = body.static_settlement(gravity)
     risen = _highest(linear) + settlement
     rotation = float(max(np.abs(theta_x).max(), np.abs(theta_y).max()))
     return Response(
         model="uplift",
-        outcome=_outcome(body, motion, trajectory, gravity, settlement / risen if risen > ROUND_OFF * settlement else None, rotation),
+        outcome=_outcome(body, motion, trajectory, gravity, settlement / risen if risen > ROUND_OFF * settlement else None, rotation, lean),
         motion=motion,
         body=body,
         time=motion.start_s + time,
@@ -180,7 +186,7 @@ def solve_uplift(
         ),
         options={"vertical": gains[2], "gravity_m_s2": gravity},
         status=Status(trajectory.status),
-        warnings=_warnings(motion, float(slenderness), _highest(trajectory), _highest(again)),
+        warnings=_warnings(motion, lean, _highest(trajectory), _highest(again)),
         citations=("Okumura1987",),
     )
 
@@ -198,7 +204,7 @@ def _contacts(trajectory: Trajectory) -> tuple[FloatArray, BoolArray]:
 
 
 def _outcome(
-    body: SpringBlock, motion: Motion, trajectory: Trajectory, gravity: float, scale: float | None, rotation: float
+    body: SpringBlock, motion: Motion, trajectory: Trajectory, gravity: float, scale: float | None, rotation: float, lean: float
 ) -> UpliftOutcome:
     """Return the numbers a user asks for."""
     lengths, in_air = _contacts(trajectory)
@@ -220,6 +226,8 @@ def _outcome(
         share_on_corners={str(n): float(lengths[held == n].sum() / lengths.sum()) for n in (4, 3, 2, 1, 0)},
         uplift_scale=scale,
         max_rotation_rad=rotation,
+        lean_ratio=lean,
+        within_model=lean <= SMALL,
         static_settlement_m=body.static_settlement(gravity),
         corners=corners,
     )
@@ -258,19 +266,34 @@ def _phases(motion: Motion, trajectory: Trajectory) -> tuple[Phase, ...]:
 
 def _warnings(motion: Motion, lean: float, highest: float, again: float) -> tuple[str, ...]:
     """Return what the user should know before believing the numbers."""
-    said = []
+    found = []
     if motion.record is not None and motion.record.vertical is None:
-        said.append("the record has no vertical component: solved with zero vertical motion")
+        found.append(said("the record has no vertical component: solved with zero vertical motion"))
     if motion.record is not None and len(motion.record.horizontals) < 2:
-        said.append("the record has one horizontal component: solved with zero motion across it")
-    if lean > SMALL:
-        said.append(
-            f"the block leans to {lean:.2f} of its slenderness, beyond {SMALL}, where this model, which has no P-delta and never "
-            "overturns, no longer holds: use 'seisblock rock'"
+        found.append(said("the record has one horizontal component: solved with zero motion across it"))
+    if lean > 1.0:
+        found.append(
+            said(
+                "the block leans beyond its slenderness, where it would fall and this model, which has no P-delta and never overturns, "
+                "does not hold: use 'seisblock rock'"
+            )
+        )
+    elif lean > SMALL:
+        found.append(
+            said(
+                "the block leans to {lean:.2f} of its slenderness, beyond {small}, where this model, which has no P-delta and never "
+                "overturns, no longer holds: use 'seisblock rock'",
+                lean=lean,
+                small=SMALL,
+            )
         )
     if abs(highest - again) > REPEATABLE * max(abs(highest), abs(again)):
-        said.append(
-            f"the largest uplift is {highest * 1e3:.4g} or {again * 1e3:.4g} mm by round-off alone: after so many contact "
-            "changes the motion no longer follows from the record; trust its beginning, and the order of magnitude"
+        found.append(
+            said(
+                "the largest uplift is {one:.4g} or {other:.4g} mm by round-off alone: after so many contact changes the motion no longer "
+                "follows from the record; trust its beginning, and the order of magnitude",
+                one=highest * 1e3,
+                other=again * 1e3,
+            )
         )
-    return tuple(said)
+    return tuple(found)

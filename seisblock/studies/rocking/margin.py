@@ -1,7 +1,8 @@
-"""How close it was: the factors on a record at which the verdict changes.
+"""How close it was: the factors on a record at which the verdict changes, as far as a scan finds them.
 
-Overturning is not monotone in amplitude: above a window in which a block overturns there may be another in which it stands. So the whole
-range is scanned, and each change of verdict is bisected. A window narrower than the step of the scan can be missed.
+Overturning is not monotone in amplitude: above a window in which a block overturns there may be another in which it stands, and the
+boundary between both is fractal. So the whole range is scanned, and each change of verdict that is met is bisected; windows narrower
+than the step of the scan are missed, below the first fall found as above it.
 """
 
 from __future__ import annotations
@@ -60,6 +61,10 @@ class Margin:
         The factors between them, in rising order.
     nearest_flip : float or None
         The one nearest to 1, by ratio; None when the verdict never changes.
+    first_fall : float or None
+        The smallest factor at which it was found to fall.
+    falls_above_first : float or None
+        Share of the factors looked at from there to the limit at which it falls.
     step, limit : float
         Of the scan.
     """
@@ -68,6 +73,8 @@ class Margin:
     windows: tuple[FactorRange, ...]
     flips: tuple[float, ...]
     nearest_flip: float | None
+    first_fall: float | None
+    falls_above_first: float | None
     step: float
     limit: float
 
@@ -75,7 +82,7 @@ class Margin:
 def find_margin(
     block: Block, motion: Motion, *, limit: float = LIMIT, step: float = STEP, progress: Progress | None = None, **options: Any
 ) -> Margin:
-    """Return every factor up to a limit at which a rocking block's verdict changes.
+    """Return the factors up to a limit at which a rocking block's verdict is found to change.
 
     Parameters
     ----------
@@ -108,7 +115,10 @@ def find_margin(
     windows = tuple(FactorRange(low, high, bool(i % 2)) for i, (low, high) in enumerate(pairwise(edges)))
     nearest = min(flips, key=lambda flip: abs(np.log(flip))) if flips else None
     at_one = verdicts[factors.index(1.0)] if limit >= 1.0 else overturns(1.0)
-    return Margin(at_one, windows, flips, nearest, step, limit)
+    fallen = next((i for i, falls in enumerate(verdicts) if falls), None)
+    first = next((window.first for window in windows if window.overturned), None)
+    share = None if fallen is None else sum(verdicts[fallen:]) / (len(verdicts) - fallen)
+    return Margin(at_one, windows, flips, nearest, first, share, step, limit)
 
 
 def _bisected(overturns: Any, low: float, high: float, above: bool) -> float:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from seisblock import checks
 from seisblock.bodies.block import Block, Restitution, resized, restitutions
+from seisblock.bodies.inset import HALF
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.records.motion import ACROSS, ALONG
@@ -17,18 +17,25 @@ from seisblock.solvers.rock.solve import check_options, rock_verdict
 from seisblock.studies.runs import in_threads
 from seisblock.typing import Progress
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
 
 CONFIDENCE = 0.95
+
+OWN_SCATTER = noted("this model's own scatter")
+"""What a share of perturbed runs, and its interval, are of."""
 
 
 @dataclass(frozen=True)
 class Spread:
-    """Half widths of the uniform changes: shares of the value, and degrees for the azimuth.
+    """Half widths of the uniform changes: shares of the value, and degrees for the azimuth; and how far the edges may be worn.
 
     Parameters
     ----------
     size, slenderness, restitution, amplitude : float
         Shares, in [0, 1).
+    inset : float
+        The edges are worn by a share of the width, per side, between 0 and this, or that of the block where it is more worn; in
+        [0, 0.5).
     azimuth_deg : float
         Degrees; without effect where the record's second horizontal is unknown.
     """
@@ -38,18 +45,24 @@ class Spread:
     restitution: float = 0.05
     amplitude: float = 0.05
     azimuth_deg: float = 5.0
+    inset: float = 0.1
 
     def __post_init__(self) -> None:
-        checks.within("the spread of the size, a share,", self.size, "[0, 1)")
-        checks.within("the spread of the slenderness, a share,", self.slenderness, "[0, 1)")
-        checks.within("the spread of the restitution, a share,", self.restitution, "[0, 1)")
-        checks.within("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
-        checks.within("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
+        for key in ("size", "slenderness", "restitution", "amplitude"):
+            if not 0.0 <= getattr(self, key) < 1.0:
+                raise ParameterError(f"the spread of the {key} is a share in [0, 1), found {getattr(self, key)}")
+        if not 0.0 <= self.inset < HALF:
+            raise ParameterError(f"the spread of the inset is a share of the width in [0, {HALF}), found {self.inset}")
+        if not 0.0 <= self.azimuth_deg <= 180.0:
+            raise ParameterError(f"the spread of the azimuth lies between 0 and 180 degrees, found {self.azimuth_deg}")
 
 
 @dataclass(frozen=True)
 class Perturbation:
-    """How often the block overturned.
+    """How often the block overturned: a share among versions of it, not the chance of the stone itself.
+
+    On fitted shaking-table runs of real rocks the share is well calibrated between its ends, but 3 % fell where no version did, and 2 %
+    stood where all fell.
 
     Parameters
     ----------
@@ -57,7 +70,7 @@ class Perturbation:
     probability : float
         Their ratio.
     probability_interval : (float, float)
-        Wilson's interval at 95 %.
+        Wilson's interval at 95 %: what so few runs leave open of this model's own scatter, and no more.
     spread : Spread
     seed : int
     """
@@ -68,6 +81,7 @@ class Perturbation:
     probability_interval: tuple[float, float]
     spread: Spread
     seed: int
+    interval_of: str = OWN_SCATTER
 
 
 def perturb(
@@ -81,7 +95,7 @@ def perturb(
     progress: Progress | None = None,
     **options: Any,
 ) -> Perturbation:
-    """Return how often a block overturns when size, slenderness, restitution, amplitude and azimuth change a little.
+    """Return how often a block overturns when size, slenderness, edges, restitution, amplitude and azimuth change a little.
 
     Parameters
     ----------
@@ -89,7 +103,7 @@ def perturb(
     runs : int
         How many, at least 1.
     spread : Spread
-        Half widths of the changes, each uniform and independent of the others.
+        Of the changes, each uniform and independent of the others.
     seed : int
         The same seed gives the same runs.
     restitution : float, or a pair
@@ -107,11 +121,15 @@ def perturb(
     if runs < 1:
         raise ParameterError(f"a perturbation needs at least 1 run, found {runs}")
     check_options(restitution, options.get("gravity", STANDARD_GRAVITY))
-    draws = np.random.default_rng(seed).uniform(-1.0, 1.0, (runs, 5))
+    dice = np.random.default_rng(seed)
+    draws = np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs)])
+    deepest = max(spread.inset, block.inset / block.width) if spread.inset else None
 
     def once(draw: Any) -> bool:
-        size, slenderness, bounce, amplitude, turn = (float(value) for value in draw)
+        size, slenderness, bounce, amplitude, turn, wear = (float(value) for value in draw)
         changed = resized(block, size=1.0 + spread.size * size, slenderness=1.0 + spread.slenderness * slenderness)
+        if deepest is not None:
+            changed = changed.worn(deepest * wear)
         right, left = (min(middle * (1.0 + spread.restitution * bounce), 1.0) for middle in restitutions(changed, restitution))
         towards, factor = turned(motion, spread.azimuth_deg * turn), 1.0 + spread.amplitude * amplitude
         return rock_verdict(changed, towards, scale=factor, restitution=(right, left), **options).overturned

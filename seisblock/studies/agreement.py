@@ -1,0 +1,219 @@
+"""Where the models of one object disagree: each says whether it falls, and from which strength of the shaking on.
+
+A stone has one fate and several models: a rigid block with sharp edges or worn ones, the fit to whole gravestones, a pulse of the
+record's own frequency, a lower limit from experiments. They differ by more than their own scatter, and no one of them says so by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
+from seisblock.bodies.inset import SHARP, WORN
+from seisblock.criteria.gravestones import FITTED_RATIO, PLAIN, GravestoneFit, overturning_pga
+from seisblock.criteria.overturning import ishiyama_acceleration, ishiyama_velocity
+from seisblock.criteria.pulses import half_sine_acceleration
+from seisblock.measures.baseline import ground_history
+from seisblock.measures.frequency import pga_pgv_frequency
+from seisblock.measures.peaks import peak_velocity
+from seisblock.records import Motion
+from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
+from seisblock.studies.cemetery.simulated import simulated_overturns
+from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
+
+SHARP_BLOCK = noted("rigid block with sharp edges")
+WORN_BLOCK = noted("rigid block with worn edges")
+GRAVESTONES = noted("criterion of gravestones")
+PULSE = noted("half sine of the record's frequency")
+ISHIYAMA = noted("Ishiyama's limits of acceleration and velocity")
+
+STRONGEST, STRONGER = 4.0, 1.05
+"""A first fall is looked for at factors up to the first, each greater than the one before by the second."""
+
+LIKE_A_GRAVESTONE = (0.5, 2.0)
+"""Widths, over the 8 sun behind the criterion, at which a block is taken for a stone it was made for ([Furukawa2009]_ table 1)."""
+
+
+@dataclass(frozen=True)
+class Opinion:
+    """What one model says.
+
+    Parameters
+    ----------
+    model : str
+    falls : bool
+        Under the motion as it is.
+    factor : float or None
+        On the motion, from which on it falls: the first one found, for a block that is simulated. None where it never falls up to 4
+        times, or where nobody looked.
+    made_for_it : bool
+        Whether the model was made for objects like this one.
+    """
+
+    model: str
+    falls: bool
+    factor: float | None
+    made_for_it: bool = False
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """What all models of one object say.
+
+    Parameters
+    ----------
+    opinions : tuple of Opinion
+    falls, models : int
+        In how many of how many models it falls.
+    spread : float or None
+        The largest of their factors over the smallest, a factor on the shaking; None where fewer than two have one.
+    """
+
+    opinions: tuple[Opinion, ...]
+    falls: int
+    models: int
+    spread: float | None
+
+    @property
+    def unanimous(self) -> bool:
+        """Whether all models say the same of the motion as it is."""
+        return self.falls in (0, self.models)
+
+
+def agreement(
+    block: Block,
+    motion: Motion,
+    *,
+    fit: GravestoneFit = PLAIN,
+    others: Sequence[Opinion] = (),
+    gravity: float = STANDARD_GRAVITY,
+    **options: Any,
+) -> Agreement:
+    """Return what the models of a block say under a motion, and how far they are apart.
+
+    Parameters
+    ----------
+    block : Block
+        Its own inset counts as its worn edges; 0.1 of the width where it has none.
+    motion : Motion
+    fit : GravestoneFit
+        Of the criterion of gravestones, asked only about blocks of their width and proportions ([Furukawa2009]_ eqs. (9), (10)).
+    others : sequence of Opinion
+        Of models that were asked elsewhere.
+    gravity : float, m/s^2
+    options
+        ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.solvers.rock.solve.rock_verdict`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> sine = Motion.from_arrays(4.0 * np.sin(2 * np.pi * 0.01 * np.arange(1001)), 0.01)
+    >>> found = agreement(Block(0.2424, 0.63), sine)
+    >>> found.falls, found.models
+    (3, 5)
+    """
+    pga = float(np.abs(motion.horizontal).max())
+    if pga == 0.0:
+        return Agreement(tuple(others), 0, len(others), None)
+    worn = block if block.inset else block.worn(WORN)
+    opinions = [
+        _simulated(SHARP_BLOCK, block.worn(SHARP), motion, pga, gravity, options),
+        _simulated(WORN_BLOCK, worn, motion, pga, gravity, options),
+        *_by_formula(block, motion, pga, fit, gravity),
+        *others,
+    ]
+    factors = [opinion.factor for opinion in opinions if opinion.factor is not None]
+    spread = max(factors) / min(factors) if len(factors) > 1 else None
+    return Agreement(tuple(opinions), sum(opinion.falls for opinion in opinions), len(opinions), spread)
+
+
+def _simulated(model: str, block: Block, motion: Motion, pga: float, gravity: float, options: dict[str, Any]) -> Opinion:
+    """Return the verdict of a rocking block, and the first factor at which it was found to fall."""
+
+    def falls(factor: float) -> bool:
+        return rock_verdict(block, motion, scale=factor, gravity=gravity, **options).overturned
+
+    # below the threshold of rocking nothing can fall, unless the ground falls away under it
+    factor = min(block.rocking_threshold(gravity) / pga, STRONGEST) if not options.get("vertical") else 0.1
+    while factor <= STRONGEST and not falls(factor):
+        factor *= STRONGER
+    if factor > STRONGEST:
+        return Opinion(model, falls(1.0), None)
+    low, high = factor / STRONGER, factor
+    for _ in range(6):
+        middle = (low * high) ** 0.5
+        low, high = (low, middle) if falls(middle) else (middle, high)
+    return Opinion(model, falls(1.0), high)
+
+
+def _by_formula(block: Block, motion: Motion, pga: float, fit: GravestoneFit, gravity: float) -> list[Opinion]:
+    """Return what the closed forms say: their threshold over the motion's peak."""
+    pgv = peak_velocity(ground_history(motion.horizontal, motion.dt), motion.dt)
+    frequency = pga_pgv_frequency(pga, pgv)
+    width, height = 2 * min(block.arms), 2 * block.centre
+    found = []
+    ratio, (low, high) = block.height / block.width, FITTED_RATIO
+    like = LIKE_A_GRAVESTONE[0] <= block.width / PAPER_WIDTH <= LIKE_A_GRAVESTONE[1] and low <= ratio <= high
+    if frequency is not None and like:
+        found.append(_formula(GRAVESTONES, float(overturning_pga(ratio, frequency, fit)) / pga, made_for_it=True))
+    if frequency is not None:
+        level = half_sine_acceleration(block.slenderness, block.frequency_parameter(gravity), frequency, gravity)
+        found.append(_formula(PULSE, level / pga))
+    if pgv > 0.0:
+        limits = ishiyama_acceleration(width, height, gravity) / pga, ishiyama_velocity(width, height) / pgv
+        found.append(_formula(ISHIYAMA, max(limits)))
+    return found
+
+
+def _formula(model: str, factor: float, *, made_for_it: bool = False) -> Opinion:
+    """Return the opinion of a model that has one threshold."""
+    return Opinion(model, factor < 1.0, factor, made_for_it)
+
+
+@dataclass(frozen=True)
+class RateOpinion:
+    """Which share of a cemetery falls by one model."""
+
+    model: str
+    rate: float
+
+
+def rates_by_model(
+    cemetery: Cemetery,
+    pga: float,
+    frequency: float,
+    motion: Motion | None = None,
+    *,
+    width: float = PAPER_WIDTH,
+    gravity: float = STANDARD_GRAVITY,
+) -> tuple[RateOpinion, ...]:
+    """Return which share of a cemetery falls by each model of its stones ([Furukawa2009]_ eq. (9), [Housner1963]_).
+
+    Parameters
+    ----------
+    cemetery : Cemetery
+        With reinforced stones only the criterion made for them is asked: a rigid block knows no dowel.
+    pga, frequency : float, m/s^2 and Hz
+        The shaking, for the models that have a closed form.
+    motion : Motion or None
+        The shaking itself, for those that are simulated.
+    width : float, m
+        Of stones whose width is not known.
+    gravity : float, m/s^2
+    """
+    found = [RateOpinion(GRAVESTONES, float(np.mean(pga > fitted_limits(cemetery, frequency))))]
+    if cemetery.reinforced.any():
+        return tuple(found)
+    found.append(RateOpinion(PULSE, float(np.mean(pga > rigid_limits(cemetery, frequency, width=width, gravity=gravity)))))
+    if motion is not None:
+        for model, inset in ((WORN_BLOCK, WORN), (SHARP_BLOCK, SHARP)):
+            falls = simulated_overturns(cemetery, motion, inset=inset, width=width, gravity=gravity)
+            found.append(RateOpinion(model, float(falls.mean())))
+    return tuple(found)

@@ -1,0 +1,75 @@
+"""Pulses that just overturn: what the linear equation says, what the exact one says, and the card that shows both."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from seisblock.bodies.block import Block
+from seisblock.criteria.card import OWN_FREQUENCY, once_each, overturning_card
+from seisblock.criteria.pulses import half_sine_acceleration, half_sine_ratio
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.units import STANDARD_GRAVITY as G
+
+STONE = Block(0.24, 0.63)
+TOLD = 6.278
+"""What 0.1.0 called exact for this stone, m/s^2: the linear equation's threshold."""
+
+
+def frequency_of(linear_threshold):
+    """Return the frequency, Hz, at which the linear equation gives a stone this threshold."""
+    from scipy.optimize import brentq
+
+    p = STONE.frequency_parameter()
+    return brentq(lambda f: G * STONE.slenderness * half_sine_ratio(2 * math.pi * f / p) - linear_threshold, 0.3, 5.0, xtol=1e-12)
+
+
+def test_the_exact_equation_asks_for_more_than_the_linear_one():
+    """Where the linear equation of 0.1.0 said 6.278 m/s^2 for a stone of .24 x .63 m, the exact one says 6.574 (N13)."""
+    found = half_sine_acceleration(STONE.slenderness, STONE.frequency_parameter(), frequency_of(TOLD))
+    assert found == pytest.approx(6.574, abs=1e-3)
+
+
+@pytest.mark.parametrize("frequency", [0.5, 2.0, 3.0])
+@pytest.mark.parametrize("block", [STONE, Block(0.4, 1.0, centroid_height=0.7), Block(0.3, 2.0)])
+def test_it_is_the_threshold_of_the_solver(block, frequency):
+    """A half sine a hair below stands, a hair above falls, in `rock` itself."""
+    samples = 4000
+    shape = np.sin(np.pi * np.arange(samples + 1) / samples)
+    pulse = Motion.from_arrays(np.concatenate([shape, np.zeros(10)]), 0.5 / frequency / samples)
+    level = half_sine_acceleration(block.slenderness, block.frequency_parameter(), frequency)
+    assert [rock_verdict(block, pulse, scale=level * share).overturned for share in (1 - 1e-5, 1 + 1e-5)] == [False, True]
+
+
+@given(st.floats(0.01, 0.6), st.floats(0.3, 8.0), st.floats(0.2, 5.0))
+@settings(max_examples=40, deadline=None)
+def test_slender_blocks_follow_the_linear_equation(alpha, p, frequency):
+    """The two differ by the order of alpha^2, and never is the threshold below that of rocking."""
+    exact = half_sine_acceleration(alpha, p, frequency)
+    linear = G * alpha * half_sine_ratio(2 * math.pi * frequency / p)
+    assert G * math.tan(alpha) < exact
+    assert abs(exact / linear - 1.0) < 1.2 * alpha**2 + 1e-6
+
+
+@pytest.mark.parametrize(("alpha", "p", "f"), [(0.0, 1.0, 1.0), (1.6, 1.0, 1.0), (0.3, -1.0, 1.0), (0.3, 1.0, math.nan)])
+def test_what_is_out_of_range_is_refused(alpha, p, f):
+    """One sentence each."""
+    with pytest.raises(ParameterError):
+        half_sine_acceleration(alpha, p, f)
+
+
+def test_a_criterion_counts_once_however_many_frequencies_it_was_given():
+    """Seven criteria take three frequencies each: the card has a row for each, the count has one (N13)."""
+    rows = overturning_card(STONE, 5.0, 0.5, {"pga_pgv": 1.6, "fourier": 2.0, "pulse_width": None})
+    once = once_each(rows)
+    assert len(rows) == 6 + 8 * 2
+    assert [row.criterion for row in once] == list(dict.fromkeys(row.criterion for row in rows))
+    assert {row.frequency for row in once} == {None, OWN_FREQUENCY}
+    assert once_each(rows, "fourier")[-1].frequency == "fourier"
+    names = {row.criterion for row in rows}
+    assert {"half sine, linear", "half sine, nonlinear"} <= names
+    assert not any("half sine, exact" in name for name in names)

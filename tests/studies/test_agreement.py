@@ -1,0 +1,93 @@
+"""The models of one object disagree, and say so: by how much, which of them, and which was made for it (N15)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.criteria.gravestones import overturning_pga
+from seisblock.measures import measure
+from seisblock.readers import read
+from seisblock.records import Motion, motion_of
+from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.studies.agreement import GRAVESTONES, ISHIYAMA, PULSE, SHARP_BLOCK, WORN_BLOCK, Opinion, agreement, rates_by_model
+
+RECORD = read("elcentro_1940_ns.csv")
+MOTION = motion_of(RECORD, "NS")
+STONE = Block(0.2424, 0.8)
+
+
+def opinions(found):
+    """Return the opinions of an agreement by model."""
+    return {opinion.model: opinion for opinion in found.opinions}
+
+
+def test_the_models_of_one_stone_differ_by_a_factor_near_two():
+    """A gravestone under El Centro falls by two of five models, whose factors lie a factor of 1.98 apart."""
+    found = agreement(STONE, MOTION)
+    assert (found.falls, found.models, found.unanimous) == (2, 5, False)
+    assert list(opinions(found)) == [SHARP_BLOCK, WORN_BLOCK, GRAVESTONES, PULSE, ISHIYAMA]
+    assert [opinion.model for opinion in found.opinions if opinion.falls] == [GRAVESTONES, ISHIYAMA]
+    factors = [opinion.factor for opinion in found.opinions]
+    assert found.spread == pytest.approx(max(factors) / min(factors))
+    assert found.spread == pytest.approx(1.98, abs=0.01)
+
+
+def test_closed_forms_are_their_threshold_over_the_peak():
+    """The factor of eq. (9) is its PGA over the record's, at the record's own PGA/(2 pi PGV)."""
+    measured = measure(RECORD, ("NS",)).components[0]
+    level = float(overturning_pga(STONE.height / STONE.width, measured.equivalent_frequency_hz.pga_pgv))
+    assert opinions(agreement(STONE, MOTION))[GRAVESTONES].factor == pytest.approx(level / measured.pga_m_s2, rel=1e-9)
+
+
+def test_simulated_factors_are_first_falls():
+    """At the factor the block falls, a little below it stands, and no factor that was looked at below it lets it fall."""
+    found = opinions(agreement(STONE, MOTION))
+    for model, block in ((SHARP_BLOCK, STONE), (WORN_BLOCK, STONE.worn(0.1))):
+        factor = found[model].factor
+        assert rock_verdict(block, MOTION, scale=factor).overturned
+        assert not rock_verdict(block, MOTION, scale=factor * 0.998).overturned
+        assert found[model].falls == rock_verdict(block, MOTION).overturned
+    assert found[WORN_BLOCK].factor < found[SHARP_BLOCK].factor
+
+
+def test_an_inset_of_its_own_is_the_worn_one():
+    """A block that says how worn it is is compared with its own edges made sharp."""
+    found = opinions(agreement(STONE.worn(0.2), MOTION))
+    assert found[SHARP_BLOCK] == opinions(agreement(STONE, MOTION))[SHARP_BLOCK]
+    assert found[WORN_BLOCK].factor < opinions(agreement(STONE, MOTION))[WORN_BLOCK].factor
+
+
+def test_only_gravestones_ask_the_criterion_made_for_them():
+    """A cabinet and a slab have four models; a stone of the criterion's width and proportions has the one made for it."""
+    assert opinions(agreement(STONE, MOTION))[GRAVESTONES].made_for_it
+    for other in (Block(0.8, 1.9), Block(0.25, 0.25), Block(0.25, 2.0)):
+        found = agreement(other, MOTION)
+        assert GRAVESTONES not in opinions(found)
+        assert found.models == 4
+
+
+def test_further_models_are_counted():
+    """What was asked elsewhere, such as a pile, has a voice, and a factor only if one is known."""
+    alone, more = agreement(STONE, MOTION), agreement(STONE, MOTION, others=[Opinion("pile", True, None)])
+    assert (more.falls, more.models, more.spread) == (alone.falls + 1, alone.models + 1, alone.spread)
+
+
+def test_no_shaking_no_disagreement():
+    """A motion that is zero throughout lets nothing fall, by nobody's account."""
+    found = agreement(STONE, Motion.from_arrays(np.zeros(100), 0.01))
+    assert (found.falls, found.spread, found.unanimous) == (0, None, True)
+
+
+def test_rates_of_one_cemetery():
+    """By each model another share of Aoyama's stones falls; worn blocks fall more than sharp ones."""
+    cemetery = read_cemetery("aoyama.csv")
+    motion = motion_of(read("synthetic_jma.csv"), "NS")
+    weak = Motion(0.45 * motion.acceleration, motion.dt)
+    rates = {each.model: each.rate for each in rates_by_model(cemetery, 4.2, 1.2, weak)}
+    assert list(rates) == [GRAVESTONES, PULSE, WORN_BLOCK, SHARP_BLOCK]
+    assert rates[SHARP_BLOCK] < rates[WORN_BLOCK] < rates[GRAVESTONES]
+    assert [each.model for each in rates_by_model(cemetery, 4.2, 1.2)] == [GRAVESTONES, PULSE]
+    assert [each.model for each in rates_by_model(cemetery.dowelled(), 4.2, 1.2, weak)] == [GRAVESTONES]
