@@ -11,8 +11,9 @@ SERIES = _t.int64(_t.int64, VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
 """series(mode, y, f, p, order, c, g) -> degree.
 
 Writes, from the state ``y`` and the ground motion ``f[row] = (value, slope)``, the coefficients ``c[i, 0:degree + 1]`` of state i
-and ``g[k, 0:degree + 1]`` of guard k (``OFF`` in ``g[k, 0]`` skips a guard). Rows of c after the states are scratch. ``CONSTANT``
-says that the state does not move: c is not read then, and guards are straight lines, ``g[k, 0:2]``."""
+and ``g[k, 0:degree + 1]`` of guard k (``OFF`` in ``g[k, 0]`` skips a guard, in ``c[i, 1]`` a state that does not move and is not
+tracked). Rows of c after the states are scratch. ``CONSTANT`` says that no state moves: c is not read then, and guards are straight
+lines, ``g[k, 0:2]``."""
 
 RESET = _t.int64(_t.int64, _t.int64, VECTOR, MATRIX, VECTOR)
 """reset(mode, guard, y, f, p) -> next mode; changes ``y`` in place. A negative mode ends the integration."""

@@ -22,6 +22,8 @@ def step_length(c, n_states, order, h, p, floors):
     for _ in range(order - 1):
         top *= h
     for i in range(n_states):
+        if c[i, 1] == OFF:
+            continue
         size = abs(c[i, 0]) + h * (abs(c[i, 1]) + h * (abs(c[i, 2]) + h * abs(c[i, 3])))
         if floors >= 0:
             size = max(size, p[floors + i])
@@ -77,6 +79,8 @@ def move(scratch, degree, h, now, n_tracked, y, extrema):
             keep_turning_points(c, i, degree, h, now, extrema, scratch.rate, scratch.q, scratch.d)
     size = 0.0
     for i in range(y.size):
+        if c[i, 1] == OFF:
+            continue
         y[i] = evaluate_row(c, i, degree, h)
         size += abs(y[i])
     for i in range(n_tracked):

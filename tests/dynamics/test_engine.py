@@ -1,5 +1,7 @@
 """The engine gives the known answers of models that have one."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -9,7 +11,7 @@ from seisblock.dynamics import Instant, follow
 from seisblock.errors import SolverError
 from seisblock.records import Motion
 from seisblock.results import Status
-from tests.dynamics.toy_models import BALL, FLIP, PENDULUM, RACE, SLED
+from tests.dynamics.toy_models import BALL, COUNTED, FLIP, PENDULUM, RACE, SLED
 
 pytestmark = pytest.mark.kernel
 
@@ -134,3 +136,19 @@ def test_ensembles_need_keep_nothing():
     assert bare.n_changes == kept.n_changes
     np.testing.assert_array_equal(bare.extrema, kept.extrema)
     np.testing.assert_array_equal(bare.final, kept.final)
+
+
+def test_a_sharp_guard_lands_from_however_small_a_height():
+    """A ball that starts 1e-19 m above the floor with 1e-9 m/s comes down when it is at the floor, not at the height it started from."""
+    still = Motion.from_arrays(np.zeros(2), 0.01)
+    height, speed = 1e-19, 1e-9
+    for model, start in ((BALL, 0.0), (replace(BALL, sharp=1), height)):
+        first = follow(model, still, [9.8, 0.5, 1.0], [height, speed], 0).changes[0]
+        assert first.time == pytest.approx((speed + (speed**2 + 2 * 9.8 * start) ** 0.5) / 9.8, rel=1e-12)
+
+
+def test_a_state_marked_as_still_stays():
+    """Its row of the series is not read, and it is kept at every sample."""
+    path = follow(COUNTED, Motion.from_arrays(np.zeros(11), 0.1), [], [0.0, 3.0], 0).states
+    np.testing.assert_allclose(path[:, 0], 0.1 * np.arange(11), atol=1e-15)
+    np.testing.assert_array_equal(path[:, 1], 3.0)

@@ -111,3 +111,16 @@ def race_reset(mode, guard, y, f, p):
 
 
 RACE = Model("race", race_series, race_reset, ("place",), ("first gate", "second gate"), ("on its way", "by the second", "by the first"))
+
+
+@kernel(SERIES)
+def counted_series(mode, y, f, p, order, c, g):
+    """One state moves, the other only counts: it does not move between events, and its row holds nothing."""
+    c[0, 0], c[0, 1] = y[0], 1.0
+    c[1, 0] = np.nan
+    c[1, 1] = OFF
+    g[0, 0] = OFF
+    return 1
+
+
+COUNTED = Model("counted", counted_series, no_reset, ("clock", "count"), ("none",), ("runs",), tracked=0)

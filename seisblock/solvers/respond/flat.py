@@ -61,10 +61,17 @@ ROUND_OFF = 1e-10
 
 @kernel(_t.void(MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
 def constant(c, i, degree, value):
-    """Write a state that does not move ([ShentonJones1991]_)."""
+    """Write a state that has one value, to be moved on by what is added to its series ([ShentonJones1991]_)."""
     c[i, 0] = value
     for k in range(1, degree + 1):
         c[i, k] = 0.0
+
+
+@kernel(_t.void(MATRIX, _t.int64, _t.int64), inline=True)
+def still(c, first, last):
+    """Mark the states from the first to before the last as ones that do not move ([ShentonJones1991]_)."""
+    for i in range(first, last):
+        c[i, 1] = OFF
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
@@ -106,7 +113,9 @@ def slide_series(s, y, f, p, c, g):
     v0 = y[SPEED]
     v2 = 0.5 * (-push_rate - s * mu * weight_rate)
     v1 = starts(s, v0, -push - s * mu * weight, 2.0 * v2, p)
-    for i in range(y.size):
+    still(c, OMEGA, y.size)
+    constant(c, THETA, degree, 0.0)
+    for i in (X, SPEED, PATH, WORK, FRICTION):
         constant(c, i, degree, y[i])
     c[SPEED, 1] = v1
     c[SPEED, 2] = v2
@@ -152,7 +161,8 @@ def flight_series(y, f, p, order, c, g):
         while degree < order and term > NEGLIGIBLE:
             degree += 1
             term *= turned / degree
-    for i in range(y.size):
+    still(c, OMEGA, y.size)
+    for i in (THETA, X, SPEED, GAP_LEFT, RATE_LEFT, GAP_RIGHT, RATE_RIGHT, WORK):
         constant(c, i, degree, y[i])
     c[THETA, 1] = omega
     c[SPEED, 1] = -push

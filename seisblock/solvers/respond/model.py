@@ -8,8 +8,8 @@ Frame
     Fixed to the ground: x right, y up, theta clockwise, so positive when the block leans to +x. Between samples the ground's
     acceleration is a straight line.
 Modes
-    Named in ``names``; their motions and limits in ``flat`` and ``turning``; which follows in ``succession``; impacts in ``impulse`` and
-    ``impacts``. A mode lives while its guards are positive; when one is reached the mode is excluded and the first
+    Named in ``names``; their motions and limits in ``flat``, ``turning`` and ``skid``; which follows in ``succession``; impacts in
+    ``impulse`` and ``impacts``. A mode lives while its guards are positive; when one is reached the mode is excluded and the first
     consistent one of a fixed order follows, so that below Painleve's limit there is exactly one.
 Tenon
     Ours: a body held by tenons of a given depth has friction without limit until, in flight, the lower foot has risen by
@@ -77,8 +77,9 @@ from seisblock.solvers.respond.names import (
     is_right,
     sense,
 )
+from seisblock.solvers.respond.skid import skid_series
 from seisblock.solvers.respond.succession import UP
-from seisblock.solvers.respond.turning import RX, rock_series, skid_series
+from seisblock.solvers.respond.turning import RX, rock_series
 
 _t = types()
 
@@ -91,7 +92,7 @@ SAME = 1e-13
 
 @kernel(_t.void(_t.boolean, _t.int64, _t.int64, VECTOR, MATRIX, MATRIX), inline=True)
 def _point_slacks(right, arms, degree, p, c, g):
-    """Write the heights of the further points, from the arms of a corner in two rows of `c` and that corner's gap."""
+    """Write the heights of the further points above a corner, from the arms of that corner in two rows of `c`."""
     xi = foot(right, p)
     h = p[HEIGHT]
     per_square = 1.0 / (xi * xi + h * h)
@@ -101,7 +102,7 @@ def _point_slacks(right, arms, degree, p, c, g):
         of_x = per_square * (ahead * h + above * xi)
         of_y = per_square * (ahead * xi - above * h) - 1.0
         for k in range(degree + 1):
-            g[END + 1 + point, k] = c[GAP_RIGHT, k] + of_x * c[arms, k] + of_y * c[arms + 1, k]
+            g[END + 1 + point, k] = of_x * c[arms, k] + of_y * c[arms + 1, k]
 
 
 @kernel(SERIES)
@@ -133,6 +134,9 @@ def series(mode, y, f, p, order, c, g):
                 g[END, k] = -side * c[THETA, k]
             g[END, 0] += HALF_PI
         _point_slacks(True, y.size + 2, degree, p, c, g)
+        for k in range(degree + 1):
+            for point in range(END + 1, g.shape[0]):
+                g[point, k] += c[GAP_RIGHT, k]
         return degree
     if kind in (ROCK_RIGHT, ROCK_LEFT):
         degree = rock_series(is_right(kind), 1.0 if held else 0.0, y, f, p, order, c, g)

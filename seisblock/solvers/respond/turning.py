@@ -9,8 +9,7 @@ therefore all that a rocking body needs: they give the arms, the velocities and,
 Rock
     (k^2 + r^2) theta'' = r_y a - r_x G, while mu_s N > abs(T).
 Skid
-    k^2 theta'' = -(r_x + s mu r_y) N, x'' = -a - s mu N. N holds theta'' and theta'' holds N; at each order the pair is solved for N,
-    whose factor is P = 1 + r_x (r_x + s mu r_y)/k^2, so neither P nor a quotient is needed as a series. While N > 0, s v > 0, P > 0.
+    k^2 theta'' = -(r_x + s mu r_y) N, x'' = -a - s mu N, while N > 0, s v > 0 and P > 0; written in ``skid``.
 Both end when the other corner comes down (theta returns to zero) or at a quarter turn ([ShentonJones1991]_, [GenotBrogliato1999]_).
 
 The slip velocity is a state of its own; the centre's velocity is v - r_y theta'.
@@ -21,10 +20,9 @@ from __future__ import annotations
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.dynamics.hybrid import OFF
-from seisblock.solvers.respond.flat import constant, starts
+from seisblock.solvers.respond.flat import starts, still
 from seisblock.solvers.respond.names import (
     BACKWARD,
-    CONE,
     DOWN,
     DT,
     END,
@@ -34,27 +32,20 @@ from seisblock.solvers.respond.names import (
     GYRATION,
     HALF_PI,
     HEIGHT,
-    IMPACTS,
-    LEAST_CONE,
     LIFT,
     MU,
-    MU_KINETIC,
     OMEGA,
-    PATH,
-    SLIP,
     SPEED,
-    STEEP,
     THETA,
     WORK,
     X,
     corner,
 )
-from seisblock.solvers.respond.names import GAP_LEFT as FIRST_STILL
-from seisblock.solvers.respond.names import RATE_RIGHT as LAST_STILL
 from seisblock.solvers.respond.succession import ACROSS, ALONG, UP
 
 _t = types()
-_SERIES = _t.int64(_t.boolean, _t.float64, VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
+TURNING = _t.int64(_t.boolean, _t.float64, VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
+"""series(right, of, y, f, p, order, c, g) -> degree, of a mode about the right or the left corner."""
 
 SMALL, NEARLY_SMALL = 3e-17, 1e-12
 """A series ends where a term falls below the first share of the state and the term before it was below the second."""
@@ -67,16 +58,19 @@ RX, RY, NORMAL, TANGENT = range(4)
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
-def _first_turn(side, theta, omega, turn, rate, p):
-    """Return theta'' at the start of a mode, zero where rocking begins exactly at its threshold but for round-off."""
+def first_turn(side, theta, omega, turn, rate, p):
+    """Return theta'' at the start of a mode, zero where rocking begins at its threshold but for round-off ([Shenton1996]_)."""
     if theta == 0.0 and omega == 0.0:
         return starts(side, 0.0, turn * p[HEIGHT], rate * p[HEIGHT], p) / p[HEIGHT]
     return turn
 
 
 @kernel(_t.void(_t.float64, _t.int64, _t.float64, VECTOR, MATRIX, MATRIX), inline=True)
-def _turning_slacks(side, degree, swing, p, c, g):
-    """Write the other corner's gap, as the lean towards this one, and the quarter turn; `swing` bounds the change of the lean."""
+def turning_slacks(side, degree, swing, p, c, g):
+    """Write the other corner's gap, as the lean towards this one, and the quarter turn ([ShentonJones1991]_).
+
+    `swing` bounds the change of the lean within the step.
+    """
     lean = side * c[THETA, 0]
     g[DOWN, 0] = OFF
     if lean <= swing:
@@ -87,15 +81,6 @@ def _turning_slacks(side, degree, swing, p, c, g):
         for k in range(degree + 1):
             g[END, k] = -side * c[THETA, k]
         g[END, 0] += HALF_PI
-
-
-@kernel(_t.void(_t.int64, VECTOR, MATRIX), inline=True)
-def _still_states(degree, y, c):
-    """Write the states that do not move while a corner touches."""
-    for i in range(FIRST_STILL, LAST_STILL + 1):
-        constant(c, i, degree, 0.0)
-    for i in range(FRICTION + 1, y.size):
-        constant(c, i, degree, y[i])
 
 
 @kernel(_t.void(_t.int64, _t.int64, _t.float64, _t.float64, MATRIX, MATRIX), inline=True)
@@ -111,7 +96,7 @@ def _bound_slack(ry, degree, weight, weight_rate, c, g):
     g[LIFT, 1] += weight_rate
 
 
-@kernel(_SERIES)
+@kernel(TURNING)
 def rock_series(right, held, y, f, p, order, c, g):
     """Write rocking about a corner at rest; `held` is 1 where friction has no limit, else 0 ([ShentonJones1991]_)."""
     side = 1.0 if right else -1.0
@@ -171,7 +156,7 @@ def rock_series(right, held, y, f, p, order, c, g):
             work += push_rate * x_before - up_rate * y_before
         turn *= inertia
         if k == 0:
-            turn = _first_turn(side, y[THETA], omega, turn, inertia * (c[ry, 0] * push_rate - c[rx, 0] * up_rate), p)
+            turn = first_turn(side, y[THETA], omega, turn, inertia * (c[ry, 0] * push_rate - c[rx, 0] * up_rate), p)
         share = 1.0 / (k + 1)
         c[THETA, k + 1] = c[OMEGA, k] * share
         c[OMEGA, k + 1] = turn * share
@@ -190,119 +175,7 @@ def rock_series(right, held, y, f, p, order, c, g):
     else:
         # the two limits of friction add up to twice mu_s N
         g[LIFT, 0] = OFF
-    constant(c, SPEED, degree, 0.0)
-    constant(c, PATH, degree, y[PATH])
-    constant(c, FRICTION, degree, y[FRICTION])
-    _still_states(degree, y, c)
-    _turning_slacks(side, degree, 1.01 * size * dt, p, c, g)
+    still(c, SPEED, WORK)
+    still(c, FRICTION, y.size)
+    turning_slacks(side, degree, 1.01 * size * dt, p, c, g)
     return degree
-
-
-@kernel(_SERIES)
-def skid_series(right, s, y, f, p, order, c, g):
-    """Write rocking about a corner that slides towards `s` ([ShentonJones1991]_, [GenotBrogliato1999]_)."""
-    side = 1.0 if right else -1.0
-    base = y.size
-    rx, ry, force, speed = base + RX, base + RY, base + NORMAL, base + TANGENT
-    push = f[ALONG, 0] + f[ACROSS, 0]
-    push_rate = f[ALONG, 1] + f[ACROSS, 1]
-    up = f[UP, 0]
-    up_rate = f[UP, 1]
-    weight = p[GRAVITY] + up
-    friction = s * p[MU_KINETIC]
-    per_inertia = 1.0 / p[GYRATION]
-    omega = y[OMEGA]
-    dt = p[DT]
-    c[THETA, 0] = y[THETA]
-    c[OMEGA, 0] = omega
-    c[X, 0] = y[X]
-    c[SPEED, 0] = y[SPEED]
-    c[PATH, 0] = y[PATH]
-    c[WORK, 0] = y[WORK]
-    c[FRICTION, 0] = y[FRICTION]
-    c[rx, 0], c[ry, 0] = corner(right, y[THETA], p)
-    lever = c[rx, 0] + friction * c[ry, 0]
-    cone = 1.0 / (1.0 + c[rx, 0] * lever * per_inertia)
-    along = c[rx, 0] * omega
-    y_before = 0.0
-    size = abs(omega)
-    power = 1.0
-    term = size
-    degree = order
-    for k in range(order + 1):
-        across = 0.0
-        for j in range(k + 1):
-            across += c[ry, j] * c[OMEGA, k - j]
-        if k == 0:
-            c[speed, 0] = y[SPEED] - across
-        else:
-            slip = c[speed, k] + across
-            if k == 1:
-                slip = starts(s, y[SPEED], slip, 0.0, p)
-            c[SPEED, k] = slip
-            before = term
-            term = abs(c[OMEGA, k]) * power
-            size += term
-            if k >= 3 and term <= SMALL * size and before <= NEARLY_SMALL * size:
-                degree = k
-                break
-        if k == order:
-            break
-        share = 1.0 / (k + 1)
-        c[THETA, k + 1] = c[OMEGA, k] * share
-        c[rx, k + 1] = across * share
-        c[ry, k + 1] = -along * share
-        # N from both equations, all known terms gathered
-        rising = 0.0
-        pressing = 0.0
-        for j in range(1, k + 1):
-            rising += c[rx, j] * c[OMEGA, k + 1 - j]
-            pressing += (c[rx, j] + friction * c[ry, j]) * c[force, k - j]
-        rising += c[rx, k + 1] * omega
-        normal = (k + 1) * rising - c[rx, 0] * pressing * per_inertia
-        if k == 0:
-            normal += weight
-        elif k == 1:
-            normal += up_rate
-        normal *= cone
-        c[force, k] = normal
-        g[LIFT, k] = normal
-        turn = -(lever * normal + pressing) * per_inertia
-        if k == 0:
-            turn = _first_turn(side, y[THETA], omega, turn, -lever * cone * up_rate * per_inertia, p)
-        c[OMEGA, k + 1] = turn * share
-        work = push * c[speed, k] + up * along
-        pull = friction * normal
-        rubbed = 0.0
-        for j in range(k + 1):
-            rubbed += c[force, j] * c[SPEED, k - j]
-        if k == 0:
-            pull += push
-        else:
-            work += push_rate * c[speed, k - 1] + up_rate * y_before
-            if k == 1:
-                pull += push_rate
-        c[X, k + 1] = c[speed, k] * share
-        c[PATH, k + 1] = s * c[SPEED, k] * share
-        c[FRICTION, k + 1] = friction * rubbed * share
-        c[WORK, k + 1] = -work * share
-        c[speed, k + 1] = -pull * share
-        y_before = along
-        along = rising + c[rx, 0] * c[OMEGA, k + 1]
-        power *= dt
-    g[LIFT, degree] = 0.0
-    for k in range(degree + 1):
-        g[SLIP, k] = s * c[SPEED, k]
-    if p[STEEP] > 0.0:
-        for k in range(degree + 1):
-            product = 0.0
-            for j in range(k + 1):
-                product += c[rx, j] * (c[rx, k - j] + friction * c[ry, k - j])
-            g[CONE, k] = product * per_inertia
-        g[CONE, 0] += 1.0 - LEAST_CONE
-    _still_states(degree, y, c)
-    _turning_slacks(side, degree, 1.01 * size * dt, p, c, g)
-    return degree
-
-
-__all__ = ["IMPACTS", "rock_series", "skid_series"]

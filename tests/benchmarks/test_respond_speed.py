@@ -1,0 +1,139 @@
+"""How fast the five-mode model answers: a sample of each mode, a probability of 200 versions, MuJoCo side by side."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block, from_slenderness
+from seisblock.dynamics import follow
+from seisblock.records import Motion
+from seisblock.solvers.respond import make_setting, names, respond_many, solve_respond
+from seisblock.solvers.respond.model import RESPOND
+from tests.benchmarks.test_slide_speed import strong_motion
+from tests.solvers.respond.cases import leaning
+
+SAMPLES = 10_000
+WEAK = Motion.from_arrays(0.3 * np.sin(0.07 * np.arange(SAMPLES)), 0.01, vertical=0.2 * np.sin(0.11 * np.arange(SAMPLES)))
+
+
+def strong_minute():
+    """Return 60 s of shaking at 100 Hz, peak 6 m/s^2: blocks slide, rock, and some fall."""
+    motion = strong_motion(6001)
+    return Motion(2.0 * motion.acceleration, motion.dt)
+
+
+def bound(benchmark, seconds):
+    """Hold the fastest round against a bound, when rounds are timed at all."""
+    assert benchmark.stats is None or benchmark.stats.stats.min < seconds
+
+
+def one_mode(benchmark, block, motion, initial, mode, nanoseconds, **friction):
+    """Time a run that stays almost wholly in some modes; hold its time per sample against a bound."""
+    setting = make_setting(block, **friction)
+    p, y = setting.parameters(motion.dt), setting.state(initial)
+
+    def work(keep=False):
+        return follow(RESPOND, motion, p, y, names.START, gains=(1.0, 0.0, 1.0), keep_path=keep, keep_events=keep)
+
+    kept = work(keep=True)
+    samples = kept.end.sample
+    inside = np.isin([names.MODES[each] for each in kept.modes[1 : samples + 1]], mode)
+    assert samples > 2000
+    assert inside.mean() > 0.97
+    benchmark(work)
+    if benchmark.stats is not None:
+        benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / samples * 1e9
+    bound(benchmark, nanoseconds * 1e-9 * samples)
+
+
+def test_a_sample_of_rocking(benchmark):
+    """At most 400 ns per sample, with vertical motion, energies and friction's limits."""
+    block = from_slenderness(0.25, 2.14)
+    one_mode(benchmark, block, WEAK, leaning(block, 0.15), "rock", 400.0, mu=10.0, rocking_restitution=1.0)
+
+
+def test_a_sample_of_sliding_while_rocking(benchmark):
+    """At most 400 ns per sample; the block is so large that one swing lasts half a minute."""
+    block = Block(240.0, 2400.0)
+    one_mode(benchmark, block, WEAK, leaning(block, 0.08, slip=80.0), "slide-rock", 400.0, mu=0.02)
+
+
+def test_a_sample_of_sliding(benchmark):
+    """At most 200 ns per sample, energies and path included."""
+    motion = Motion.from_arrays(2.0 * np.sin(0.07 * np.arange(SAMPLES)), 0.01)
+    one_mode(benchmark, Block(1.0, 1.0), motion, None, "slide", 200.0, mu=0.05)
+
+
+def test_a_sample_of_flight(benchmark):
+    """At most 400 ns per sample, spinning."""
+    one_mode(benchmark, Block(1.0, 1.0), WEAK, (0.0, 60_000.0, 0.0, 0.0, 0.0, 0.01), "flight", 400.0, mu=0.05)
+
+
+def test_a_sample_at_rest(benchmark):
+    """At most 10 ns per sample, as the other models pass over them."""
+    one_mode(benchmark, Block(1.0, 1.0), WEAK, None, "rest", 10.0, mu=0.5)
+
+
+def versions(block, n=200):
+    """Return plausible versions of a block on a floor: size, width, friction, restitution."""
+    rng = np.random.default_rng(7)
+    size, width = np.exp(rng.normal(0.0, 0.05, (2, n)))
+    mu, e = 0.35 * np.exp(rng.normal(0.0, 0.2, n)), rng.uniform(0.0, 0.3, n)
+    return [
+        make_setting(Block(block.width * w * s, block.height * s), mu=m, restitution=r)
+        for w, s, m, r in zip(width, size, mu, e, strict=True)
+    ]
+
+
+def test_a_probability(benchmark):
+    """200 versions of a cabinet under 60 s of strong motion at 100 Hz, on to their rest: at most 1.5 s on two threads."""
+    motion = strong_minute()
+    settings = versions(Block(0.45, 1.4))
+    found = benchmark.pedantic(respond_many, (settings, motion), {"workers": 2}, rounds=3, warmup_rounds=1)
+    assert found.overturned.size == 200
+    assert (found.impacts > 10).sum() > 100
+    assert (found.slip_path_m > 0.0).sum() > 100
+    bound(benchmark, 1.5)
+
+
+def test_a_whole_answer(benchmark):
+    """Channels, events, outcome and sensitivity of one block under 60 s of strong motion: at most 0.1 s."""
+    motion = strong_minute()
+    response = benchmark(solve_respond, Block(0.45, 1.4), motion, mu=0.4)
+    assert len(response.outcome.events) > 3
+    bound(benchmark, 0.1)
+
+
+def test_faster_than_mujoco(benchmark):
+    """At least 50 times faster than MuJoCo at its 1 ms step, one block, measured in one run."""
+    mujoco = pytest.importorskip("mujoco")
+    motion = strong_minute()
+    xml = """<mujoco><option timestep="0.001"/><worldbody><geom type="plane" size="50 50 1" friction="0.4 0 0"/>
+    <body pos="0 0 0.7"><freejoint/><geom type="box" size="0.225 0.3 0.7" friction="0.4 0 0"/></body></worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(xml)
+    data = mujoco.MjData(model)
+    grid = 0.001 * np.arange(60_000)
+    along = np.interp(grid, motion.time, motion.horizontal)
+
+    def theirs():
+        """Shake by an inertial force."""
+        mujoco.mj_resetData(model, data)
+        for push in along:
+            data.xfrc_applied[1, 0] = -model.body_mass[1] * push
+            mujoco.mj_step(model, data)
+
+    def mine():
+        return solve_respond(Block(0.45, 1.4), motion, mu=0.4, vertical=False, sensitivity=False)
+
+    began = time.perf_counter()
+    theirs()
+    reference = time.perf_counter() - began
+    benchmark(mine)
+    if benchmark.stats is not None:
+        ratio = reference / benchmark.stats.stats.min
+        benchmark.extra_info["times_faster"] = ratio
+        print(f"respond: {ratio:.0f} times faster than MuJoCo at 1 ms")
+        assert ratio > 50.0
