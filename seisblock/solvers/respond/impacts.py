@@ -10,8 +10,11 @@ Rocking impact
 Hops
     Below SMALL_RATE = 1e-12 sqrt(g R) a rebound is left out where contact would hold, and a rocking body is put flat where it would
     rest or slide: lifts of 1e-21 R are left out, and the time of rest is early by less than 1e-8 sqrt(R/g).
+Clatter
+    A plastic landing that throws the other corner down, within 1e-16 sqrt(R/g), is one of both corners: where nothing presses it to the
+    ground a compact body would clatter on, infinitely often at one instant, and the impact of both has the same momentum as the limit.
 Jam
-    Where a slip that presses on has no consistent force it ends at once, by Routh's path from u = 0 ([GenotBrogliato1999]_).
+    Where a slip that presses on has no consistent force it ends at once, by an impact that begins with u = 0 ([GenotBrogliato1999]_).
 
 Without restitution and with friction enough the rocking impact is Housner's, theta' times
 (k^2 + h^2 - b1 b2)/(k^2 + h^2 + b_B^2) ([Housner1963]_).
@@ -23,13 +26,14 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
-from seisblock.solvers.respond.impulse import CLOSED_BOTH, CLOSED_LEFT, CLOSED_NONE, CLOSED_RIGHT, both_struck, struck
+from seisblock.solvers.respond.impulse import CLOSED_BOTH, CLOSED_LEFT, CLOSED_NONE, CLOSED_RIGHT, both_struck, jammed, struck
 from seisblock.solvers.respond.names import (
     ARM_LEFT,
     ARM_RIGHT,
     FLIGHT,
     GAP_LEFT,
     GAP_RIGHT,
+    GRAVITY,
     GYRATION,
     HEIGHT,
     IMPACTS,
@@ -58,6 +62,9 @@ _t = types()
 
 HALVINGS = 60
 """Bisections for the largest ratio of a rocking impact that creates no energy."""
+
+AT_ONCE = 1e-4
+"""Time between two corners' impacts, over SMALL_RATE/g, below which they are one: 1e-16 sqrt(R/g)."""
 
 ROUND_OFF = 1e-12
 """Share of the energy by which it may seem to grow."""
@@ -106,7 +113,8 @@ def go_on(left, right, ended, y, f, p, held):
         ended = NONE
         y[JAMS] += 1.0
         about = y[SPEED] > 0.0 if left and right else right
-        y[OMEGA], rate, y[SPEED], loss = struck(about, y[THETA], y[OMEGA], 0.0, y[SPEED], p[RESTITUTION], p, held, True)
+        y[OMEGA], rate, loss = jammed(about, y[THETA], y[OMEGA], y[SPEED], p[RESTITUTION], p)
+        y[SPEED] = 0.0
         y[LOSS] += loss
         if left and right and (foot(about, p) - foot(not about, p)) * y[OMEGA] < 0.0:
             stays = strike_both(rate + foot(about, p) * y[OMEGA], y, p, held)
@@ -143,11 +151,12 @@ def stays_flat(slip, f, p, held):
 @kernel(_t.UniTuple(_t.float64, 4)(_t.boolean, _t.float64, _t.float64, VECTOR, MATRIX, VECTOR, _t.boolean))
 def _struck_once(right, u, v, y, f, p, held):
     """Return theta', u, v and loss of one corner's impact; a rebound too small to matter is left out where contact would hold."""
-    omega, rate, slip, loss = struck(right, y[THETA], y[OMEGA], u, v, p[RESTITUTION], p, held, False)
+    omega, rate, slip, loss = struck(right, y[THETA], y[OMEGA], u, v, p[RESTITUTION], p, held)
     if 0.0 < rate < p[SMALL_RATE] and p[RESTITUTION] > 0.0:
-        plastic = struck(right, y[THETA], y[OMEGA], u, v, 0.0, p, held, False)
-        if plastic[1] == 0.0 and following(not right, right, NONE, y[THETA], plastic[0], plastic[2], f, p, held) != FLIGHT:
-            return plastic
+        plastic = struck(right, y[THETA], y[OMEGA], u, v, 0.0, p, held)
+        stays = following(not right, right, NONE, y[THETA], plastic[0], plastic[2], f, p, held) != FLIGHT
+        if plastic[1] < p[SMALL_RATE] and stays:
+            return plastic[0], 0.0, plastic[2], plastic[3]
     return omega, rate, slip, loss
 
 
@@ -202,6 +211,13 @@ def land(right, y, f, p, held):
     y[LOSS] += loss
     if after > 0.0:
         return lift_off(right, after, y, p)
+    apart = foot(right, p) - foot(not right, p)
+    falls = -apart * math.cos(y[THETA]) * y[OMEGA]
+    if falls > 0.0 and p[GRAVITY] * apart * math.sin(y[THETA]) < AT_ONCE * p[SMALL_RATE] * falls:
+        # it clatters: the other corner follows within 1e-16 sqrt(R/g), and so on without end; both at once is the limit
+        y[THETA] = 0.0
+        y[IMPACTS] += 1.0
+        return _both(right, foot(right, p) * y[OMEGA], y, f, p, held)
     return go_on(not right, right, NONE, y, f, p, held)
 
 

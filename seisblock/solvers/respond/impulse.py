@@ -23,10 +23,8 @@ STRETCHES = 8
 """More stretches of Routh's path than there can be: slip, stick or the other slip, split by the greatest compression."""
 
 
-@kernel(
-    _t.UniTuple(_t.float64, 4)(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, _t.boolean)
-)
-def routh(u, v, nn, tt, tn, mu, restitution, held, jams):
+@kernel(_t.UniTuple(_t.float64, 4)(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean))
+def routh(u, v, nn, tt, tn, mu, restitution, held):
     """Return P, T, u and v after one corner's impact: Routh's path with Poisson's restitution ([WangMason1992]_).
 
     Parameters
@@ -38,8 +36,6 @@ def routh(u, v, nn, tt, tn, mu, restitution, held, jams):
     mu, restitution : float
     held : bool
         Whether a tenon holds the corner: friction has no limit, and stops the slip before anything presses (ours).
-    jams : bool
-        Whether this is an impact without collision: u is 0, and the slip that presses on ends first ([GenotBrogliato1999]_).
     """
     normal = 0.0
     tangential = 0.0
@@ -68,7 +64,7 @@ def routh(u, v, nn, tt, tn, mu, restitution, held, jams):
             if to_stop <= step:
                 step = to_stop
                 stops = True
-        turns = compresses and du > 0.0 and not (jams and v != 0.0) and -u / du < step
+        turns = compresses and du > 0.0 and -u / du < step
         if turns:
             step = -u / du
             stops = False
@@ -78,8 +74,6 @@ def routh(u, v, nn, tt, tn, mu, restitution, held, jams):
         v = 0.0 if stops or s == 0.0 else v + dv * step
         if stops:
             s = 0.0
-            if jams and u > 0.0:
-                u = 0.0
         elif turns:
             u = 0.0
             target = (1.0 + restitution) * normal
@@ -91,19 +85,35 @@ def routh(u, v, nn, tt, tn, mu, restitution, held, jams):
     return normal, tangential, u, v
 
 
-@kernel(_t.UniTuple(_t.float64, 4)(_t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR, _t.boolean, _t.boolean))
-def struck(right, theta, omega, u, v, restitution, p, held, jams):
+@kernel(_t.UniTuple(_t.float64, 4)(_t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR, _t.boolean))
+def struck(right, theta, omega, u, v, restitution, p, held):
     """Return theta', u, v after an impact at one corner, and the energy lost, J/kg ([WangMason1992]_).
 
     The loss is what the impulses take through the mean of the velocities before and after, which is exact for a rigid body.
     """
     rx, ry = corner(right, theta, p)
     k = p[GYRATION]
-    normal, tangential, u_after, v_after = routh(
-        u, v, 1.0 + rx * rx / k, 1.0 + ry * ry / k, -rx * ry / k, p[MU_KINETIC], restitution, held, jams
-    )
+    normal, tangential, u_after, v_after = routh(u, v, 1.0 + rx * rx / k, 1.0 + ry * ry / k, -rx * ry / k, p[MU_KINETIC], restitution, held)
     loss = -0.5 * (normal * (u + u_after) + tangential * (v + v_after))
     return omega + (ry * tangential - rx * normal) / k, u_after, v_after, loss
+
+
+@kernel(_t.UniTuple(_t.float64, 3)(_t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR))
+def jammed(right, theta, omega, v, restitution, p):
+    """Return theta', u and the energy lost, J/kg, after a slip that presses on has been stopped at once ([GenotBrogliato1999]_).
+
+    An impact without collision: Routh's path leads from u = 0 below zero while it slips, and back to u = 0 once it sticks. The impulses of
+    greatest compression are therefore those that stop both u and v, whatever the path; then comes the restitution, sticking.
+    """
+    rx, ry = corner(right, theta, p)
+    k = p[GYRATION]
+    nn, tt, tn = 1.0 + rx * rx / k, 1.0 + ry * ry / k, -rx * ry / k
+    free = nn - tn * tn / tt
+    compression = tn * v / (tt * free)
+    normal = (1.0 + restitution) * compression
+    tangential = -(v + tn * normal) / tt
+    u = free * restitution * compression
+    return omega + (ry * tangential - rx * normal) / k, u, -0.5 * (normal * u + tangential * v)
 
 
 CLOSED_NONE, CLOSED_LEFT, CLOSED_RIGHT, CLOSED_BOTH = range(4)

@@ -28,7 +28,7 @@ class Fates:
     towards : int
         +1 or -1 where it has fallen to +x or -x, else 0.
     final_displacement_m, max_displacement_m : m
-        Of the centre of gravity from where it started; the former signed.
+        Of the centre of gravity from x = 0; the former signed.
     max_rotation_rad : rad
     slip_path_m : m
     impacts : int
@@ -110,14 +110,13 @@ def _fates(settings: Sequence[Setting], motion: Motion, gains: FloatArray, initi
             higher, lower = _extrema(after)
             high[rows], low[rows] = np.maximum(high[rows], higher), np.minimum(low[rows], lower)
     fallen = mode == names.OVERTURNED
-    origin = starts[:, names.X]
     return Fates(
         overturned=fallen,
         settled=(mode == names.SETTLED) | ((mode >= 0) & (mode % names.HELD == names.REST)),
         gave_up=mode == names.GAVE_UP,
         towards=np.where(fallen, np.sign(final[:, names.THETA]), 0.0).astype(np.int64),
-        final_displacement_m=final[:, names.X] - origin,
-        max_displacement_m=np.maximum(high[:, names.X] - origin, origin - low[:, names.X]),
+        final_displacement_m=final[:, names.X],
+        max_displacement_m=np.maximum(high[:, names.X], -low[:, names.X]),
         max_rotation_rad=np.maximum(high[:, names.THETA], -low[:, names.THETA]),
         slip_path_m=final[:, names.PATH],
         impacts=final[:, names.IMPACTS].astype(np.int64),

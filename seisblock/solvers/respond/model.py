@@ -12,10 +12,10 @@ Modes
     ``impulse`` and ``impacts``. A mode lives while its guards are positive; when one is reached the mode is excluded and the first
     consistent one of a fixed order follows, so that below Painleve's limit there is exactly one.
 Tenon
-    Ours: a body held by tenons of a given depth has friction without limit until, in flight, the lower foot has risen by
-    that depth; from then on Coulomb's. A tenon pressed aside binds: it holds its foot down, too, as long as the foot, let go, would
-    not rise. In flight it does nothing; where a foot comes down its slip is stopped before the ground presses. It lets a post rock
-    whose bare plinth would only slide, as [Sugimoto2017]_ takes it.
+    Ours: a body held by tenons of a given depth has friction without limit until, in flight, the lower foot has risen by that depth; from
+    then on Coulomb's. A tenon pressed aside binds: it holds its foot down, too, as long as the foot, let go, would not rise for good.
+    In flight it does nothing; where a foot comes down its slip is stopped before the ground presses. It lets a post rock whose bare
+    plinth would only slide, as [Sugimoto2017]_ takes it.
 End
     A quarter turn, or a further point that meets the ground. On still ground also rest.
 Literature
@@ -31,7 +31,7 @@ from seisblock._jit import kernel, types
 from seisblock.dynamics import Model
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.dynamics.hybrid import CONSTANT, OFF, RESET, SERIES
-from seisblock.solvers.respond.flat import ROUND_OFF, flight_series, release_slack, rest_slacks, skip, slide_series
+from seisblock.solvers.respond.flat import flight_series, release_slack, rest_slacks, skip, slide_series
 from seisblock.solvers.respond.impacts import come_down, go_on, land
 from seisblock.solvers.respond.names import (
     DOWN,
@@ -78,8 +78,8 @@ from seisblock.solvers.respond.names import (
     sense,
 )
 from seisblock.solvers.respond.skid import skid_series
-from seisblock.solvers.respond.succession import UP
-from seisblock.solvers.respond.turning import RX, rock_series
+from seisblock.solvers.respond.succession import UP, loads, sticking
+from seisblock.solvers.respond.turning import BOUND, RX, rock_series
 
 _t = types()
 
@@ -177,6 +177,19 @@ def _put_down(y, f, p, held):
     return go_on(left and (not about or other == 0.0), right and (about or other == 0.0), NONE, y, f, p, held)
 
 
+@kernel(_t.boolean(_t.boolean, VECTOR, MATRIX, VECTOR), inline=True)
+def _rises(right, y, f, p):
+    """Whether a foot that a tenon holds down, let go, would rise and go on rising, or is pressed aside no more."""
+    rx, ry = corner(right, y[THETA], p)
+    spin = y[OMEGA] ** 2
+    push, weight = loads(0.0, f, p)
+    tangential = sticking(rx, ry, spin, push, weight, p)[2]
+    down = weight + ry * spin
+    if down > BOUND * p[GRAVITY]:
+        return False
+    return f[UP, 1] - rx * y[OMEGA] * spin < 0.0 or (down < -BOUND * p[GRAVITY] and abs(tangential) < BOUND * p[GRAVITY])
+
+
 @kernel(RESET)
 def reset(mode, guard, y, f, p):
     """Return the mode that follows a guard: an impact, the end, or the first consistent mode ([ShentonJones1991]_)."""
@@ -197,8 +210,7 @@ def reset(mode, guard, y, f, p):
             y[SPEED] = 0.0
         ended = kind
         if held and guard == LIFT:
-            rises = p[GRAVITY] + f[UP, 0] + corner(is_right(kind), y[THETA], p)[1] * y[OMEGA] ** 2 <= ROUND_OFF * p[GRAVITY]
-            ended = kind if rises else NONE
+            ended = kind if _rises(is_right(kind), y, f, p) else NONE
         flat = kind != ROCK_RIGHT and kind != ROCK_LEFT and kind < SKID_RIGHT_PLUS
         following = go_on(flat or not is_right(kind), flat or is_right(kind), ended, y, f, p, held)
     if following == REST and p[STILL] > 0.0:

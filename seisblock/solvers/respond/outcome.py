@@ -55,7 +55,7 @@ class RespondOutcome:
     max_rotation_rad, max_rotation_ratio : float
         Largest lean, absolute and over alpha of the corner concerned.
     final_displacement_m : float
-        Signed, along +x, once it rests, has fallen, or time is up.
+        Signed, along +x, once it rests, has fallen, or time is up; from x = 0, where it stands unless put down elsewhere.
     max_displacement_m : float
         Largest absolute displacement.
     slip_path_m : float
@@ -165,7 +165,6 @@ def gather(run: Run, setting: Setting, start_s: float, sensitive: bool | None) -
     overturned = run.mode == names.OVERTURNED
     highest, lowest = run.extrema(names.THETA)
     ahead, behind = run.extrema(names.X)
-    origin = float(run.shaken.changes[0].before[names.X])
     released = [time for time, change in run.changes() if change.guard == names.RELEASE and change.target == names.FLIGHT]
     return RespondOutcome(
         outcome=in_words(run, events),
@@ -174,8 +173,8 @@ def gather(run: Run, setting: Setting, start_s: float, sensitive: bool | None) -
         overturning_time_s=end_s if overturned else None,
         max_rotation_rad=max(highest, -lowest),
         max_rotation_ratio=lean_ratio(setting, highest, lowest),
-        final_displacement_m=float(final[names.X]) - origin,
-        max_displacement_m=max(ahead - origin, origin - behind),
+        final_displacement_m=float(final[names.X]),
+        max_displacement_m=max(ahead, -behind),
         slip_path_m=float(final[names.PATH]),
         flights=sum(_leaves_ground(change) for _, change in run.changes()),
         impacts=int(final[names.IMPACTS]),

@@ -83,9 +83,15 @@ def turning_slacks(side, degree, swing, p, c, g):
         g[END, 0] += HALF_PI
 
 
-@kernel(_t.void(_t.int64, _t.int64, _t.float64, _t.float64, MATRIX, MATRIX), inline=True)
-def _bound_slack(ry, degree, weight, weight_rate, c, g):
-    """Write how far the foot of a body whose tenon binds is from rising by itself, G + r_y theta'^2."""
+@kernel(_t.void(_t.int64, _t.int64, _t.float64, _t.float64, VECTOR, MATRIX, MATRIX), inline=True)
+def _bound_slacks(ry, degree, weight, weight_rate, p, c, g):
+    """Write how far the foot that a tenon holds down is from rising by itself, G + r_y theta'^2, or from being pressed aside no more."""
+    if weight + c[ry, 0] * c[OMEGA, 0] ** 2 <= BOUND * p[GRAVITY]:
+        # let go it would not rise for good, or it would have been
+        side = 1.0 if g[FORWARD, 0] < g[BACKWARD, 0] else -1.0
+        for k in range(degree + 1):
+            g[LIFT, k] = 0.5 * side * (g[BACKWARD, k] - g[FORWARD, k])
+        return
     for k in range(degree + 1):
         slack = 0.0
         for i in range(k + 1):
@@ -169,9 +175,9 @@ def rock_series(right, held, y, f, p, order, c, g):
         power *= dt
     g[LIFT, degree] = g[FORWARD, degree] = g[BACKWARD, degree] = 0.0
     if held > 0.0:
-        g[FORWARD, 0] = g[BACKWARD, 0] = OFF
         if g[LIFT, 0] <= BOUND * p[GRAVITY]:
-            _bound_slack(ry, degree, weight, up_rate, c, g)
+            _bound_slacks(ry, degree, weight, up_rate, p, c, g)
+        g[FORWARD, 0] = g[BACKWARD, 0] = OFF
     else:
         # the two limits of friction add up to twice mu_s N
         g[LIFT, 0] = OFF
