@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from itertools import pairwise
 
 from seisblock.errors import ParameterError, UnitError
 
@@ -21,6 +22,12 @@ SUN = 0.0303
 
 SHAKU = 10 * SUN
 """One shaku in m, ten sun."""
+
+BU = SUN / 10
+"""One bu in m, a tenth of a sun."""
+
+LARGEST_BARE = 20.0
+"""A length beyond this, m, that comes without a unit is taken for one whose unit was forgotten."""
 
 ACCELERATION_UNITS = {
     "gal": GAL,
@@ -46,12 +53,15 @@ LENGTH_UNITS = {
     "寸": SUN,
     "shaku": SHAKU,
     "尺": SHAKU,
+    "bu": BU,
+    "分": BU,
     "in": 0.0254,
     "ft": 0.3048,
 }
 
 MASS_UNITS = {"kg": 1.0, "t": 1e3, "g": 1e-3}
 
+_PIECE = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*([^\d\s.+-]+)")
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*\Z")
 
 
@@ -70,28 +80,41 @@ def acceleration_unit(name: str) -> float:
 
 
 def parse_length(text: str | float, *, what: str = "length") -> float:
-    """Return a length in metres from a number (metres) or a text such as ``24cm`` or ``8sun``.
+    """Return a length in metres from a number (metres) or a text such as ``24cm``, ``8sun`` or ``2尺4寸``.
 
     Parameters
     ----------
     text : str or float
-        A bare number is in metres.
+        A bare number is in metres, up to 20; larger ones need their unit. Several units add up, each smaller than the one before.
     what : str
         What the length is, for the message.
 
     Raises
     ------
     UnitError
-        If the unit is unknown.
+        If the unit is unknown, or missing where it was probably forgotten.
     ParameterError
         If the text holds no number.
 
     Examples
     --------
-    >>> parse_length("8sun")
-    0.2424
+    >>> parse_length("8sun"), parse_length("2尺4寸")
+    (0.2424, 0.7272)
     """
-    return _parse(text, LENGTH_UNITS, "m", what)
+    if isinstance(text, str):
+        pieces = _PIECE.findall(text)
+        units = [LENGTH_UNITS.get(unit, 0.0) for _, unit in pieces]
+        if len(pieces) > 1 and not _PIECE.sub("", text).strip() and all(a > b > 0.0 for a, b in pairwise(units)):
+            return round(sum(float(number) * unit for (number, _), unit in zip(pieces, units, strict=True)), 15)
+    value = _parse(text, LENGTH_UNITS, "m", what)
+    if abs(value) > LARGEST_BARE and (not isinstance(text, str) or _is_bare(text)):
+        raise UnitError(
+            "{what} of {value:g} m? without a unit a length is in metres: "
+            "write {value:g}cm or {value:g}mm, or {value:g}m if it is so large",
+            what=what,
+            value=value,
+        )
+    return value
 
 
 def parse_mass(text: str | float, *, what: str = "mass") -> float:
@@ -127,6 +150,12 @@ def parse_acceleration(text: str, *, what: str = "acceleration") -> float:
     if not match[2]:
         raise UnitError(f"{what} {text!r} has no unit: write {text.strip()}gal, {text.strip()}m/s2 or {text.strip()}g")
     return _parse(text.lower(), ACCELERATION_UNITS, "m/s2", what)
+
+
+def _is_bare(text: str) -> bool:
+    """Return whether a text is a number alone."""
+    match = _NUMBER.match(text)
+    return match is not None and not match[2]
 
 
 def _parse(text: str | float, table: dict[str, float], default: str, what: str) -> float:

@@ -22,8 +22,10 @@ class Length(click.ParamType):  # type: ignore[type-arg]
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return metres."""
+        if isinstance(value, float):
+            return value  # a default, or converted already
         try:
-            return parse_length(value)
+            return parse_length(value, what=(param.name or "length").replace("_", " ") if param else "length")
         except InputError as error:
             self.fail(str(error), param, ctx)
 

@@ -224,7 +224,7 @@ def _size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> float |
         return None
     bare = re.fullmatch(r"[-+.\deE]+", text) is not None
     unit = units.get(key, "")
-    value = parse_length(text + unit if bare else text, what=key)
+    value = parse_length(text + (unit or "m") if bare else text, what=key)
     if not value > 0.0:
         raise BodyError(f"{key} must be positive, found {text}")
     if value > LARGEST:

@@ -1,0 +1,53 @@
+"""Lengths as people write them: units that add up, and numbers whose unit was forgotten."""
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.errors import InputError, UnitError
+from seisblock.units import SHAKU, SUN, parse_length
+
+
+@pytest.mark.parametrize(
+    ("text", "metres"),
+    [
+        ("0.24", 0.24),
+        ("24cm", 0.24),
+        ("2尺4寸", 2 * SHAKU + 4 * SUN),
+        ("2 尺 4 寸 5 分", 2 * SHAKU + 4.5 * SUN),
+        ("2shaku4sun", 2 * SHAKU + 4 * SUN),
+        ("5ft 3in", 5 * 0.3048 + 3 * 0.0254),
+        ("1m20cm", 1.2),
+        ("20", 20.0),
+        ("24m", 24.0),
+        (24e-2, 0.24),
+    ],
+)
+def test_lengths(text, metres):
+    """One unit, or several that add up, the larger first."""
+    assert parse_length(text) == pytest.approx(metres, rel=1e-14)
+
+
+@pytest.mark.parametrize("text", ["4寸2尺", "2尺4", "2尺-4寸", "2尺4尺", "24 furlong", "2尺4furlong", "", "nan"])
+def test_what_is_no_length(text):
+    """Units in the wrong order, twice, unknown, or none at all after a first."""
+    with pytest.raises(InputError):
+        parse_length(text)
+
+
+@pytest.mark.parametrize("value", ["24", 24, 72.0, "-630"])
+def test_a_forgotten_unit(value):
+    """More than 20 m without a unit is a unit forgotten: the message says how to write what was meant."""
+    with pytest.raises(UnitError, match=r"width of -?\d+ m\? without a unit a length is in metres: write -?\d+cm or"):
+        parse_length(value, what="width")
+
+
+@pytest.mark.parametrize("command", ["rock", "measure", "criteria", "slide", "uplift"])
+def test_no_command_computes_a_block_of_24_metres(command):
+    """``--width 24 --height 72`` is refused, whichever command is asked."""
+    words = [command, "--width", "24", "--height", "72"]
+    if command == "slide":
+        words = ["infer", "--slid", "24", "--mu", "0.3"]
+    found = CliRunner().invoke(main, words)
+    assert found.exit_code == 2
+    assert "without a unit a length is in metres: write 24cm or 24mm, or 24m if it is so large" in " ".join(found.stderr.split())
