@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
+import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -65,12 +67,17 @@ def emit(
         raise OutputError(f"{document.command} has no figure here: leave --plot out")
     if output.animate is not None and animation is None:
         raise OutputError(f"{document.command} has no animation here: leave --animate out")
-    refuse_collisions(output.csv, output.animate, None if output.plot == STDOUT else output.plot)
+    _check_stdout(output)
+    refuse_collisions(*(None if path == STDOUT else path for path in (output.csv, output.animate, output.plot)))
     if output.csv is not None:
         from seisblock.present.files import write_histories
 
-        (csv or (lambda path: write_histories(path, responses)))(output.csv)
-        say(f"wrote {output.csv}")
+        write = csv or (lambda path: write_histories(path, responses))
+        if output.csv == STDOUT:
+            _to_stdout(write)
+            return
+        write(output.csv)
+        say("wrote {file}", file=str(output.csv))
     if output.animate is not None and animation is not None:
         _animate(animation, output)
         say(f"wrote {output.animate}")
@@ -88,6 +95,27 @@ def emit(
         screen = console()
         for part in tables():
             screen.print(part)
+
+
+def _check_stdout(output: Output) -> None:
+    """Refuse two things that both go to stdout, and a name beside ``-`` that would be left unwritten."""
+    if STDOUT not in (output.csv, output.plot):
+        return
+    named = {"--csv": output.csv, "--plot": output.plot, "--json": output.json or None, "--animate": output.animate}
+    asked = [name for name, value in named.items() if value is not None]
+    first = "--csv" if output.csv == STDOUT else "--plot"
+    others = [name for name in asked if name != first and (first == "--csv" or named[name] in (STDOUT, True))]
+    if others:
+        raise OutputError("{first} - writes to stdout, and nothing else: leave {others} out", first=first, others=others)
+
+
+def _to_stdout(write: Callable[[Path], None]) -> None:
+    """Write a table to stdout."""
+    with tempfile.TemporaryDirectory(prefix="seisblock-") as directory:
+        path = Path(directory) / "table.csv"
+        write(path)
+        with path.open(encoding="utf-8", newline="") as stream:
+            shutil.copyfileobj(stream, sys.stdout)
 
 
 def _draw(figure: Callable[[], Figure], target: Path, lang: str) -> None:

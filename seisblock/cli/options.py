@@ -122,13 +122,19 @@ _RECORD_OPTIONS = (
     option(
         "--dt", type=float, callback=_positive, section="Record", metavar="S", help="Sampling interval, where the file does not say, s."
     ),
-    option("--station", section="Record", help="Station code, in a bundle that holds several."),
+    option("--station", section="Record", help="Station code, in a bundle that holds several; all takes each for itself."),
     option("--level", type=click.Choice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
 )
 
 _OUTPUT_OPTIONS = (
     option("--json", is_flag=True, section="Output", help="One JSON document on stdout, SI units."),
-    option("--csv", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the time history, SI units."),
+    option(
+        "--csv",
+        type=click.Path(path_type=Path, allow_dash=True),
+        section="Output",
+        metavar="FILE",
+        help="Write the time history, SI units; - writes it to stdout, and nothing else.",
+    ),
     option(
         "--plot",
         type=click.Path(path_type=Path, allow_dash=True),

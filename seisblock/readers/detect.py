@@ -6,7 +6,7 @@ import codecs
 
 from seisblock.errors import RecordFormatError
 from seisblock.readers import bundle
-from seisblock.readers.formats import at2, jma_csv, knet, knet_csv, plain_csv
+from seisblock.readers.formats import at2, generic, jma_csv, knet, knet_csv, plain_csv
 from seisblock.readers.source import Blob, decode
 
 BUNDLE = "BUNDLE"
@@ -25,6 +25,8 @@ def format_of(blob: Blob) -> str:
             return name
     if at2.is_at2(head):
         return at2.FORMAT
+    if generic.is_gse(head):
+        return OBSPY
     try:
         text = decode(blob)
     except RecordFormatError:

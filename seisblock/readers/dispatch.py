@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from seisblock.errors import ParameterError, RecordFormatError, UnitError
+from seisblock.readers.budget import Budget, budget
 from seisblock.readers.bundle import members_of
 from seisblock.readers.detect import BUNDLE, OBSPY, format_of
 from seisblock.readers.formats.at2 import read_at2
@@ -31,6 +32,7 @@ class Options:
     dt: float | None = None
     station: str | None = None
     level: str | None = None
+    budget: Budget = field(default_factory=budget)
 
 
 def parts_of(blob: Blob, options: Options) -> list[Record]:
@@ -38,6 +40,13 @@ def parts_of(blob: Blob, options: Options) -> list[Record]:
     found = format_of(blob)
     if found == BUNDLE:
         return _of_bundle(blob, options)
+    parts = _of_file(blob, found, options)
+    options.budget.spend_samples(blob.name, sum(part.samples * len(part.components) for part in parts))
+    return parts
+
+
+def _of_file(blob: Blob, found: str, options: Options) -> list[Record]:
+    """Return the records in one file, by the format it was found to be in or the one that the caller says."""
     kind = found if options.format is None else options.format.upper()
     kind = _SPELLINGS.get(kind, kind)
     if kind in _SELF_DESCRIBING:
@@ -52,7 +61,7 @@ def parts_of(blob: Blob, options: Options) -> list[Record]:
 
 def _of_bundle(blob: Blob, options: Options) -> list[Record]:
     """Return the parts in a bundle; files in it that are no records are passed over."""
-    members = members_of(blob)
+    members = members_of(blob, options.budget)
     parts: list[Record] = []
     for member in members:
         if format_of(member) == OBSPY and options.format is None and options.units is None:

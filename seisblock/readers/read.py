@@ -7,12 +7,15 @@ from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 
-from seisblock.errors import ParameterError
+from seisblock.errors import ComponentError, ParameterError
 from seisblock.readers.assemble import assemble, continues
 from seisblock.readers.dispatch import Options, parts_of
 from seisblock.readers.siblings import with_siblings
 from seisblock.readers.source import Blob, Location, digest, fetch
 from seisblock.records import Record
+
+ALL = "all"
+"""The station that stands for every station of a bundle."""
 
 
 def read(
@@ -41,7 +44,7 @@ def read(
     dt : float or None, s
         Sampling interval of files that do not tell theirs.
     station : str or None
-        Code of the station to take from a bundle of several.
+        Code of the station to take from a bundle of several; `read_all` takes ``all``, a record for each.
     level : {"surface", "borehole"} or None
         Sensor of a KiK-net station; the surface by default.
 
@@ -55,6 +58,8 @@ def read(
     ------
     RecordNotFoundError
         If there is no such file or sample.
+    RecordError
+        If it is too large: the message names the environment variable that lifts the limit.
     RecordFormatError
         If the content breaks its format; the message names the line.
     UnitError, ParameterError
@@ -108,7 +113,7 @@ def read_all(
         else:
             home.append(opened)
     named = frozenset(opened.blob.path for g in groups for opened in g)
-    return [_record_of(g, options, named) for g in groups]
+    return [record for g in groups for record in _records_of(g, options, named)]
 
 
 @dataclass(frozen=True)
@@ -122,19 +127,47 @@ class Opened:
 
 def _open(source: Location, options: Options) -> Opened:
     """Return a source with its bytes and the parts in them."""
-    blob = fetch(source)
-    return Opened(str(source), blob, parts_of(blob, options))
+    blob = fetch(source, options.budget)
+    return Opened(blob.name, blob, parts_of(blob, options))
+
+
+def _records_of(group: Sequence[Opened], options: Options, named: frozenset[Path | None]) -> list[Record]:
+    """Return the one record that some sources make, or those of every station when all are asked for."""
+    if options.station != ALL:
+        return [_record_of(group, options, named)]
+    name, parts, blobs = _family(group, options, named)
+    recordings: dict[tuple[object, ...], list[Record]] = {}
+    for part in parts:
+        recordings.setdefault((part.station, part.start, part.metadata.get("event")), []).append(part)
+    sha256 = digest(blobs)
+    return [replace(assemble(name, each, level=_level(each, options.level)), sha256=sha256) for each in recordings.values()]
 
 
 def _record_of(group: Sequence[Opened], options: Options, named: frozenset[Path | None] = frozenset()) -> Record:
     """Return the one record that some sources make; `named` are files that speak for themselves."""
+    name, parts, blobs = _family(group, options, named)
+    if options.station == ALL:
+        stations = list(dict.fromkeys(part.station for part in parts))
+        if len(stations) > 1:
+            raise ComponentError("{name} holds {count} stations, and one record was asked for: choose one", name=name, count=len(stations))
+    record = assemble(name, parts, station=None if options.station == ALL else options.station, level=options.level)
+    return replace(record, sha256=digest(blobs))
+
+
+def _family(group: Sequence[Opened], options: Options, named: frozenset[Path | None]) -> tuple[str, list[Record], list[Blob]]:
+    """Return the name, the parts and the bytes of some sources, a lone file with its siblings."""
     name = ", ".join(opened.name for opened in group)
     blobs = [opened.blob for opened in group]
     parts = [part for opened in group for part in opened.parts]
     if len(group) == 1:
-        family = [b for b in with_siblings(blobs[0], options.level) if b is blobs[0] or b.path not in named]
+        siblings = with_siblings(blobs[0], options.budget, options.level)
+        family = [b for b in siblings if b is blobs[0] or b.path not in named]
         if family != blobs:
             parts = [part for blob in family for part in (group[0].parts if blob is blobs[0] else parts_of(blob, options))]
             blobs = family
-    record = assemble(name, parts, station=options.station, level=options.level)
-    return replace(record, sha256=digest(blobs))
+    return name, parts, blobs
+
+
+def _level(parts: Sequence[Record], level: str | None) -> str | None:
+    """Return the level asked for where there is one: a bundle mixes stations with and without a borehole."""
+    return level if any("level" in part.metadata for part in parts) else None

@@ -6,17 +6,17 @@ import re
 from pathlib import Path
 
 from seisblock.errors import RecordError
-from seisblock.ledger import reading
+from seisblock.readers.budget import Budget
 from seisblock.readers.formats.at2 import is_at2, orientation, set_name
 from seisblock.readers.formats.knet import is_knet
-from seisblock.readers.source import Blob
+from seisblock.readers.source import Blob, read_bytes
 
 _KNET_NAME = re.compile(r"^(?P<stem>.+)\.(?P<code>NS|EW|UD)(?P<sensor>[12]?)\Z", re.IGNORECASE)
 _SENSORS = {"borehole": "1", "surface": "2"}
 _ORDER = {"NS": 0, "EW": 1, "UD": 2}
 
 
-def with_siblings(blob: Blob, level: str | None = None) -> list[Blob]:
+def with_siblings(blob: Blob, budget: Budget, level: str | None = None) -> list[Blob]:
     """Return a file and those beside it that are other components of the same set, in the order NS, EW, UD.
 
     A KiK-net file brings those of its own sensor, or of the sensor that `level` names.
@@ -24,13 +24,13 @@ def with_siblings(blob: Blob, level: str | None = None) -> list[Blob]:
     if blob.path is None:
         return [blob]
     if is_knet(blob.data[:64]):
-        return _of_knet(blob, blob.path, level)
+        return _of_knet(blob, blob.path, level, budget)
     if is_at2(blob.data[:4096]):
-        return _of_at2(blob, blob.path)
+        return _of_at2(blob, blob.path, budget)
     return [blob]
 
 
-def _of_knet(blob: Blob, path: Path, level: str | None) -> list[Blob]:
+def _of_knet(blob: Blob, path: Path, level: str | None, budget: Budget) -> list[Blob]:
     """Return the three files of one K-NET station, or of one sensor of a KiK-net station."""
     match = _KNET_NAME.match(path.name)
     if match is None:
@@ -40,10 +40,10 @@ def _of_knet(blob: Blob, path: Path, level: str | None) -> list[Blob]:
     found = {wanted[p.name.upper()]: p for p in _neighbours(path) if p.name.upper() in wanted and p.name.startswith(match["stem"])}
     if not found:
         return [blob]
-    return [_load(found[rank], blob) for rank in sorted(found)]
+    return [_load(found[rank], blob, budget) for rank in sorted(found)]
 
 
-def _of_at2(blob: Blob, path: Path) -> list[Blob]:
+def _of_at2(blob: Blob, path: Path, budget: Budget) -> list[Blob]:
     """Return the files whose names differ in the direction only and whose headers tell the same event and sampling."""
     own = set_name(path.name)
     if own is None:
@@ -53,7 +53,7 @@ def _of_at2(blob: Blob, path: Path) -> list[Blob]:
         other = set_name(neighbour.name) if neighbour.suffix.lower() == path.suffix.lower() else None
         if other is None or other[0].lower() != own[0].lower():
             continue
-        candidate = _load(neighbour, blob)
+        candidate = _load(neighbour, blob, budget)
         if _signature(candidate) == _signature(blob):
             found[orientation(other[1])[0]] = blob if neighbour == path else candidate
     if not any(candidate.path == path for candidate in found.values()):
@@ -76,13 +76,11 @@ def _neighbours(path: Path) -> list[Path]:
         return [path]
 
 
-def _load(path: Path, asked: Blob) -> Blob:
+def _load(path: Path, asked: Blob, budget: Budget) -> Blob:
     """Return the bytes of a sibling."""
     if path == asked.path:
         return asked
     try:
-        data = path.read_bytes()
-        reading(path)
-        return Blob(str(path), data, path)
-    except OSError as error:
-        raise RecordError(f"{path}, which belongs to {asked.name}, cannot be read: {error.strerror or error}") from error
+        return Blob(str(path), read_bytes(path, str(path), budget), path)
+    except RecordError as error:
+        raise RecordError("{error}; it belongs to {name}", error=error.said, name=asked.name) from error

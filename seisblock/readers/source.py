@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import codecs
 import hashlib
+import stat
+import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from os import PathLike
@@ -12,9 +14,16 @@ from typing import TypeAlias
 
 from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError
 from seisblock.ledger import reading
+from seisblock.readers.budget import Budget
 from seisblock.samples import find_sample, list_samples
 
 Location: TypeAlias = "str | PathLike[str]"
+
+STDIN = "-"
+"""The name that stands for the standard input."""
+
+LONGEST_SHOWN = 200
+"""How much of a text from outside a message shows at most."""
 
 
 @dataclass(frozen=True)
@@ -31,28 +40,62 @@ class Blob:
         return self.name.replace("\\", "/").rsplit("/", 1)[-1]
 
 
-def fetch(source: Location) -> Blob:
-    """Return the bytes of a file, or of the bundled sample of that name.
+def fetch(source: Location, budget: Budget) -> Blob:
+    """Return the bytes of a file, of the bundled sample of that name, or of the standard input.
+
+    Parameters
+    ----------
+    source : path
+        ``-`` is the standard input.
+    budget : Budget
+        What may be read.
 
     Raises
     ------
     RecordNotFoundError
         If there is neither a file nor a sample of that name.
     RecordError
-        If it is a directory, is empty or cannot be read.
+        If it is a directory or a device, is empty, cannot be read, or exceeds the budget.
     """
     name = str(source)
-    path = locate(source)
-    if path.is_dir():
-        raise RecordError(f"{name} is a directory: name a record file in it")
+    if name == STDIN:
+        blob = Blob("standard input", budget.read("standard input", sys.stdin.buffer))
+    else:
+        path = locate(source)
+        blob = Blob(name, read_bytes(path, name, budget), path)
+    if not blob.data.strip():
+        raise RecordError("{name} is empty: expected a strong-motion record", name=blob.name)
+    return blob
+
+
+def read_bytes(path: Path, name: str, budget: Budget) -> bytes:
+    """Return the bytes of a file, or of a pipe, as far as the budget goes.
+
+    Parameters
+    ----------
+    path : Path
+    name : str
+        What messages call it.
+    budget : Budget
+
+    Raises
+    ------
+    RecordError
+        If it is a directory or a device, cannot be read, or exceeds the budget.
+    """
     try:
-        data = path.read_bytes()
+        info = path.stat()
+        if stat.S_ISDIR(info.st_mode):
+            raise RecordError("{name} is a directory: name a record file in it", name=name)
+        if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
+            raise RecordError("{name} is a device, not a record: name a file, or - for the standard input", name=name)
+        budget.announce_bytes(name, info.st_size)
+        with path.open("rb") as stream:
+            data = budget.read(name, stream)
         reading(path)
     except OSError as error:
-        raise RecordError(f"{name} cannot be read: {error.strerror or error}") from error
-    if not data.strip():
-        raise RecordError(f"{name} is empty: expected a strong-motion record")
-    return Blob(name, data, path)
+        raise RecordError("{name} cannot be read: {reason}", name=name, reason=error.strerror or str(error)) from error
+    return data
 
 
 def locate(source: Location) -> Path:
@@ -65,12 +108,17 @@ def locate(source: Location) -> Path:
         if name.startswith("~") and path.expanduser().exists():
             return path.expanduser()
     except (OSError, RuntimeError, ValueError) as error:  # too long, no such home, a NUL in it
-        raise RecordNotFoundError(f"{name!r} is no name of a file: {error}") from error
+        raise RecordNotFoundError("{name!r} is no name of a file: {reason}", name=name[:LONGEST_SHOWN], reason=_reason(error)) from error
     sample = find_sample(name) if path.name == name else None
     if sample is None:
-        known = ", ".join(s.name for s in list_samples() if s.kind == "record")
-        raise RecordNotFoundError(f"{name}: no such file, and no bundled sample of that name (there are {known})")
+        known = [s.name for s in list_samples() if s.kind == "record"]
+        raise RecordNotFoundError("{name}: no such file, and no bundled sample of that name (there are {known})", name=name, known=known)
     return sample
+
+
+def _reason(error: Exception) -> str:
+    """Return why a name was refused, without the name."""
+    return (error.strerror if isinstance(error, OSError) else None) or str(error)[:LONGEST_SHOWN]
 
 
 def digest(blobs: Iterable[Blob]) -> str:
@@ -100,7 +148,7 @@ def decode(blob: Blob) -> str:
             return blob.data.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
         except UnicodeDecodeError:
             continue
-    raise RecordFormatError(f"{blob.name} is not text (neither UTF-8 nor Shift-JIS): expected a record in a text format")
+    raise RecordFormatError("{name} is not text (neither UTF-8 nor Shift-JIS): expected a record in a text format", name=blob.name)
 
 
 def is_binary(data: bytes) -> bool:

@@ -144,6 +144,17 @@ def test_other_formats_of_obspy_need_a_unit(tmp_path):
         read(path, units="gal")
 
 
+def test_gse_is_not_read(tmp_path):
+    """Obspy's decoder of GSE2 ends the process on a damaged file: the format is named and left alone."""
+    trace = obspy.Trace(np.arange(200, dtype=np.int32), header={"station": "ABC", "channel": "HNZ", "delta": 0.01})
+    trace.stats.calib = 1.0
+    path = tmp_path / "a.gse"
+    obspy.Stream([trace]).write(str(path), format="GSE2")
+    for options in ({}, {"units": "gal"}, {"units": "gal", "format": "GSE2"}, {"units": "gal", "format": "OBSPY:GSE2"}):
+        with pytest.raises(RecordFormatError, match=r"GSE2? is not read here, .* convert the record"):
+            read(path, **options)
+
+
 def test_several_files_are_several_records_in_order(tmp_path):
     """Files of different recordings stay apart, each read as if alone; a name given twice is read once."""
     (tmp_path / "a.csv").write_text("time,NS (gal)\n0,1\n0.01,2\n")

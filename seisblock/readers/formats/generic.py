@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -17,9 +18,18 @@ from seisblock.readers.source import Blob
 from seisblock.records import Component, Record
 
 # PICKLE runs whatever the file says; the others have a reader here
-_NOT_TRIED = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "KNET"}
+_NOT_TRIED = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "KNET", "GSE1", "GSE2"}
+_CRASHING = {"GSE1", "GSE2"}
+"""Formats whose decoder in obspy ends the process (segmentation fault) on a damaged file."""
+
+_GSE = re.compile(rb"^WID[12] ", re.MULTILINE)
 _KNOWN = "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, a plain table, a bundle of those, nor a waveform format of obspy"
 _LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
+
+
+def is_gse(head: bytes) -> bool:
+    """Return whether a file's first bytes are those of GSE 1 or 2, which no reader here takes."""
+    return _GSE.search(head) is not None
 
 
 def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) -> list[Record]:
@@ -42,7 +52,8 @@ def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) 
         If the unit is not given.
     """
     with tempfile.TemporaryDirectory(prefix="seisblock-") as directory:
-        path = Path(directory) / ("record" + "".join(c for c in Path(blob.basename).suffix if c.isalnum() or c == "."))
+        suffix = "".join(c for c in Path(blob.basename).suffix[:12] if c.isalnum() or c == ".")
+        path = Path(directory) / f"record{suffix}"
         path.write_bytes(blob.data)
         name = _recognise(blob.name, path) if waveform is None else waveform.upper()
         traces = _traces(blob.name, path, name)
@@ -69,7 +80,20 @@ def _recognise(name: str, path: Path) -> str:
                     return str(candidate)
         except Exception:  # noqa: BLE001 - a plugin that stumbles over a foreign file does not know it, whatever it raises
             continue
+    with path.open("rb") as file:
+        if is_gse(file.read(4096)):
+            _refuse(name, "GSE")
     raise RecordFormatError(f"{name} is in no format known here: not {_KNOWN}")
+
+
+def _refuse(name: str, waveform: str) -> NoReturn:
+    """Refuse a format whose decoder cannot be trusted."""
+    raise RecordFormatError(
+        "{name}: {format} is not read here, for its decoder in obspy crashes on damaged files: convert the record, "
+        "with obspy for example, to MSEED or SAC",
+        name=name,
+        format=waveform,
+    )
 
 
 def _traces(name: str, path: Path, waveform: str) -> list[Any]:
@@ -77,8 +101,10 @@ def _traces(name: str, path: Path, waveform: str) -> list[Any]:
     import obspy
     from obspy.core.util.base import ENTRY_POINTS
 
+    if waveform in _CRASHING:
+        _refuse(name, waveform)
     if waveform not in ENTRY_POINTS["waveform"] or waveform == "PICKLE":
-        usable = ", ".join(sorted(set(ENTRY_POINTS["waveform"]) - {"PICKLE"}))
+        usable = ", ".join(sorted(set(ENTRY_POINTS["waveform"]) - _CRASHING - {"PICKLE"}))
         raise ParameterError(f"unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSV, or OBSPY: and one of {usable}")
     try:
         with warnings.catch_warnings():

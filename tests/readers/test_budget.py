@@ -1,0 +1,196 @@
+"""What is read has a price: archives that unpack for ever, devices and endless pipes are refused, with the number and what lifts it."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import os
+import subprocess
+import sys
+import tarfile
+import zipfile
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.errors import ParameterError, RecordError, RecordFormatError
+from seisblock.readers import read, read_all
+from tests.readers.files import JMA_BODY, JMA_HEADER, knet, tar
+
+
+def sparse_tar(size):
+    """Return a tar of 2 KB with one member that is a hole of so many bytes."""
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w", format=tarfile.PAX_FORMAT) as archive:
+        info = tarfile.TarInfo("huge.csv")
+        info.pax_headers = {
+            "GNU.sparse.major": "1",
+            "GNU.sparse.minor": "0",
+            "GNU.sparse.name": "huge.csv",
+            "GNU.sparse.realsize": str(size),
+        }
+        data = b"0\n".ljust(512, b"\0")
+        info.size = len(data)
+        archive.addfile(info, io.BytesIO(data))
+    return buffer.getvalue()
+
+
+def deflated(size, level=9):
+    """Return a zip of one member of so many zero bytes."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=level) as archive:
+        archive.writestr("huge.csv", b"0" * size)
+    return buffer.getvalue()
+
+
+@pytest.fixture
+def small(monkeypatch):
+    """Return a function that sets limits through the environment."""
+    return lambda **limits: [monkeypatch.setenv(f"SEISBLOCK_READ_{name.upper()}", str(value)) for name, value in limits.items()]
+
+
+def refused(path, says):
+    """Check that a file is refused for its size."""
+    with pytest.raises(RecordError) as caught:
+        read(path)
+    assert says in str(caught.value)
+    assert not isinstance(caught.value, RecordFormatError)
+
+
+def test_a_hole_is_no_record(tmp_path):
+    """A sparse member of 12 GB in a tar of 2 KB is passed over."""
+    path = tmp_path / "sparse.tar"
+    path.write_bytes(sparse_tar(12_000_000_000))
+    with pytest.raises(RecordFormatError, match="no record in this bundle"):
+        read(path)
+
+
+def test_declared_sizes_come_first(tmp_path, small):
+    """A member that says it is too large is not unpacked; the message names the number, the limit and the variable that lifts it."""
+    small(mib=2)
+    path = tmp_path / "large.zip"
+    path.write_bytes(deflated(5 * 2**20))
+    refused(path, "large.zip/huge.csv: 5 MiB, and 2 may be read: set SEISBLOCK_READ_MIB to read more")
+    (tmp_path / "plain.csv").write_bytes(b"1\n" * 2**21)
+    refused(tmp_path / "plain.csv", "4 MiB, and 2 may be read")
+
+
+def test_a_size_that_is_a_lie_is_noticed(tmp_path, small):
+    """What is unpacked is counted, whatever was declared."""
+    small(mib=1)
+    path = tmp_path / "bomb.csv.gz"
+    path.write_bytes(gzip.compress(b"0" * 3 * 2**20))
+    refused(path, "holds more than the 1 MiB that may be read: set SEISBLOCK_READ_MIB")
+
+
+def test_one_budget_for_all_that_is_nested(tmp_path, small):
+    """Four archives of 0.6 MiB each exceed 2 MiB together, however they are packed."""
+    small(mib=2)
+    inner = {f"{i}.csv.gz": gzip.compress(b"%d\n" % i * 300_000) for i in range(4)}
+    path = tmp_path / "many.tar"
+    path.write_bytes(tar(inner))
+    refused(path, "2 MiB that may be read")
+
+
+def test_nesting_and_members_have_limits(tmp_path, small):
+    """An archive in an archive in an archive, and more files than anyone packs."""
+    small(nesting=3, members=50)
+    data = tar({"a.NS": knet().encode()})
+    for depth in range(5):
+        path = tmp_path / f"{depth}.tar"
+        path.write_bytes(data)
+        if depth < 3:
+            assert read(path).samples == 200
+        else:
+            refused(path, "4 archives within archives, and 3 may be read: set SEISBLOCK_READ_NESTING")
+        data = tar({"inner.tar": data})
+    path = tmp_path / "crowd.tar"
+    path.write_bytes(tar({f"{i}.txt": b"x" for i in range(60)}))
+    refused(path, "51 files, and 50 may be read: set SEISBLOCK_READ_MEMBERS")
+
+
+def test_samples_have_a_limit(tmp_path, small):
+    """More samples than are wanted are refused by their number."""
+    small(samples=5)
+    path = tmp_path / "a.csv"
+    path.write_bytes((JMA_HEADER + JMA_BODY).encode("cp932"))
+    refused(path, "9 samples, and 5 may be read: set SEISBLOCK_READ_SAMPLES")
+
+
+@pytest.mark.parametrize("text", ["-1", "0", "lots", "1.5", "٣"])
+def test_a_limit_is_a_whole_number(monkeypatch, text):
+    """Anything else is named."""
+    monkeypatch.setenv("SEISBLOCK_READ_MIB", text)
+    with pytest.raises(ParameterError, match="SEISBLOCK_READ_MIB must be a positive whole number"):
+        read("synthetic_jma.csv")
+
+
+def test_devices_are_no_records():
+    """/dev/zero and /dev/null are refused at once."""
+    for device in ("/dev/zero", "/dev/null"):
+        with pytest.raises(RecordError, match="is a device, not a record"):
+            read(device)
+
+
+def test_an_endless_pipe_ends(tmp_path, small):
+    """What comes out of a pipe is read as far as the budget goes."""
+    small(mib=1)
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with subprocess.Popen(
+        [sys.executable, "-c", f"open({str(pipe)!r}, 'wb').write(b'0' * 9_000_000)"], stderr=subprocess.DEVNULL
+    ) as writer:
+        refused(pipe, "holds more than the 1 MiB")
+        writer.wait()
+
+
+def test_a_zip_that_lost_a_byte(tmp_path):
+    """Every byte that may be missing from a zip gives one sentence or the record."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        archive.writestr("a.NS", knet())
+    whole, path = buffer.getvalue(), tmp_path / "a.zip"
+    for lost in [*range(60), *range(len(whole) - 110, len(whole))]:
+        path.write_bytes(whole[:lost] + whole[lost + 1 :])
+        try:
+            read(path)
+        except RecordError as error:
+            assert "a.zip" in str(error)
+
+
+def test_the_standard_input_is_a_record():
+    """``seisblock measure -`` reads what is piped in, whatever its format."""
+    data = (JMA_HEADER + JMA_BODY).encode("cp932")
+    found = CliRunner().invoke(main, ["measure", "-", "--json", "--quiet"], input=data)
+    assert found.exit_code == 0, found.output
+    assert '"source":"standard input"' in found.stdout.replace(": ", ":")
+    empty = CliRunner().invoke(main, ["measure", "-"], input=b"")
+    assert (empty.exit_code, "standard input is empty" in empty.stderr) == (3, True)
+
+
+def test_a_table_goes_to_stdout():
+    """``--csv -`` writes the table to stdout and nothing else; what would also go there is refused."""
+    found = CliRunner().invoke(main, ["measure", "--csv", "-", "--quiet", "--component", "NS"])
+    assert found.stdout.splitlines()[0] == "time_s,NS_acceleration_m_s2,NS_velocity_m_s,NS_displacement_m"
+    assert len(found.stdout.splitlines()) == 6001
+    for words in (["--json"], ["--plot", "-"]):
+        both = CliRunner().invoke(main, ["measure", "--csv", "-", *words])
+        assert both.exit_code == 3
+        assert "writes to stdout, and nothing else: leave" in both.stderr
+
+
+def test_all_stations_of_a_bundle(tmp_path):
+    """``--station all`` gives a record for each station; one record of several stations is refused."""
+    files = {}
+    for station, time in (("NIG019", "2004/10/23 17:56:20"), ("NIG017", "2004/10/23 17:56:25")):
+        for code, direction in (("NS", "N-S"), ("EW", "E-W"), ("UD", "U-D")):
+            files[f"{station}.{code}"] = knet(station=station, direction=direction, time=time).encode()
+    path = tmp_path / "event.tar"
+    path.write_bytes(tar({"event.knt.tar.gz": tar(files, mode="w:gz")}))
+    records = read_all([path], station="all")
+    assert [(r.station, r.codes) for r in records] == [("NIG019", ("NS", "EW", "UD")), ("NIG017", ("NS", "EW", "UD"))]
+    found = CliRunner().invoke(main, ["measure", str(path), "--station", "all", "--json", "--quiet"])
+    assert found.stdout.count('"record_index"') == 6
+    with pytest.raises(RecordError, match="2 stations, and one record was asked for"):
+        read(path, station="all")
