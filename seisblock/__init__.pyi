@@ -33,6 +33,7 @@ from .measures.spectra import ResponseSpectrum, response_spectrum
 from .measures.summary import ComponentMeasures, Conventions, RecordMeasures, measure
 from .readers.read import read, read_all
 from .records.motion import Motion, motion_of
+from .records.preparation import Preparation
 from .records.process import crop, demean, highpass, rotate, scale, scale_to_pga, towards
 from .records.record import Component, Record
 from .results import Channel, Event, Phase, Response, Status
@@ -125,6 +126,7 @@ __all__ = [
     "read_all",
     "read_cemetery",
     "readers",
+    "Preparation",
     "Record",
     "RecordError",
     "RecordFormatError",

@@ -16,4 +16,7 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 Progress: TypeAlias = Callable[[int, int], None]
 """Told now and then how many runs, or pictures, are done, and how many there are in all."""
 
-__all__ = ["ArrayLike", "BoolArray", "ComplexArray", "FloatArray", "IntArray", "Progress"]
+Stretch: TypeAlias = tuple[float | None, float | None]
+"""A stretch of time, s after the record's first sample; an end left out is that of the record."""
+
+__all__ = ["ArrayLike", "BoolArray", "ComplexArray", "FloatArray", "IntArray", "Progress", "Stretch"]

@@ -24,7 +24,8 @@ from seisblock.words import LANGUAGES, LOCALES
 
 PACKAGE = Path(seisblock.__file__).parent
 SAYING = {"said", "tell", "noted", "say", "warn", "progress", "UsageError", "BadParameter", "fail"}
-"""Functions whose first argument is a text for people; so is that of every error."""
+CHECKS = {"finite", "positive", "not_negative", "within", "fraction"}
+"""Functions whose first argument is a text for people; so is that of every error, and of every check of a number."""
 
 WIDTH = 120
 
@@ -34,7 +35,7 @@ def texts_of(stream, keywords, comment_tags, options) -> Iterator[tuple[int, str
     for node in ast.walk(ast.parse(stream.read())):
         if isinstance(node, ast.Call) and node.args:
             name = getattr(node.func, "attr", getattr(node.func, "id", ""))
-            if name in SAYING or name.endswith("Error"):
+            if name in SAYING | CHECKS or name.endswith("Error"):
                 yield from ((node.lineno, "", text, []) for text in _constants(node.args[0]))
 
 

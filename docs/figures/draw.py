@@ -16,7 +16,7 @@ FLOORS = (
     ("results", "what a solver answers: phases, events, channels, responses"),
     ("dynamics", "the engine, which knows no body; the one list of statuses and of array types"),
     ("records", "what was measured: records, motions, and what may be done to them"),
-    ("ground floor", "units, samples, errors, references, typing, showing, _jit: import nothing above"),
+    ("ground floor", "units, samples, checks, errors, references, typing, showing, _jit: import nothing above"),
 )
 
 

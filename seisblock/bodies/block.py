@@ -5,15 +5,27 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from seisblock import checks
 from seisblock.bodies.inset import Inset
 from seisblock.errors import BodyError
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import said
 
 DENSITY = 2650.0
 """Density of granite, kg/m^3; a motion of a rigid block does not depend on it."""
 
 RIGHT, LEFT = range(2)
 """The lower corners: that towards +x, about which a block turns that leans to +x, and the other one."""
+
+_POSITIVE = {
+    "width": (said("width"), "m"),
+    "height": (said("height"), "m"),
+    "depth": (said("depth"), "m"),
+    "mass": (said("mass"), "kg"),
+    "density": (said("density"), "kg/m^3"),
+    "centroid_height": (said("height of the centre of gravity"), "m"),
+    "centroid_inertia": (said("moment of inertia"), "kg m^2"),
+}
 
 
 @dataclass(frozen=True)
@@ -65,19 +77,31 @@ class Block:
     inset: float = 0.0
 
     def __post_init__(self) -> None:
-        for key in ("width", "height", "depth", "mass", "density", "centroid_height", "centroid_inertia"):
+        for key, (what, unit) in _POSITIVE.items():
             value = getattr(self, key)
-            if value is not None and not (math.isfinite(value) and value > 0.0):
-                raise BodyError(f"{self.name}: {key.replace('_', ' ')} must be positive, found {value}")
+            if value is not None:
+                checks.positive("{name}: {what}", value, unit, error=BodyError, name=self.name, what=what)
         if not 0.0 <= self.inset < self.width / 2:
-            raise BodyError(f"{self.name}: the inset must lie between 0 and half the width, {self.width / 2:g} m; found {self.inset} m")
+            raise BodyError(
+                "{name}: the inset must lie between 0 and half the width, {half:g} m; found {inset} m",
+                name=self.name,
+                half=self.width / 2,
+                inset=self.inset,
+            )
         if not abs(self.centroid_offset) < self.width / 2 - self.inset:
             raise BodyError(
-                f"{self.name}: the centre of gravity must lie above the base, within {self.width / 2 - self.inset:g} m of its middle; "
-                f"found an offset of {self.centroid_offset} m"
+                "{name}: the centre of gravity must lie above the base, within {half:g} m of its middle; found an offset of {offset} m",
+                name=self.name,
+                half=self.width / 2 - self.inset,
+                offset=self.centroid_offset,
             )
         if self.centroid_height is not None and self.centroid_height > self.height:
-            raise BodyError(f"{self.name}: the centre of gravity, at {self.centroid_height} m, lies above the height of {self.height} m")
+            raise BodyError(
+                "{name}: the centre of gravity, at {centre} m, lies above the height of {height} m",
+                name=self.name,
+                centre=self.centroid_height,
+                height=self.height,
+            )
 
     @property
     def total_mass(self) -> float:
@@ -197,11 +221,10 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
         p = sqrt(3 g/(4 R)), positive.
     gravity : float, m/s^2
     """
-    for name, value in (("slenderness", slenderness), ("frequency parameter", frequency_parameter)):
-        if not (math.isfinite(value) and value > 0.0):
-            raise BodyError(f"the {name} must be positive, found {value}")
+    checks.positive("the slenderness", slenderness, "rad", error=BodyError)
+    checks.positive("the frequency parameter", frequency_parameter, "rad/s", error=BodyError)
     if slenderness >= math.pi / 2:
-        raise BodyError(f"the slenderness must be below pi/2 rad, found {slenderness}")
+        raise BodyError("the slenderness must be below pi/2 rad, found {found}", found=slenderness)
     radius = 3 * gravity / (4 * frequency_parameter**2)
     return Block(2 * radius * math.sin(slenderness), 2 * radius * math.cos(slenderness))
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass
 
+from seisblock import checks
 from seisblock.errors import ParameterError
 from seisblock.units import parse_length
 
@@ -41,8 +41,7 @@ class Inset:
 
     def __post_init__(self) -> None:
         for value in (self.length_m, self.share):
-            if not (math.isfinite(value) and value >= 0.0):
-                raise ParameterError(f"an inset, how far in from each side a block turns, must be zero or positive, found {value:g}")
+            checks.not_negative("an inset, how far in from each side a block turns,", value)
 
     def of(self, width: float) -> float:
         """Return the inset of a base of this width (m) per side, m; refused where nothing would be left to stand on."""

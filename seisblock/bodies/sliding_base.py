@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from seisblock import checks
 from seisblock.errors import ParameterError
 
 
@@ -38,26 +39,25 @@ class SlidingBase:
     one_way: bool = False
 
     def __post_init__(self) -> None:
-        _finite("mu, the static friction coefficient,", self.mu)
-        _finite("the kinetic friction coefficient", self.kinetic)
-        _finite("the slope", self.slope_deg)
-        if self.mu <= 0.0:
-            raise ParameterError(f"mu, the static friction coefficient, must be positive, found {self.mu:g}")
+        checks.positive("mu, the static friction coefficient,", self.mu)
+        checks.finite("the kinetic friction coefficient", self.kinetic)
+        checks.within("the slope", self.slope_deg, "(-90, 90)", "degrees")
         if not 0.0 <= self.kinetic <= self.mu:
             raise ParameterError(
-                f"the kinetic friction coefficient must lie between 0 and mu = {self.mu:g} (kappa between 0 and 1), found {self.kinetic:g}"
+                "the kinetic friction coefficient must lie between 0 and mu = {mu:g} (kappa between 0 and 1), found {found:g}",
+                mu=self.mu,
+                found=self.kinetic,
             )
-        if not -90.0 < self.slope_deg < 90.0:
-            raise ParameterError(f"the slope must lie between -90 and 90 degrees, found {self.slope_deg:g}")
         if not holds_at_rest(self.mu, self.slope_deg):
             raise ParameterError(
-                f"a slope of {self.slope_deg:g} degrees is steeper than mu = {self.mu:g} holds at rest "
-                f"({math.degrees(math.atan(self.mu)):.2f} degrees): the object slides under gravity alone, without any shaking"
+                "a slope of {slope:g} degrees is steeper than mu = {mu:g} holds at rest ({steepest:.2f} degrees): "
+                "the object slides under gravity alone, without any shaking",
+                slope=self.slope_deg,
+                mu=self.mu,
+                steepest=math.degrees(math.atan(self.mu)),
             )
         if self.slope_length is not None:
-            _finite("the slope's length", self.slope_length)
-            if self.slope_length <= 0.0:
-                raise ParameterError(f"the slope's length must be positive, found {self.slope_length:g} m")
+            checks.positive("the slope's length", self.slope_length, "m")
             if self.slope_deg == 0.0:
                 raise ParameterError("a slope's length needs a slope: give its angle, which is 0 degrees here")
         if self.one_way and self.slope_deg < 0.0:
@@ -108,14 +108,5 @@ def sliding_base(
     if mu_kinetic is not None and kappa is not None:
         raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
     if kappa is not None:
-        _finite("kappa", kappa)
-        if not 0.0 < kappa <= 1.0:
-            raise ParameterError(f"kappa, kinetic over static friction, must lie in 0 < kappa <= 1, found {kappa:g}")
-        mu_kinetic = kappa * mu
+        mu_kinetic = checks.within("kappa, kinetic over static friction,", kappa, "(0, 1]") * mu
     return SlidingBase(mu, mu_kinetic, slope_deg, slope_length, one_way)
-
-
-def _finite(what: str, value: float) -> None:
-    """Refuse what is no finite number."""
-    if not math.isfinite(value):
-        raise ParameterError(f"{what} must be a finite number, found {value}")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.errors import BodyError
 from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
@@ -61,15 +62,19 @@ class SpringBlock:
     damping: float = 0.05
 
     def __post_init__(self) -> None:
-        for name, unit in (("width", "m"), ("depth", "m"), ("height", "m"), ("mass", "kg")):
-            _require_positive(getattr(self, name), f"{name} of the block", unit)
+        checks.positive("width of the block", self.width, "m", error=BodyError)
+        checks.positive("depth of the block", self.depth, "m", error=BodyError)
+        checks.positive("height of the block", self.height, "m", error=BodyError)
+        checks.positive("mass of the block", self.mass, "kg", error=BodyError)
         if len(self.stiffness) != 3:
-            raise BodyError(f"stiffness takes three numbers, kx, ky and kz in N/m per corner; found {len(self.stiffness)}")
+            raise BodyError("stiffness takes three numbers, kx, ky and kz in N/m per corner; found {count}", count=len(self.stiffness))
         for axis, value in zip("xyz", self.stiffness, strict=True):
-            _require_positive(value, f"stiffness k{axis} of a corner", "N/m")
+            checks.positive("stiffness k{axis} of a corner", value, "N/m", error=BodyError, axis=axis)
         object.__setattr__(self, "stiffness", tuple(float(k) for k in self.stiffness))
         if not 0.0 <= self.damping < 1.0:
-            raise BodyError(f"the damping ratio must lie in [0, 1), found {self.damping}: give a fraction, for example 0.05 for 5 %")
+            raise BodyError(
+                "the damping ratio must lie in [0, 1), found {found}: give a fraction, for example 0.05 for 5 %", found=self.damping
+            )
 
     @classmethod
     def from_frequency(
@@ -84,9 +89,9 @@ class SpringBlock:
         damping: float = 0.05,
     ) -> SpringBlock:
         """Return the block whose vertical frequency is omega_V / 2 pi, Hz, and whose horizontal one is beta times that."""
-        _require_positive(frequency_vertical, "vertical frequency", "Hz")
-        _require_positive(beta, "beta, the ratio of horizontal to vertical frequency,", "")
-        _require_positive(mass, "mass of the block", "kg")
+        checks.positive("vertical frequency", frequency_vertical, "Hz", error=BodyError)
+        checks.positive("beta, the ratio of horizontal to vertical frequency,", beta, error=BodyError)
+        checks.positive("mass of the block", mass, "kg", error=BodyError)
         vertical = mass * (2.0 * math.pi * frequency_vertical) ** 2 / 4.0
         return cls(width, depth, height, mass, (beta**2 * vertical, beta**2 * vertical, vertical), damping)
 
@@ -103,8 +108,8 @@ class SpringBlock:
         damping: float = 0.05,
     ) -> SpringBlock:
         """Return the block of the paper's ratios alpha = H/b, gamma = a/b and beta ([Okumura1987]_ section 2)."""
-        _require_positive(alpha, "alpha, height over depth,", "")
-        _require_positive(gamma, "gamma, width over depth,", "")
+        checks.positive("alpha, height over depth,", alpha, error=BodyError)
+        checks.positive("gamma, width over depth,", gamma, error=BodyError)
         return cls.from_frequency(
             gamma * depth, depth, alpha * depth, frequency_vertical=frequency_vertical, beta=beta, mass=mass, damping=damping
         )
@@ -187,9 +192,3 @@ def _sum_over_corners(body: SpringBlock, coefficients: list[float]) -> FloatArra
     rows = corner_rows(body)
     total: FloatArray = np.einsum("ndi,d,ndj->ij", rows, np.array(coefficients) / 4.0, rows)
     return total
-
-
-def _require_positive(value: float, what: str, unit: str) -> None:
-    """Refuse what is not a positive finite number."""
-    if not (value > 0.0 and math.isfinite(value)):
-        raise BodyError(f"{what} must be positive, found {value} {unit}".rstrip())

@@ -86,9 +86,9 @@ def subject(
         name = block.name
         if table["kind"] == "two-layer":
             layers, found = two_layer_block(table, side), contact(table)
-            own = Contact(**found) if len(found) == 4 else None
+            own = Contact(**found) if "mu" in found else None
     static = mu if mu is not None else (own.mu if own else None)
-    kinetic = mu_kinetic if mu_kinetic is not None else (own.mu_kinetic if own and mu is None else static)
+    kinetic = mu_kinetic if mu_kinetic is not None else (own.kinetic if own and mu is None else static)
     return Subject(name, block, own_restitution, layers if own else None, own, _on_springs(block, frequency_vertical), static, kinetic)
 
 

@@ -8,9 +8,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from seisblock import checks
 from seisblock.bodies.toml import length, lengths, masses, of_kind, read_table
-from seisblock.errors import BodyError
+from seisblock.errors import BodyError, ParameterError
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import said
+
+_POSITIVE = {
+    "width": (said("width"), "m"),
+    "depth": (said("depth"), "m"),
+    "upper_height": (said("upper height"), "m"),
+    "lower_height": (said("lower height"), "m"),
+    "upper_mass": (said("upper mass"), "kg"),
+    "lower_mass": (said("lower mass"), "kg"),
+}
 
 
 @dataclass(frozen=True)
@@ -42,10 +53,8 @@ class TwoLayerBlock:
     name: str = "two-layer block"
 
     def __post_init__(self) -> None:
-        for key in ("width", "depth", "upper_height", "lower_height", "upper_mass", "lower_mass"):
-            value = getattr(self, key)
-            if not (math.isfinite(value) and value > 0.0):
-                raise BodyError(f"{self.name}: {key.replace('_', ' ')} must be positive, found {value}")
+        for key, (what, unit) in _POSITIVE.items():
+            checks.positive("{name}: {what}", getattr(self, key), unit, error=BodyError, name=self.name, what=what)
 
     @property
     def height(self) -> float:
@@ -110,16 +119,44 @@ class Contact:
 
     Parameters
     ----------
-    mu, mu_kinetic : float
-        Coefficients of static and kinetic friction.
+    mu : float
+        Coefficient of static friction, zero or more.
+    mu_kinetic : float or None
+        Coefficient of kinetic friction, 0 to `mu`; as `mu` when left out.
     restitution_x, restitution_y : float
-        Ratios of velocities at the impact, horizontal and vertical ([Sugimoto2017]_ eq. (6)).
+        Ratios of velocities at the impact, horizontal and vertical, 0 to 1 ([Sugimoto2017]_ eq. (6)); when left out those that
+        [Sugimoto2017]_ section 4 takes from impacts of a plastic on steel.
+
+    Raises
+    ------
+    ParameterError
+        If a coefficient lies outside its range.
+
+    Examples
+    --------
+    >>> Contact(mu=0.18).kinetic
+    0.18
     """
 
     mu: float
-    mu_kinetic: float
-    restitution_x: float
-    restitution_y: float
+    mu_kinetic: float | None = None
+    restitution_x: float = 0.95
+    restitution_y: float = 0.85
+
+    def __post_init__(self) -> None:
+        checks.not_negative("mu, the static friction coefficient,", self.mu)
+        checks.not_negative("the kinetic friction coefficient", self.kinetic)
+        checks.fraction("restitution x", self.restitution_x)
+        checks.fraction("restitution y", self.restitution_y)
+        if self.kinetic > self.mu:
+            raise ParameterError(
+                "kinetic friction {kinetic:g} must not exceed static friction {static:g}", kinetic=self.kinetic, static=self.mu
+            )
+
+    @property
+    def kinetic(self) -> float:
+        """Coefficient of kinetic friction, given or the static one."""
+        return self.mu if self.mu_kinetic is None else self.mu_kinetic
 
 
 def two_layer_block(table: Mapping[str, Any], side: str = "short") -> TwoLayerBlock:

@@ -216,7 +216,7 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     moves, document = _moving_object(source, asked)
     curves: list[tuple[Any, Any]] = []
     # a jump goes on beyond the window in which it may start
-    for record in load(source, several_windows=asked["jumped"] is not None):
+    for record in load(source, whole=asked["jumped"] is not None):
         for motion in motions(record, source):
             displacement = moves(motion)
             with progress(f"{motion.name}: factors up to {asked['limit']:g}") as tell:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from seisblock.cli.options import Source
-from seisblock.cli.talk import say
+from seisblock.cli.talk import say, warn
 from seisblock.errors import ComponentError, ParameterError
-from seisblock.records import Motion, Record, motion_of
+from seisblock.records import Motion, Preparation, Record, motion_of
 
 
-def load(source: Source, *, vertical_counts: bool = False, several_windows: bool = False) -> list[Record]:
+def load(source: Source, *, vertical_counts: bool = False, whole: bool = False) -> list[Record]:
     """Read the records a command was given and prepare them as its options ask.
 
     Parameters
@@ -19,47 +19,37 @@ def load(source: Source, *, vertical_counts: bool = False, several_windows: bool
         The record options.
     vertical_counts : bool
         Whether the vertical component is among those a command looks at by default.
-    several_windows : bool
-        Whether the command cuts its windows itself, with :func:`windows`.
+    whole : bool
+        Whether the record stays whole, because its windows are the solver's.
     """
-    if len(source.window) > 1 and not several_windows:
-        raise ParameterError(f"this command takes one --window, found {len(source.window)}")
+    if len(source.window) > 1 and not whole:
+        raise ParameterError("this command takes one --window, found {count}", count=len(source.window))
     from seisblock.readers import DEFAULT_SAMPLE, read_all
 
     names: tuple[str, ...] = source.record
     if not names:
         names = (DEFAULT_SAMPLE,)
-        say(f"no RECORD given: using the bundled sample {DEFAULT_SAMPLE} (synthetic)")
+        say("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
     records = read_all(names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level)
-    prepared = [prepare(record, source, vertical_counts=vertical_counts) for record in records]
-    return prepared if several_windows else [cut for record in prepared for cut in windows(record, source)]
+    return [_prepared(record, source, vertical_counts=vertical_counts, whole=whole) for record in records]
 
 
-def prepare(record: Record, source: Source, *, vertical_counts: bool = False) -> Record:
-    """Apply demean, high-pass and scale, in this order, each logged in the record's history."""
-    from seisblock.records import process
-
+def _prepared(record: Record, source: Source, *, vertical_counts: bool, whole: bool) -> Record:
+    """Return a record that went through the steps asked for, and say them."""
     for message in record.metadata.get("warnings", ()):  # type: ignore[attr-defined]
-        say(f"warning: {message}")
-    if source.demean or (source.demean is None and record.metadata.get("carries_offset")):
-        record = process.demean(record)
-    if source.highpass is not None:
-        record = process.highpass(record, source.highpass)
-    if source.scale is not None:
-        record = process.scale(record, source.scale)
-    if source.target_pga is not None:
-        chosen = components(record, source, vertical_counts=vertical_counts)
-        record = process.scale_to_pga(record, source.target_pga / 100.0, chosen)
+        warn(message)
+    preparation = Preparation(
+        demean=source.demean,
+        highpass_hz=source.highpass,
+        scale=1.0 if source.scale is None else source.scale,
+        target_pga=None if source.target_pga is None else source.target_pga / 100.0,
+        components=() if source.target_pga is None else components(record, source, vertical_counts=vertical_counts),
+        window=source.window[0] if source.window and not whole else None,
+    )
+    record = preparation.apply(record)
     for line in record.history:
-        say(f"{record.station or record.source}: {line}")
+        say("{record}: {did}", record=record.station or record.source, did=line)
     return record
-
-
-def windows(record: Record, source: Source) -> list[Record]:
-    """Return the record cut to each window asked for, or whole."""
-    from seisblock.records import process
-
-    return [process.crop(record, first, last) for first, last in source.window] or [record]
 
 
 def components(record: Record, source: Source, *, vertical_counts: bool = False) -> tuple[str, ...]:
@@ -68,7 +58,7 @@ def components(record: Record, source: Source, *, vertical_counts: bool = False)
     asked = source.component
     if not asked or any(name.lower() == "all" for name in asked):
         if not every:
-            raise ComponentError(f"{record.source}: no horizontal component; it has {', '.join(record.codes)}")
+            raise ComponentError("{source}: no horizontal component; it has {codes}", source=record.source, codes=record.codes)
         return every
     return asked
 

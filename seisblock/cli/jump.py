@@ -35,9 +35,9 @@ DEFAULT_BLOCK = "chozusha"
 @option("--heights", type=LENGTHS, metavar="H1,H2", section="Body", help="Heights of the upper and the lower layer, m or with units.")
 @option("--masses", type=MASSES, metavar="M1,M2", section="Body", help="Masses of the upper and the lower layer, kg or with units.")
 @option("--mu", type=float, help="Static friction of the landed foot, 1. [default: the body's own, else required]")
-@option("--mu-kinetic", type=float, help="Kinetic friction, 1. [default: as --mu]")
-@option("--restitution-x", type=float, help="Ratio of horizontal velocities at the impact, 0 to 1. [default: as --mu]")
-@option("--restitution-y", type=float, help="Ratio of vertical velocities at the impact, 0 to 1. [default: as --mu]")
+@option("--mu-kinetic", type=float, help="Kinetic friction, 1. [default: the body's own, else as --mu]")
+@option("--restitution-x", type=float, help="Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]")
+@option("--restitution-y", type=float, help="Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]")
 @option("--drop", type=LENGTH, default=0.0, help="Height of the floor above the ground on which it lands, m or with a unit. [default: 0]")
 @option(
     "--spin",
@@ -84,7 +84,7 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **as
     options = {key: asked[key] for key in ("drop", "spin", "direction", "landing", "first", "gravity")}
     responses = [
         solve_jump(chosen.block, motion, contact=chosen.contact, windows=source.window, **options)
-        for record in load(source, several_windows=True)
+        for record in load(source, whole=True)
         for motion in motions(record, source)
     ]
     emit(

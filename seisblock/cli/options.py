@@ -11,9 +11,11 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
+from seisblock import checks
 from seisblock.cli.command import option
 from seisblock.cli.talk import quietly
 from seisblock.cli.types import WINDOW
+from seisblock.errors import ParameterError
 from seisblock.units import STANDARD_GRAVITY
 
 Function = Callable[..., Any]
@@ -50,18 +52,19 @@ class Output:
     quiet: bool
 
 
-def _positive(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
-    """Refuse what is not a positive number."""
-    if value is not None and not 0.0 < value < float("inf"):
-        raise click.BadParameter(f"must be a positive number, found {value}", ctx, param)
-    return value
+def checked(check: Callable[[str, float], float]) -> Callable[[click.Context, click.Parameter, float | None], float | None]:
+    """Return a callback that refuses what a check of :mod:`seisblock.checks` does."""
+
+    def refuse(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
+        try:
+            return None if value is None else check("it", value)
+        except ParameterError as error:
+            raise click.BadParameter(error.said, ctx, param) from None
+
+    return refuse
 
 
-def _finite(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
-    """Refuse what is not a finite number."""
-    if value is not None and not abs(value) < float("inf"):
-        raise click.BadParameter(f"must be a finite number, found {value}", ctx, param)
-    return value
+_positive, _finite = checked(checks.positive), checked(checks.finite)
 
 
 def _components(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...]:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from seisblock import checks
 from seisblock.bodies.inset import HALF, WORN, Inset
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
-from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Output, Source, checked, gravity_option, output_options, record_options
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, INSET, LENGTH
@@ -33,13 +35,6 @@ def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
     except ValueError as error:
         raise click.BadParameter(f"{value!r} is not P,Q,R in gal, Hz and 1, for example 826.8,1.92,4.6", ctx, param) from error
     return p, q, r
-
-
-def _share(ctx: click.Context, param: click.Parameter, value: float) -> float:
-    """Refuse a level that is none."""
-    if not 0.0 < value < 1.0:
-        raise click.BadParameter(f"must lie between 0 and 1, found {value}", ctx, param)
-    return value
 
 
 @click.command(
@@ -103,7 +98,14 @@ def _share(ctx: click.Context, param: click.Parameter, value: float) -> float:
 @option(
     "--fit-reinforced", callback=_fit, metavar="P,Q,R", help="furukawa: own parameters with a dowel, gal, Hz, 1. [default: 1162.9,1.84,4.5]"
 )
-@option("--confidence", type=float, default=0.95, show_default=True, callback=_share, help="Level of the interval of a rate.")
+@option(
+    "--confidence",
+    type=float,
+    default=0.95,
+    show_default=True,
+    callback=checked(partial(checks.within, interval="(0, 1)")),
+    help="Level of the interval of a rate.",
+)
 @gravity_option
 @output_options
 def overturn_rate(

@@ -15,14 +15,16 @@ FAILED = 1
 @click.command(cls=Command, examples=("seisblock validate", "seisblock validate --paper Sugimoto2017 --html evidence.html"))
 @option("--paper", metavar="KEY", multiple=True, help="Only this paper, by its key or the beginning of it; may be repeated. [default: all]")
 @option("--quick", is_flag=True, help="Leave out the cases that take more than a moment.")
+@option("--all", "every", is_flag=True, section="Output", help="List the cases that hold, too, not only those that differ.")
 @option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
 @option("--html", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Write the gallery: one page.")
 @option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
 @click.pass_context
-def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, as_json: bool, html: Path | None, quiet: bool) -> None:
-    """Compute every number the papers print and compare; what differs comes first, with its reason.
+def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: bool, as_json: bool, html: Path | None, quiet: bool) -> None:
+    """Compute every number the papers print and compare: what differs, with its reason, and what each kind of evidence comes to.
 
-    Exits with 1 when a case that should agree does not. A case that is said to differ and suddenly agrees counts as one.
+    Exits with 1 when a case that should agree does not. A case that is said to differ and agrees, or differs by another amount than
+    was explained, counts as one.
     """
     from seisblock.cli.progress import progress
     from seisblock.present.text import validate as shown
@@ -51,7 +53,7 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, as_json: b
         from seisblock.present.text.tables import console
 
         screen = console()
-        for part in shown.tables(results):
+        for part in shown.tables(results, every=every):
             screen.print(part)
     if counts(results)["fails"]:
         ctx.exit(FAILED)

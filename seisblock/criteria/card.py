@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, GravestoneFit, overturning_pga
 from seisblock.criteria.overturning import (
@@ -18,7 +19,6 @@ from seisblock.criteria.overturning import (
     velocity_step,
 )
 from seisblock.criteria.pulses import half_sine_acceleration, half_sine_ratio, one_sine_ratio, rectangular_ratio
-from seisblock.errors import ParameterError
 from seisblock.units import STANDARD_GRAVITY
 
 ACCELERATION, VELOCITY = "m/s^2", "m/s"
@@ -81,9 +81,8 @@ def overturning_card(
     ParameterError
         If a peak is negative or not a number.
     """
-    for name, value in (("PGA", pga), ("PGV", pgv)):
-        if not (math.isfinite(value) and value >= 0.0):
-            raise ParameterError(f"the {name} must be zero or positive, found {value}")
+    checks.not_negative("the PGA", pga, "m/s^2")
+    checks.not_negative("the PGV", pgv, "m/s")
     width, height = 2 * min(block.arms), 2 * block.centre
     alpha, p = block.slenderness, block.frequency_parameter(gravity)
     rows = [

@@ -6,12 +6,12 @@ record, f is its equivalent frequency PGA/(2 pi PGV). Fitted for 0.5 to 3 Hz, H/
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.errors import ParameterError
 from seisblock.typing import ArrayLike, BoolArray, FloatArray
 from seisblock.units import GAL
@@ -66,9 +66,7 @@ class GravestoneFit:
 
     def __post_init__(self) -> None:
         for key in ("p_m_s2", "q_hz", "r"):
-            value = getattr(self, key)
-            if not (math.isfinite(value) and value > 0.0):
-                raise ParameterError(f"{key} of the gravestone criterion must be positive, found {value}")
+            checks.positive("{key} of the gravestone criterion", getattr(self, key), key=key)
 
 
 PLAIN = GravestoneFit(8.268, 1.92, 4.6, "plain")

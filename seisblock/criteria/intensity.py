@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from seisblock.errors import ParameterError
+from seisblock import checks
 from seisblock.units import KINE
 
 SCATTER = 0.21
@@ -38,6 +38,5 @@ def intensity_from_velocity(pgv: float) -> float:
     >>> round(intensity_from_velocity(0.5), 2)
     5.6
     """
-    if not (math.isfinite(pgv) and pgv > 0.0):
-        raise ParameterError(f"the peak velocity must be positive, found {pgv} m/s")
+    checks.positive("the peak velocity", pgv, "m/s")
     return 2.68 + 1.72 * math.log10(pgv / KINE)

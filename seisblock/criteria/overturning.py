@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+from seisblock import checks
 from seisblock.errors import ParameterError
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
 
 
 def static_acceleration(width: float, height: float, gravity: float = STANDARD_GRAVITY) -> float:
@@ -188,6 +190,17 @@ def ishiyama_velocity(width: float, height: float) -> float:
     return width / math.sqrt(height)
 
 
+_QUANTITIES = {
+    "width": (noted("the width"), "m"),
+    "height": (noted("the height"), "m"),
+    "slenderness": (noted("the slenderness"), "rad"),
+    "frequency_parameter": (noted("the frequency parameter"), "rad/s"),
+    "frequency": (noted("the frequency"), "Hz"),
+    "acceleration": (noted("the acceleration"), "m/s^2"),
+    "gravity": (noted("gravity"), "m/s^2"),
+}
+
+
 def _sizes(width: float, height: float, gravity: float) -> None:
     """Refuse sizes and a gravity that are not positive."""
     _all_positive(width=width, height=height, gravity=gravity)
@@ -196,5 +209,5 @@ def _sizes(width: float, height: float, gravity: float) -> None:
 def _all_positive(**values: float) -> None:
     """Refuse what is not a positive number."""
     for name, value in values.items():
-        if not (math.isfinite(value) and value > 0.0):
-            raise ParameterError(f"the {name.replace('_', ' ')} must be positive, found {value}")
+        what, unit = _QUANTITIES[name]
+        checks.positive(what, value, unit)

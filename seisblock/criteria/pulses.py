@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from seisblock import checks
 from seisblock.errors import ParameterError
 from seisblock.units import STANDARD_GRAVITY
 
@@ -45,7 +46,7 @@ def half_sine_ratio(w: float) -> float:
     >>> [round(half_sine_ratio(w), 4) for w in (1, 2, 5)]
     [1.3224, 1.8007, 3.2891]
     """
-    return _root(_positive(w, "W = omega/p"), math.pi, 1.0)
+    return _root(checks.positive("W = omega/p", w), math.pi, 1.0)
 
 
 def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequency: float, gravity: float = STANDARD_GRAVITY) -> float:
@@ -82,8 +83,8 @@ def half_sine_acceleration(slenderness: float, frequency_parameter: float, frequ
     from scipy.integrate import solve_ivp
     from scipy.optimize import brentq
 
-    alpha, p = _positive(slenderness, "the slenderness"), _positive(frequency_parameter, "the frequency parameter")
-    omega, g = 2 * math.pi * _positive(frequency, "the frequency"), _positive(gravity, "gravity")
+    alpha, p = checks.positive("the slenderness", slenderness), checks.positive("the frequency parameter", frequency_parameter)
+    omega, g = 2 * math.pi * checks.positive("the frequency", frequency), checks.gravity(gravity)
     if alpha >= math.pi / 2:
         raise ParameterError("the slenderness must be below pi/2 rad, found {value}", value=alpha)
 
@@ -126,7 +127,7 @@ def one_sine_ratio(w: float) -> float:
     >>> round(one_sine_ratio(5), 5)
     7.16813
     """
-    return _root(_positive(w, "W = omega/p"), 2 * math.pi, -1.0)
+    return _root(checks.positive("W = omega/p", w), 2 * math.pi, -1.0)
 
 
 def rectangular_ratio(duration: float, frequency_parameter: float) -> float:
@@ -149,7 +150,7 @@ def rectangular_ratio(duration: float, frequency_parameter: float) -> float:
     >>> round(rectangular_ratio(0.5, 2.0), 6)
     1.581977
     """
-    p_t = _positive(duration, "the duration") * _positive(frequency_parameter, "the frequency parameter")
+    p_t = checks.positive("the duration", duration) * checks.positive("the frequency parameter", frequency_parameter)
     return -1.0 / math.expm1(-p_t)
 
 
@@ -165,10 +166,3 @@ def _root(w: float, end: float, sign: float) -> float:
     while surplus(high) <= 0.0:
         low, high = high, 2.0 * high
     return float(brentq(surplus, low, high, xtol=1e-14, rtol=1e-14))
-
-
-def _positive(value: float, what: str) -> float:
-    """Return a positive number, or refuse it."""
-    if not (math.isfinite(value) and value > 0.0):
-        raise ParameterError(f"{what} must be positive, found {value}")
-    return value

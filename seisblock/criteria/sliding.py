@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from seisblock.errors import ParameterError
+from seisblock import checks
 from seisblock.typing import ArrayLike, FloatArray
 from seisblock.units import STANDARD_GRAVITY
 
@@ -99,8 +99,7 @@ def friction_that_stops(slope_deg: float, kappa: float) -> float:
     >>> round(friction_that_stops(20.0, 0.5), 4)
     0.7279
     """
-    if not kappa > 0.0:
-        raise ParameterError(f"kappa, kinetic over static friction, must be positive, found {kappa:g}")
+    checks.positive("kappa, kinetic over static friction,", kappa)
     return math.tan(math.radians(slope_deg)) / kappa
 
 
@@ -158,10 +157,8 @@ def pulse_slip(acceleration: float, duration: float, yield_acceleration: float) 
     >>> round(pulse_slip(4.0, 1.0, 1.96133), 6)
     2.078865
     """
-    if not (yield_acceleration > 0.0 and duration >= 0.0):
-        raise ParameterError(
-            f"the yield acceleration must be positive and the duration not negative, found {yield_acceleration:g} m/s^2, {duration:g} s"
-        )
+    checks.positive("the yield acceleration", yield_acceleration, "m/s^2")
+    checks.not_negative("the duration", duration, "s")
     excess = max(acceleration - yield_acceleration, 0.0)
     return acceleration * excess * duration**2 / (2.0 * yield_acceleration)
 
@@ -202,8 +199,8 @@ def steady_slip(amplitude: float, frequency: float, mu: float, *, kappa: float =
     >>> steady_slip(4.0, 1.0, 0.25) is None
     True
     """
-    if not (amplitude > 0.0 and frequency > 0.0):
-        raise ParameterError(f"amplitude and frequency must be positive, found {amplitude:g} m/s^2 and {frequency:g} Hz")
+    checks.positive("the amplitude", amplitude, "m/s^2")
+    checks.positive("the frequency", frequency, "Hz")
     remainder = 1.0 - (math.pi * kappa * mu * gravity / (2.0 * amplitude)) ** 2
     if remainder < 0.0 or math.sqrt(remainder) * amplitude < mu * gravity:
         return None

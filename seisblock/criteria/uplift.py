@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.spring_block import CORNERS
 from seisblock.errors import ParameterError
 from seisblock.typing import ArrayLike, FloatArray
@@ -79,9 +80,8 @@ def square_base_modes(alpha: float, beta: float) -> SquareBaseModes:
     >>> round(square_base_modes(2.0, 3**0.5 / 2).c2, 12)
     1.732050807569
     """
-    for name, value in (("alpha", alpha), ("beta", beta)):
-        if not (value > 0.0 and math.isfinite(value)):
-            raise ParameterError(f"{name} must be positive, found {value}")
+    checks.positive("alpha", alpha)
+    checks.positive("beta", beta)
     a2, b2 = alpha**2, beta**2
     s = 4.0 * a2 * b2 + b2 + 3.0
     root = math.sqrt(16.0 * a2**2 * b2**2 + b2**2 + 8.0 * a2 * b2**2 + 12.0 * a2 * b2 - 6.0 * b2 + 9.0)

@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.errors import ParameterError
 from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
@@ -53,8 +54,8 @@ def block_threshold(width: float, height: float, *, gravity: float = STANDARD_GR
     ParameterError
         If a size is not positive.
     """
-    if not (np.isfinite(width) and np.isfinite(height) and width > 0 and height > 0):
-        raise ParameterError(f"the sizes of a block must be positive, found width {width:g} m and height {height:g} m")
+    checks.positive("width of the block", width, "m")
+    checks.positive("height of the block", height, "m")
     return gravity * width / height
 
 
@@ -85,8 +86,7 @@ def stretches_above(acceleration: FloatArray, dt: float, threshold: float, *, si
     ParameterError
         If the threshold is not positive.
     """
-    if not (np.isfinite(threshold) and threshold > 0):
-        raise ParameterError(f"the threshold must be positive, found {threshold} m/s^2")
+    checks.positive("the threshold", threshold, "m/s^2")
     signs = {"both": (1.0, -1.0), "positive": (1.0,), "negative": (-1.0,)}.get(side)
     if signs is None:
         raise ParameterError(f"side must be both, positive or negative, found {side!r}")

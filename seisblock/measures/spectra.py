@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.errors import ParameterError
 from seisblock.typing import ArrayLike, FloatArray
 
@@ -83,8 +84,7 @@ def response_spectrum(
     wanted = default_periods() if periods is None else np.atleast_1d(np.asarray(periods, dtype=np.float64))
     if not (np.isfinite(wanted).all() and (wanted > 0).all()):
         raise ParameterError("the periods of a response spectrum must be positive")
-    if not 0 <= damping < 1:
-        raise ParameterError(f"the damping ratio must lie in [0, 1), found {damping}")
+    checks.within("the damping ratio", damping, "[0, 1)")
     refined: dict[int, FloatArray] = {1: acceleration}
     peaks = np.empty((3, wanted.size))
     for column, period in enumerate(wanted):
@@ -122,8 +122,7 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     ParameterError
         If the bandwidth is not positive.
     """
-    if not (np.isfinite(smoothing_hz) and smoothing_hz > 0):
-        raise ParameterError(f"the smoothing bandwidth must be positive, found {smoothing_hz} Hz")
+    checks.positive("the smoothing bandwidth", smoothing_hz, "Hz")
     n = acceleration.size
     longest_lag = _PARZEN_LAG / smoothing_hz
     size = 1 << math.ceil(math.log2(max(2 * n, 8.0 * longest_lag / dt)))

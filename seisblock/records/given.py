@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, TypeAlias
 
-from seisblock.errors import ComponentError, KindError, ParameterError
+from seisblock import checks
+from seisblock.errors import ComponentError, KindError
 from seisblock.records.motion import Motion
 from seisblock.records.record import Record
 
@@ -51,9 +51,7 @@ def vertical_gain(motion: Motion, vertical: Factor, *, needed: bool = True) -> f
     ComponentError
         If the motion's record has no vertical component.
     """
-    gain = float(vertical)
-    if not math.isfinite(gain):
-        raise ParameterError(f"the factor on the vertical motion must be a finite number, found {vertical}")
+    gain = checks.finite("the factor on the vertical motion", float(vertical))
     if needed and gain != 0.0 and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(
             f"{motion.record.source or 'record'}: no vertical component; it has {', '.join(motion.record.codes)}: "

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.records.record import Component, Record, frozen
 from seisblock.typing import ArrayLike, FloatArray
@@ -44,8 +45,7 @@ class Motion:
             raise ParameterError(f"a motion has three rows (along, across, up), found shape {self.acceleration.shape}")
         if self.acceleration.shape[1] < 2:
             raise ParameterError(f"a motion needs at least 2 samples, found {self.acceleration.shape[1]}")
-        if not (np.isfinite(self.dt) and self.dt > 0):
-            raise ParameterError(f"the sampling interval must be positive, found {self.dt} s")
+        checks.positive("the sampling interval", self.dt, "s")
         if not np.isfinite(self.acceleration).all():
             raise ParameterError("a motion must hold finite numbers only")
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.errors import ComponentError, ParameterError, RecordError
 from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.motion import _oriented_pair, _resolve
@@ -86,8 +87,7 @@ def scale(record: Record, factor: float) -> Record:
     ParameterError
         If the factor is not a finite number.
     """
-    if not np.isfinite(factor):
-        raise ParameterError(f"the scale factor must be a finite number, found {factor}")
+    checks.finite("the scale factor", factor)
     return _apply(record, lambda c: c.acceleration * factor, f"scaled by {factor:.10g}")
 
 
@@ -110,8 +110,7 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
     ComponentError
         If there is no such component.
     """
-    if not (np.isfinite(target) and target > 0):
-        raise ParameterError(f"the target PGA must be positive, found {target} m/s^2")
+    checks.positive("the target PGA", target, "m/s^2")
     if component is None:
         chosen, among = largest_horizontal(record), "the largest horizontal"
     else:

@@ -8,8 +8,10 @@ from datetime import datetime
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.errors import ComponentError, RecordError
 from seisblock.typing import ArrayLike, FloatArray
+from seisblock.words import said
 
 HORIZONTAL_AZIMUTHS = {"NS": 0.0, "EW": 90.0}
 """Azimuth, in degrees clockwise from north, of the positive direction of the two standard horizontals."""
@@ -98,8 +100,7 @@ class Record:
         where = f"{self.source or 'record'}: "
         if not self.components:
             raise RecordError(where + "there is no component in it")
-        if not (np.isfinite(self.dt) and self.dt > 0):
-            raise RecordError(where + f"the sampling interval must be positive, found {self.dt} s")
+        checks.positive("{source}: the sampling interval", self.dt, "s", error=RecordError, source=self.source or said("record"))
         lengths = {c.code: c.acceleration.size for c in self.components}
         if len(lengths) != len(self.components):
             raise RecordError(where + f"component codes repeat: {', '.join(c.code for c in self.components)}")
@@ -114,6 +115,11 @@ class Record:
                 raise RecordError(
                     where + f"component {component.code} holds {bad.size} samples that are not numbers, the first at index {bad[0]}"
                 )
+
+    @property
+    def carries_offset(self) -> bool:
+        """Whether its format's counts carry an offset, so that a mean is no motion of the ground."""
+        return bool(self.metadata.get("carries_offset"))
 
     @property
     def samples(self) -> int:

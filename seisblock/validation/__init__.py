@@ -16,6 +16,7 @@ PAPERS: tuple[str, ...] = (
     "housner",
     "furukawa_rocking",
     "furukawa",
+    "furukawa_field",
     "furukawa_pile",
 )
 """Modules of this package that export CASES."""

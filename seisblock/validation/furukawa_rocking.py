@@ -17,7 +17,7 @@ from seisblock.criteria.gravestones import overturning_level
 from seisblock.records import Motion
 from seisblock.solvers.rock.solve import rock_verdict
 from seisblock.units import SUN
-from seisblock.validation.case import Case
+from seisblock.validation.case import Case, same
 
 GRAVITY = 9.8
 WIDTH = 8 * SUN
@@ -29,6 +29,9 @@ AMPLITUDES = tuple(float(a) for a in range(1, 14))
 
 DURATION, STEP = 20.0, 0.005
 FREQUENCIES = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
+
+NEXT_VERDICT = 0.01
+"""Share by which a(f) may move where one of its verdicts, which are chaotic, falls otherwise on another machine."""
 
 
 def least_ratio(frequency: float, amplitude: float, inset: float) -> float | None:
@@ -68,10 +71,11 @@ CASES = (
         Case(
             f"furukawa-rocking-edges-{f:g}", "[Furukawa2009]_ fig. 6", f"a({f:g} Hz) of a rigid block that turns about its edges",
             "m/s^2", _expected(f), 0.10 * _expected(f), partial(rocking_level, f, 0.0), status="differs", quick=False,
+            today=same(today, NEXT_VERDICT * today),
             note="differs: a stone that turns about its edges resists 26 to 48 % more than eq. (9) says; the contact points of the discrete "
             "elements lie inside the edges, and the pile below moves",
         )
-        for f in FREQUENCIES
+        for f, today in zip(FREQUENCIES, (10.616413, 10.794164, 11.948047, 16.956284, 25.292126, 32.698110), strict=True)
     ),
 )  # fmt: skip
 """What plain rocking makes of eq. (9)."""

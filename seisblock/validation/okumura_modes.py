@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Literal
+from typing import Any
 
 import numpy as np
 
@@ -25,11 +25,10 @@ COUNT = 0.0
 
 
 def dimensionless(
-    key: str, locator: str, quantity: str, expected: float, tolerance: float, compute: Callable[[], float], **more: str
+    key: str, locator: str, quantity: str, expected: float, tolerance: float, compute: Callable[[], float], **more: Any
 ) -> Case:
-    """Return a dimensionless case of this paper."""
-    status: Literal["holds", "differs"] = "differs" if more.get("status") == "differs" else "holds"
-    return Case(f"okumura-{key}", f"[Okumura1987]_ {locator}", quantity, "1", expected, tolerance, compute, status, more.get("note", ""))
+    """Return a dimensionless case of this paper; `more` are the keywords of :class:`Case`."""
+    return Case(f"okumura-{key}", f"[Okumura1987]_ {locator}", quantity, "1", expected, tolerance, compute, **more)
 
 
 def steps_not_rising(values: FloatArray) -> float:

@@ -168,7 +168,7 @@ def test_files(run, survey):
         (("--cemetery", "aoyama.csv", "--rate", "5/4"), 3, "0 <= fallen <= stones"),
         (("--cemetery", "aoyama.csv", "--rate", "5/9", "record.csv"), 2, "stones need no RECORD"),
         (("--cemetery", "aoyama.csv", "--rate", "5/9", "--frequency", 0), 3, "frequency must be positive"),
-        (("--cemetery", "aoyama.csv", "--rate", "5/9", "--confidence", 90), 3, "between 0 and 1"),
+        (("--cemetery", "aoyama.csv", "--rate", "5/9", "--confidence", 90), 3, "lie in (0, 1)"),
         (("--cemetery", "aoyama.csv", "--rate", "5/9", "--common-error", 0), 3, "common error"),
         (("--cemetery", "odd.csv"), 3, "odd.csv, line 3: fallen must be 0, 1, yes, no, 転倒 or 残存, found '半壊'"),
         (("--slid", 0.1), 2, "--slid needs --mu"),

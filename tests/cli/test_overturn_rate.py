@@ -199,7 +199,7 @@ def test_warnings(run, words, message):
         (("--cemetery", "aoyama.csv", "--criterion", "simulate", "--inset", 1.2), 3, "inset"),
         (("--cemetery", "aoyama.csv", "--fit", "826.8,1.92"), 2, "is not P,Q,R"),
         (("--cemetery", "aoyama.csv", "--fit", "0,1,1"), 3, "must be positive"),
-        (("--cemetery", "aoyama.csv", "--confidence", 95), 2, "between 0 and 1"),
+        (("--cemetery", "aoyama.csv", "--confidence", 95), 2, "lie in (0, 1)"),
         (("--cemetery", "aoyama.csv", "nothing.csv"), 3, "nothing.csv"),
         (("--cemetery", "aoyama.csv", "zero.csv"), 3, "component NS has no equivalent frequency pga_pgv"),
     ],

@@ -20,26 +20,53 @@ def run(*arguments):
     return CliRunner().invoke(main, ["validate", *arguments])
 
 
-def broken(status="holds", note=""):
+def broken(status="holds", note="", today=None):
     """Return a case whose claim is not true of what it computes."""
-    computed = 1.0 if status == "differs" else 2.0
-    return Case("toy-1", "[Sugimoto2017]_ eq. (99)", "a quantity", "m", 1.0, 1e-6, lambda: computed, status, note)
+    computed = 1.0 if status == "differs" and today is None else 2.0
+    return Case("toy-1", "[Sugimoto2017]_ eq. (99)", "a quantity", "m", 1.0, 1e-6, lambda: computed, status, note, today=today)
 
 
-def test_every_case_reads_as_claimed_and_what_differs_comes_first():
-    """The document holds every case with paper, place, both values, error, tolerance and verdict; differing rows lead."""
+@pytest.fixture(autouse=True)
+def some_papers(monkeypatch):
+    """The evidence of three papers, which takes a moment; all of it is under test in ``tests/papers``."""
+    few = [*cases("sugimoto"), *cases("tsutsui"), *cases("furukawa_field")[:2]]
+    monkeypatch.setattr("seisblock.validation.cases", lambda paper=None: few)
+    return few
+
+
+def test_every_case_reads_as_claimed_and_what_differs_comes_first(some_papers):
+    """Every case stands in the document with both values, error, tolerance, kind and verdict; differing rows lead; counts add up."""
     answer = run("--json")
     document = json.loads(answer.stdout)
     assert answer.exit_code == 0
     assert document["schema"] == "seisblock/validate/1"
-    assert len(document["results"]) == len(cases())
+    assert len(document["results"]) == len(some_papers)
     verdicts = [result["verdict"] for result in document["results"]]
     assert verdicts == sorted(verdicts, key=("fails", "differs", "holds").index)
     assert document["counts"]["fails"] == 0 and document["counts"]["differs"] > 0
     for result in document["results"]:
         assert result["error"] == pytest.approx(result["computed"] - result["expected"])
         assert (abs(result["error"]) <= result["tolerance"]) == (result["verdict"] == "holds")
-        assert result["note"] or result["verdict"] == "holds"
+        assert result["verdict"] == "holds" or (result["note"] and result["today"] == pytest.approx(result["computed"], rel=1e-5))
+    of_kind = {kind: dict.fromkeys(("fails", "differs", "holds"), 0) for kind in ("computed", "rebuilt", "derived", "print")}
+    for result in document["results"]:
+        of_kind[result["kind"]][result["verdict"]] += 1
+    assert document["counts_by_kind"] == of_kind
+    assert all(sum(counted.values()) for counted in of_kind.values())
+
+
+def test_what_differs_is_listed_and_what_holds_is_counted():
+    """By default what differs with its reason, and four counts; --all lists the rest, labelled with what each is worth."""
+    short, whole = run("--paper", "Sugimoto2017").stdout, run("--paper", "Sugimoto2017", "--all").stdout
+    assert "What holds" not in short and "--all lists those that hold" in " ".join(short.split())
+    assert "case 9: impact" not in " ".join(short.split())
+    assert len(short.splitlines()) < 0.4 * len(whole.splitlines())
+    assert "What holds" in whole and "jump plus" in whole and "[print itself]" in whole.replace("\n", " ")
+    for text in (short, whole):
+        cells = [line.split()[-4:] for line in text.partition("The evidence")[2].splitlines() if line.strip().endswith(tuple("0123456789"))]
+        rows = [[int(cell) for cell in row] for row in cells]
+        assert len(rows) == 4 and all(row[0] == sum(row[1:]) for row in rows)
+        assert sum(row[0] for row in rows) == len(cases("sugimoto"))
 
 
 def test_lines_fit_eighty_columns_with_the_reasons_in_them():
@@ -52,13 +79,21 @@ def test_lines_fit_eighty_columns_with_the_reasons_in_them():
             assert f"why: {case.note}" in flat
 
 
-@pytest.mark.parametrize("case", [broken(), broken("differs", "a reason")], ids=["should hold", "should differ"])
-def test_a_claim_that_is_not_true_exits_with_one(case, monkeypatch):
-    """Exit 1 when a case that should hold does not, and when one that should differ does not."""
+@pytest.mark.parametrize(
+    ("case", "says"),
+    [
+        (broken(), "should agree and does not"),
+        (broken("differs", "a reason"), "is said to differ, and agrees"),
+        (broken("differs", "a reason", today=(2.5, 0.1)), "differs by another amount than was explained: 2.5 then"),
+    ],
+    ids=["should hold", "should differ", "should differ so much"],
+)
+def test_a_claim_that_is_not_true_exits_with_one(case, says, monkeypatch):
+    """Exit 1 when a case that should hold does not, when one that should differ does not, and when it differs by another amount."""
     monkeypatch.setattr("seisblock.validation.cases", lambda paper=None: [case])
     answer = run()
     assert answer.exit_code == 1
-    assert "should agree and does not" in answer.stdout and "1 fail" in answer.stdout
+    assert says in " ".join(answer.stdout.split()) and "1 fail" in answer.stdout
 
 
 def test_a_case_that_cannot_be_computed_fails_and_hides_no_other(monkeypatch):
@@ -79,8 +114,8 @@ def test_a_case_that_cannot_be_computed_fails_and_hides_no_other(monkeypatch):
 
 def test_a_paper_is_chosen_by_the_beginning_of_its_key():
     """--paper takes the key's beginning in any case; an unknown one is refused with the list."""
-    papers = {result["paper"] for result in json.loads(run("--json", "--paper", "okumura").stdout)["results"]}
-    assert papers == {"Okumura1987"}
+    papers = {result["paper"] for result in json.loads(run("--json", "--paper", "tsu").stdout)["results"]}
+    assert papers == {"Tsutsui"}
     refused = run("--paper", "Nobody1900")
     assert refused.exit_code == 3 and "Sugimoto2017" in refused.stderr
 
@@ -96,7 +131,7 @@ class _Links(HTMLParser):
         self.fetched += [value for name, value in attrs if name in ("src", "href") and not value.startswith(("#", "data:"))]
 
 
-def test_the_gallery_holds_every_statement_and_fetches_nothing(tmp_path):
+def test_the_gallery_holds_every_statement_and_fetches_nothing(some_papers, tmp_path):
     """The page is self-contained and shows each case's statement and its reason."""
     page = tmp_path / "gallery.html"
     answer = run("--html", str(page))
@@ -104,7 +139,8 @@ def test_the_gallery_holds_every_statement_and_fetches_nothing(tmp_path):
     links = _Links()
     links.feed(text)
     assert answer.exit_code == 0 and links.fetched == [] and "@import" not in text and "url(" not in text
-    assert text.count("<svg") > len(cases())
+    assert text.count("<svg") > len(some_papers)
+    assert "input rebuilt" in text and "the print checked against itself" in text
     assert "Largest difference" in text and "rocking-sliding lasts 1.5 to 1.7 times" in text
 
 

@@ -104,7 +104,7 @@ def chain(block, motion, contact, ratio, drop):
         if slip is None:
             a[3, 1] = 1.0
         else:
-            a[3] = [0.0, 0.0, 1.0, slip * contact.mu_kinetic]
+            a[3] = [0.0, 0.0, 1.0, slip * contact.kinetic]
         return np.linalg.solve(a, b)
 
     shake = np.interp(landing, ts, z)

@@ -25,7 +25,7 @@ RECORDS = {"el centro": EL_CENTRO, "sylmar": SYLMAR, "corralitos": CORRALITOS}
 def test_statement_of_the_paper(case: Case):
     """Every equation and every statement on figures holds, or differs as explained."""
     result = case.run()
-    assert result.verdict == case.status, f"{case.quantity}: expected {case.expected}, computed {result.computed}"
+    assert result.verdict == case.status, f"{case.quantity}: expected {result.expected}, computed {result.computed}"
 
 
 @pytest.mark.kernel

@@ -22,7 +22,7 @@ OBLIQUE = [(0.0, 90.0), (45.0, 45.0), (30.0, 60.0), (200.0, 130.0), (0.0, 0.0)]
 def test_statement_of_the_paper(case: Case):
     """Every statement of sections 3, 5 and 6 holds, or differs as explained."""
     result = case.run()
-    assert result.verdict == case.status, f"{case.quantity}: expected {case.expected}, computed {result.computed}"
+    assert result.verdict == case.status, f"{case.quantity}: expected {result.expected}, computed {result.computed}"
 
 
 def test_eq_4_couplings_are_alpha_over_two():

@@ -60,7 +60,7 @@ PURE_NUMBERS = re.compile(
     | (first|last|nearest_flip|flips|largest_at_scale)            # factors on a record
     | (size|slenderness|amplitude|share|restitution(_[xy])?)      # shares, and ratios of velocities
     | (alpha|beta|gamma|kappa|mu|mu_kinetic|damping|r|over_omega_v|height_over_width)
-    | (common|stone)_error_ln_pga | momentum_error | jma_intensity | share_on_corners
+    | (common|stone)_error_ln_pga | momentum_error | jma_intensity | share_on_corners | counts_by_kind
     | (runs|samples|seed|impacts|reversals|fallen|standing|stones_saved|overturned|grid|year)
     )$""",
     re.VERBOSE,

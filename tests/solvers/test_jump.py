@@ -100,7 +100,7 @@ def test_friction_bears_its_landings_and_energy_never_grows(contact, spin, block
     for chain in outcome.chains:
         if chain.landing_s is None:
             continue
-        assert chain.friction_needed_at_landing <= contact.mu_kinetic + NEAR_ROUND_OFF
+        assert chain.friction_needed_at_landing <= contact.kinetic + NEAR_ROUND_OFF
         before, after = chain.landing_energy_j
         assert after <= before * (1.0 + NEAR_ROUND_OFF)
 

@@ -71,5 +71,5 @@ def test_what_cannot_be_simulated_is_refused():
         simulated_overturns(AOYAMA.dowelled(), sine_motion(1.0, 1.0))
     with pytest.raises(ParameterError, match=r"inset of 0\.1212 m per side leaves nothing"):
         sao(2.0, inset=Inset(share=0.5))
-    with pytest.raises(ParameterError, match="positive frequency"):
+    with pytest.raises(ParameterError, match="the frequency of the sine must be positive"):
         sine_motion(1.0, 0.0)

@@ -194,7 +194,7 @@ def test_intensity_goes_with_pgv():
         (lambda: parse_rate("0.35"), ParameterError, "write both numbers"),
         (lambda: estimate_shaking(counted_survey(AOYAMA, 3, 4), 0.0), ParameterError, "frequency must be positive"),
         (lambda: estimate_shaking(counted_survey(AOYAMA, 3, 4), 1.0, Assumptions(common_error=0.0)), ParameterError, "common error"),
-        (lambda: Assumptions(level=90.0), ParameterError, "level of the intervals must lie between 0 and 1"),
+        (lambda: Assumptions(level=90.0), ParameterError, r"level of the intervals must lie in \(0, 1\)"),
         (lambda: intensity_from_velocity(0.0), ParameterError, "peak velocity must be positive"),
     ],
 )

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.errors import BodyError
 from seisblock.typing import BoolArray, FloatArray, IntArray
 from seisblock.units import SUN
@@ -52,11 +52,12 @@ class Stone:
     line: int | None = None
 
     def __post_init__(self) -> None:
-        for value, what in ((self.height_over_width, "height over width"), (self.width, "width"), (self.count, "count")):
-            if value is not None and not (math.isfinite(value) and value > 0):
-                raise BodyError(f"{what} of a gravestone must be positive, found {value:g}")
-        if self.azimuth_deg is not None and not math.isfinite(self.azimuth_deg):
-            raise BodyError(f"azimuth of a gravestone must be a finite number of degrees, found {self.azimuth_deg:g}")
+        checks.positive("height over width of a gravestone", self.height_over_width, error=BodyError)
+        checks.positive("count of a gravestone", self.count, error=BodyError)
+        if self.width is not None:
+            checks.positive("width of a gravestone", self.width, "m", error=BodyError)
+        if self.azimuth_deg is not None:
+            checks.finite("azimuth of a gravestone", self.azimuth_deg, "degrees", error=BodyError)
 
     @property
     def height(self) -> float | None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import csv
-import math
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.errors import BodyError, InputError
 from seisblock.ledger import reading
@@ -195,8 +195,8 @@ def _stone(row: Mapping[str, str], units: Mapping[str, str], line: int) -> Stone
     """Return the stone of one row."""
     width, height = (_size(row, key, units) for key in ("width", "height"))
     ratio = _number(row, "height_over_width")
-    if ratio is not None and not (math.isfinite(ratio) and ratio > 0.0):
-        raise BodyError(f"height over width must be positive, found {ratio:g}")
+    if ratio is not None:
+        checks.positive("height over width", ratio, error=BodyError)
     if width is not None and height is not None:
         if ratio is not None and abs(height / width / ratio - 1.0) > DISAGREEMENT:
             raise BodyError(f"height over width is {ratio:g}, but height and width give {height / width:.3g}")

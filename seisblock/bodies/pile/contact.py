@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from seisblock import checks
 from seisblock.errors import ParameterError
 
 
@@ -44,12 +45,10 @@ class PileContact:
     def __post_init__(self) -> None:
         for name in ("normal", "shear", "shear_ratio", "young", "stiffness"):
             value = getattr(self, name)
-            if value is not None and not (value > 0.0 and math.isfinite(value)):
-                raise ParameterError(f"{name} of the contact must be positive, found {value}")
+            if value is not None:
+                checks.positive("{name} of the contact", value, name=name)
         for name in ("normal_damping", "shear_damping", "damping_ratio"):
-            value = getattr(self, name)
-            if not (value >= 0.0 and math.isfinite(value)):
-                raise ParameterError(f"{name} of the contact must be zero or more, found {value}")
+            checks.not_negative("{name} of the contact", getattr(self, name), name=name)
         if self.young is not None and self.stiffness is not None:
             raise ParameterError("the contact takes Young's modulus or the stiffness per area, not both")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from seisblock import checks
 from seisblock.errors import BodyError
 
 GROUND = "ground"
@@ -51,14 +52,16 @@ class PileStone:
     bottom: float | None = None
 
     def __post_init__(self) -> None:
-        for what, unit in (("width", "m"), ("depth", "m"), ("height", "m"), ("density", "kg/m^3")):
-            value = getattr(self, what)
-            if not (value > 0.0 and math.isfinite(value)):
-                raise BodyError(f"{what} of the stone {self.name} must be positive, found {value} {unit}")
-        if self.mu is not None and not (self.mu >= 0.0 and math.isfinite(self.mu)):
-            raise BodyError(f"friction under the stone {self.name} must be zero or more, found {self.mu}")
+        checks.positive("width of the stone {name}", self.width, "m", error=BodyError, name=self.name)
+        checks.positive("depth of the stone {name}", self.depth, "m", error=BodyError, name=self.name)
+        checks.positive("height of the stone {name}", self.height, "m", error=BodyError, name=self.name)
+        checks.positive("density of the stone {name}", self.density, "kg/m^3", error=BodyError, name=self.name)
+        if self.mu is not None:
+            checks.not_negative("friction under the stone {name}", self.mu, error=BodyError, name=self.name)
         if len(self.offset) != 2 or not all(math.isfinite(part) for part in self.offset):
-            raise BodyError(f"offset of the stone {self.name} takes two lengths, along x and y; found {self.offset}")
+            raise BodyError(
+                "offset of the stone {name} takes two lengths, along x and y; found {found}", name=self.name, found=str(self.offset)
+            )
 
     @property
     def size(self) -> tuple[float, float, float]:

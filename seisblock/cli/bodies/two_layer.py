@@ -51,12 +51,12 @@ def two_layer_choice(asked: Mapping[str, Any], *, default: str) -> TwoLayerChoic
         table = read_table(name)
         block, preset = two_layer_block(table, asked.get("side") or "short"), contact(table)
         origin = f"from {name}" + ("" if asked.get("block") else " (the default)")
-    values = {key: asked[key] if asked.get(key) is not None else preset.get(key) for key in _CONTACT}
-    missing = [f"--{key.replace('_', '-')}" for key, value in values.items() if value is None]
-    if missing:
-        raise BodyError(f"{block.name} brings no contact of its own: give {', '.join(missing)}")
-    told = ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in values.items())
-    return TwoLayerChoice(block, Contact(**values), f"{origin}; {told}")  # type: ignore[arg-type]
+    values = {**preset, **{key: asked[key] for key in _CONTACT if asked.get(key) is not None}}
+    if "mu" not in values:
+        raise BodyError("{name} brings no friction of its own: give --mu", name=block.name)
+    met = Contact(**values)
+    told = f"mu {met.mu:g}, mu kinetic {met.kinetic:g}, restitution x {met.restitution_x:g}, restitution y {met.restitution_y:g}"
+    return TwoLayerChoice(block, met, f"{origin}; {told}")
 
 
 def _from_sizes(asked: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerBlock:

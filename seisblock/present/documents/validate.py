@@ -8,7 +8,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from seisblock.present.documents.kind import Document, Kind, Result
-from seisblock.validation.case import CaseResult, counts, ranked
+from seisblock.validation.case import CaseResult, counts, counts_by_kind, ranked
 
 
 class ValidateParameters(Struct, frozen=True, kw_only=True):
@@ -38,6 +38,11 @@ class CaseEntry(Result, frozen=True, kw_only=True):
         The paper's value and this machine's, their difference, and what is allowed; null where nothing could be computed.
     status, verdict : str
         What is claimed (``holds``, ``differs``), and what this machine found (``fails`` too).
+    kind : str
+        What it is worth: ``computed`` by the program against what the paper states; from an input ``rebuilt`` or replaced; against what was
+        ``derived`` here; or the ``print`` checked against itself.
+    today : float or None
+        The computed value when a difference was explained; null where it should hold.
     note : str
     """
 
@@ -52,12 +57,16 @@ class CaseEntry(Result, frozen=True, kw_only=True):
     tolerance: float
     status: str
     verdict: str
+    kind: str
+    today: float | None
     note: str
 
 
-VALIDATE = Kind(
-    "validate", ValidateParameters, CaseEntry, {"counts": Annotated[dict[str, int], Meta(description="How many cases of each verdict.")]}
-)
+COUNTS = {
+    "counts": Annotated[dict[str, int], Meta(description="How many cases of each verdict.")],
+    "counts_by_kind": Annotated[dict[str, dict[str, int]], Meta(description="The same for each kind.")],
+}
+VALIDATE = Kind("validate", ValidateParameters, CaseEntry, COUNTS)
 
 
 def document(results: Sequence[CaseResult], *, quick: bool) -> Document:
@@ -72,15 +81,23 @@ def document(results: Sequence[CaseResult], *, quick: bool) -> Document:
                 where=result.case.place,
                 quantity=result.case.quantity,
                 unit=result.case.unit,
-                expected=result.case.expected,
+                expected=result.expected,
                 computed=result.computed,
                 error=result.error,
                 tolerance=result.case.tolerance,
                 status=result.case.status,
                 verdict=result.verdict,
+                kind=result.case.kind,
+                today=None if result.case.today is None else result.case.today[0],
                 note=result.case.note,
             ),
         )
         for result in ranked(results)
     )
-    return VALIDATE.document(ValidateParameters(papers=papers, quick=quick), found, citations=papers, counts=counts(results))
+    return VALIDATE.document(
+        ValidateParameters(papers=papers, quick=quick),
+        found,
+        citations=papers,
+        counts=counts(results),
+        counts_by_kind=counts_by_kind(results),
+    )

@@ -7,14 +7,16 @@ from collections.abc import Iterator, Sequence
 from html import escape
 
 from seisblock.present.page import page
-from seisblock.present.text.validate import quantity, short
+from seisblock.present.text.validate import KINDS, explanation, quantity, short
 from seisblock.references import REFERENCES
-from seisblock.validation.case import CaseResult, counts, ranked
+from seisblock.validation.case import VERDICTS, WORTHS, CaseResult, counts, counts_by_kind, ranked
 
 STYLE = """
 td.text { min-width: 14rem; } td.strip { width: 11rem; padding: .15rem 0; } td.strip svg { width: 11rem; height: 1.5rem; display: block; }
 .fails td { background: #fbe9e7; } .tag { font-size: .8rem; font-weight: 600; white-space: nowrap; }
 .holds .tag { color: var(--good); } .differs .tag { color: #a86a00; } .fails .tag { color: var(--accent); }
+.verdicts b { overflow-wrap: anywhere; }
+.kind { font-size: .78rem; color: var(--soft); white-space: nowrap; }
 .plots { display: flex; flex-wrap: wrap; gap: .5rem 1.5rem; } .plots svg { width: 17rem; height: auto; }
 .legend svg { width: 3.2rem; height: 1.2rem; vertical-align: middle; }
 tr.why td { text-align: left; color: var(--soft); font-size: .88rem; padding-left: .8rem; border-left: 3px solid var(--line); }
@@ -30,6 +32,9 @@ tr.why.differs td { border-left-color: #d9a441; }
 
 BAND, ACCENT = "#d9dde1", "#c0392b"
 RING = '<circle cx="66" cy="9" r="5" fill="none" stroke="#444" stroke-width="1.3"/>'
+
+FIELD_TEST = "furukawa-field-worn"
+"""Beginning of the keys of cases that belong to the figure of the field test, and have computed what it shows."""
 
 WORDS = {"holds": "holds", "differs": "differs", "fails": "FAILS"}
 SIDE, MARGIN = 240.0, 34.0
@@ -51,6 +56,7 @@ def gallery(results: Sequence[CaseResult]) -> str:
 def _parts(results: Sequence[CaseResult]) -> Iterator[str]:
     """Yield the page from top to bottom."""
     yield _summary(results)
+    yield _kinds(results)
     yield _legend()
     differing = [r for r in ranked(results) if r.verdict != "holds"]
     if differing:
@@ -76,6 +82,27 @@ def _summary(results: Sequence[CaseResult]) -> str:
     return f'<div class="verdicts">{"".join(tiles)}</div>'
 
 
+def _kinds(results: Sequence[CaseResult]) -> str:
+    """Return how many cases of each kind got each verdict: what the evidence is worth."""
+    rows = "".join(
+        f'<tr><td class="text"><b>{escape(KINDS[kind])}</b>: {escape(WORTHS[kind])}</td>'
+        + "".join(f"<td>{counted[verdict]}</td>" for verdict in reversed(VERDICTS))
+        + "</tr>"
+        for kind, counted in counts_by_kind(results).items()
+    )
+    head = "".join(f"<th>{name}</th>" for name in ("", "hold", "differ", "fail"))
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+
+
+def _field_test() -> str:
+    """Return the figure of the field test."""
+    from seisblock.present.figures.embed import picture
+    from seisblock.present.figures.field_test import figure
+
+    caption = "Rates surveyed around six stations after the western Tottori earthquake of 2000, and those of each model of a stone."
+    return picture(figure(), "en", caption)
+
+
 def _legend() -> str:
     """Return what the marks mean."""
     ring = f'<svg viewBox="42 0 48 18"><rect x="52" y="3" width="28" height="12" fill="{BAND}"/>{RING}</svg>'
@@ -87,6 +114,8 @@ def _group(place: str, results: Sequence[CaseResult]) -> Iterator[str]:
     """Yield one equation, table or figure: its statements, its overlay, its largest difference."""
     worst = max(results, key=_tolerances)
     yield f"<h3>{escape(place)}</h3>"
+    if any(result.case.key.startswith(FIELD_TEST) for result in results):
+        yield _field_test()
     drawings = [_overlay(unit, results) for unit in dict.fromkeys(result.case.unit for result in results)]
     if any(drawings):
         yield f'<div class="plots">{"".join(drawings)}</div>'
@@ -110,9 +139,9 @@ def _table(results: Sequence[CaseResult], *, place: bool = False) -> str:
     rows = []
     for index, result in enumerate(results):
         rows.append(_row(result, place=place))
-        told = result.case.note
-        if told and (index + 1 == len(results) or results[index + 1].case.note != told):
-            label = "why: " if result.case.status == "differs" else ""
+        told = explanation(result)
+        if told and (index + 1 == len(results) or explanation(results[index + 1]) != told):
+            label = "why: " if result.verdict != "holds" else ""
             rows.append(f'<tr class="why {result.case.status}"><td colspan="7">{label}{escape(told)}</td></tr>')
     names = ("", "expected", "computed", "error", "tolerance", "", "")
     head = "".join(f"<th>{name}</th>" for name in names)
@@ -123,10 +152,10 @@ def _row(result: CaseResult, *, place: bool) -> str:
     """Return the row of one case."""
     case = result.case
     statement = f"{result.case.paper} {result.case.place}: {quantity(result)}" if place else quantity(result)
-    numbers = {"expected": short(case.expected, 6), "computed": short(result.computed, 6)}
+    numbers = {"expected": short(result.expected, 6), "computed": short(result.computed, 6)}
     numbers |= {"error": short(result.error, 2), "tolerance": short(case.tolerance, 2)}
     cells = "".join(f'<td data-name="{name}">{text}</td>' for name, text in numbers.items())
-    tag = f'<td><span class="tag">{WORDS[result.verdict]}</span></td>'
+    tag = f'<td><span class="tag">{WORDS[result.verdict]}</span> <span class="kind">{KINDS[case.kind]}</span></td>'
     return f'<tr class="{result.verdict}"><td class="text">{escape(statement)}</td>{cells}<td class="strip">{_strip(result)}</td>{tag}</tr>'
 
 
@@ -144,7 +173,7 @@ def _strip(result: CaseResult) -> str:
 
 def _overlay(unit: str, results: Sequence[CaseResult]) -> str:
     """Return computed against expected for the cases of one unit, nothing for fewer than four."""
-    points = [(r.case.expected, r.computed, r.verdict) for r in results if r.case.unit == unit and math.isfinite(r.computed)]
+    points = [(r.expected, r.computed, r.verdict) for r in results if r.case.unit == unit and math.isfinite(r.computed)]
     values = [value for x, y, _ in points for value in (x, y)]
     if len(points) < 4 or max(values) == min(values):
         return ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from rich.constrain import Constrain
@@ -11,57 +11,96 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from seisblock.validation.case import VERDICTS, CaseResult, counts
+from seisblock.present.text.tables import table
+from seisblock.validation.case import VERDICTS, WORTHS, CaseResult, Verdict, Worth, counts, counts_by_kind
+from seisblock.words import noted, tell
 
 WIDTH = 110
 """Widest line, characters."""
 
-_HEADINGS = {
-    "fails": "What should agree and does not",
-    "differs": "What differs from the papers, and why",
-    "holds": "What holds",
+_HEADINGS: dict[Verdict, str] = {
+    "fails": noted("What does not read as claimed"),
+    "differs": noted("What differs from the papers, and why"),
+    "holds": noted("What holds"),
 }
-_STYLES = {"fails": "bold red", "differs": "bold yellow", "holds": "bold green"}
+_STYLES: dict[Verdict, str] = {"fails": "bold red", "differs": "bold yellow", "holds": "bold green"}
+
+KINDS: dict[Worth, str] = {
+    "computed": noted("computed"),
+    "rebuilt": noted("input rebuilt"),
+    "derived": noted("derived here"),
+    "print": noted("print itself"),
+}
+"""Short names of what a case is worth."""
 
 
-def tables(results: Sequence[CaseResult]) -> Iterator[Any]:
-    """Yield what is printed: for each verdict the cases paper by paper, explanations under what differs, and the count at the end."""
+def tables(results: Sequence[CaseResult], *, every: bool = True) -> Iterator[Any]:
+    """Yield what is printed: what fails, what differs and why, paper by paper; what holds, if all is asked for; the counts.
+
+    Parameters
+    ----------
+    results : sequence of CaseResult
+    every : bool
+        Whether the cases that hold are listed, too.
+    """
     for verdict in VERDICTS:
         chosen = [result for result in results if result.verdict == verdict]
-        if chosen:
-            yield Text(_HEADINGS[verdict], style=_STYLES[verdict])
+        if chosen and (every or verdict != "holds"):
+            yield Text(tell(_HEADINGS[verdict]), style=_STYLES[verdict])
             yield _grid(heading=True)
             for paper in dict.fromkeys(result.case.paper for result in chosen):
                 yield Text(paper, style="italic")
                 part = [result for result in chosen if result.case.paper == paper]
-                yield from _explained(part) if verdict == "differs" else [_grid(part)]
+                yield from [_grid(part)] if verdict == "holds" else _explained(part)
             yield Text()
-    yield _count(results)
+    yield _kinds(results)
+    yield _count(results, every=every)
 
 
 def _explained(results: Sequence[CaseResult]) -> Iterator[Any]:
     """Yield the cases of each explanation, with the explanation below them."""
-    for note in dict.fromkeys(result.case.note for result in results):
-        yield _grid([result for result in results if result.case.note == note])
-        yield Constrain(Padding(Text(f"why: {note}", style="dim"), (0, 2, 1, 4)), WIDTH)
+    for note in dict.fromkeys(map(explanation, results)):
+        yield _grid([result for result in results if explanation(result) == note])
+        if note:
+            yield Constrain(Padding(Text(tell("why: {reason}", reason=note), style="dim"), (0, 2, 1, 4)), WIDTH)
+
+
+def explanation(result: CaseResult) -> str:
+    """Return why a case differs; or, of one that fails, what was claimed of it."""
+    case = result.case
+    if result.verdict != "fails":
+        return case.note
+    if math.isnan(result.computed):
+        return tell("it could not be computed")
+    if case.status == "holds":
+        return tell("should agree and does not")
+    if case.today is None or abs(result.error) <= case.tolerance:
+        return tell("is said to differ, and agrees")
+    return tell("differs by another amount than was explained: {value:.6g} then", value=case.today[0])
 
 
 def _grid(results: Sequence[CaseResult] = (), *, heading: bool = False) -> Any:
     """Return expected, computed, difference and tolerance, one row per case; columns align from one grid to the next."""
     made = Table(box=None, show_header=heading, pad_edge=False, width=None, expand=True)
-    made.add_column("  where", width=12)
-    made.add_column("quantity", ratio=1)
-    for name, width in (("expected", 10), ("computed", 10), ("error", 8), ("tolerance", 9)):
+    made.add_column("  " + tell("where"), width=12)
+    made.add_column(tell("quantity"), ratio=1)
+    for name, width in ((tell("expected"), 10), (tell("computed"), 10), (tell("error"), 8), (tell("tolerance"), 9)):
         made.add_column(name, width=width, justify="right", overflow="fold")
     for r in results:
-        numbers = (short(r.case.expected), short(r.computed), short(r.error, 2), short(r.case.tolerance, 2))
-        made.add_row(Padding(Text(r.case.place, overflow="fold"), (0, 0, 0, 2)), Text(quantity(r), overflow="fold"), *numbers)
+        numbers = (short(r.expected), short(r.computed), short(r.error, 2), short(r.case.tolerance, 2))
+        made.add_row(Padding(Text(r.case.place, overflow="fold"), (0, 0, 0, 2)), Text(labelled(r), overflow="fold"), *numbers)
     return Constrain(made, WIDTH)
 
 
 def quantity(result: CaseResult) -> str:
     """Return what is compared, with its unit."""
     return result.case.quantity + (f" ({result.case.unit})" if result.case.unit not in ("", "1") else "")
+
+
+def labelled(result: CaseResult) -> str:
+    """Return what is compared, and what the case is worth where the program is not compared with the paper itself."""
+    kind = result.case.kind
+    return quantity(result) if kind == "computed" else f"{quantity(result)} [{tell(KINDS[kind])}]"
 
 
 LONGEST = 10
@@ -76,10 +115,26 @@ def short(value: float, digits: int = 5) -> str:
     return text if len(text) <= LONGEST or digits <= 2 else short(value, digits - 1)
 
 
-def _count(results: Sequence[CaseResult]) -> Text:
+def _kinds(results: Sequence[CaseResult]) -> Any:
+    """Return how many cases of each kind got each verdict."""
+    rows = [
+        [tell(WORTHS[kind]), sum(counted.values()), counted["holds"], counted["differs"], counted["fails"]]
+        for kind, counted in counts_by_kind(results).items()
+    ]
+    heads = [tell("what a case is worth"), tell("cases"), tell("hold"), tell("differ"), tell("fail")]
+    return table(tell("The evidence"), heads, rows)
+
+
+def _count(results: Sequence[CaseResult], *, every: bool) -> Text:
     """Return the last line."""
     counted = counts(results)
-    told = Text(f"{len(results)} cases: ")
-    told.append(f"{counted['holds']} hold", style="green" if counted["holds"] else "")
-    told.append(f", {counted['differs']} differ as explained, ")
-    return told.append(f"{counted['fails']} fail", style="bold red" if counted["fails"] else "").append(".")
+    told = Text(
+        tell("{all} cases: {hold} hold, {differ} differ as explained, {fail} fail.", all=len(results), **_named(counted)),
+        style="bold red" if counted["fails"] else "",
+    )
+    return told if every else told.append(" " + tell("--all lists those that hold."), style="dim")
+
+
+def _named(counted: Mapping[Verdict, int]) -> dict[str, int]:
+    """Return counts under the names of the sentence."""
+    return {"hold": counted["holds"], "differ": counted["differs"], "fail": counted["fails"]}

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.dynamics import Instant, follow
 from seisblock.dynamics.status import STOPPED
@@ -24,6 +25,7 @@ from seisblock.solvers.jump.impact import launch, spin_ratio
 from seisblock.solvers.jump.landing import RULES
 from seisblock.solvers.jump.still import follow_on
 from seisblock.solvers.jump.tale import warnings_of, with_curves
+from seisblock.typing import Stretch
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted
 
@@ -65,9 +67,6 @@ class JumpOutcome:
     spin_ratio: float
 
 
-Window = tuple[float | None, float | None]
-"""A stretch of time, s after the record's first sample; an end left out is that of the record."""
-
 ON_SAMPLE = 1e-9
 """A window begins on a sample that it misses by no more than this share of the sampling interval."""
 
@@ -94,7 +93,7 @@ def solve_jump(
     direction: str = "both",
     landing: str = "paper",
     first: bool = False,
-    windows: Sequence[Window] = (),
+    windows: Sequence[Stretch] = (),
     gravity: float = STANDARD_GRAVITY,
 ) -> Response[JumpOutcome]:
     """Follow a two-layer block through rocking, impact, jump and landing ([Sugimoto2017]_ eqs. (1)-(15), corrected).
@@ -134,7 +133,7 @@ def solve_jump(
     Raises
     ------
     ParameterError
-        If a coefficient is outside its range.
+        If an option is outside its range.
     SolverError
         If kinetic friction is so large that the landed foot jams (a rigid contact has no solution there).
 
@@ -152,13 +151,13 @@ def solve_jump(
     'jumped'
     """
     check_call(block, TwoLayerBlock, motion)
-    _check(contact, drop, direction, landing, gravity)
+    _check(drop, direction, landing, gravity)
     ratio = spin_ratio(block, spin, contact.restitution_x, contact.restitution_y)
     run = _Run(motion, block, contact, ratio, gravity, landing)
     followed = _chains(run, direction, drop, first, [_stretch(motion, *window) for window in windows or ((None, None),)])
     options = {
         "mu": contact.mu,
-        "mu_kinetic": contact.mu_kinetic,
+        "mu_kinetic": contact.kinetic,
         "restitution_x": contact.restitution_x,
         "restitution_y": contact.restitution_y,
         "drop_m": drop,
@@ -197,26 +196,14 @@ def _end_of(chains: tuple[Chain, ...]) -> str:
     return JUMPED if last == NO_JUMP and any(chain.outcome == JUMPED for chain in chains) else last
 
 
-def _check(contact: Contact, drop: float, direction: str, landing: str, gravity: float) -> None:
-    """Refuse coefficients outside their range."""
-    for name in ("restitution_x", "restitution_y"):
-        value = getattr(contact, name)
-        if not 0.0 <= value <= 1.0:
-            raise ParameterError(f"{name.replace('_', ' ')} must lie in [0, 1], found {value}")
-    for name in ("mu", "mu_kinetic"):
-        value = getattr(contact, name)
-        if not (math.isfinite(value) and value >= 0.0):
-            raise ParameterError(f"{name.replace('_', ' ')} must be a friction coefficient of zero or more, found {value}")
-    if contact.mu_kinetic > contact.mu:
-        raise ParameterError(f"kinetic friction {contact.mu_kinetic} must not exceed static friction {contact.mu}")
-    if not (math.isfinite(drop) and drop >= 0.0):
-        raise ParameterError(f"the drop must be a height of zero or more, found {drop} m")
+def _check(drop: float, direction: str, landing: str, gravity: float) -> None:
+    """Refuse options outside their range."""
+    checks.gravity(gravity)
+    checks.not_negative("the drop", drop, "m")
     if direction not in DIRECTIONS:
-        raise ParameterError(f"direction must be one of {', '.join(DIRECTIONS)}, found {direction!r}")
+        raise ParameterError("direction must be one of {known}, found {found}", known=DIRECTIONS, found=repr(direction))
     if landing not in RULES:
-        raise ParameterError(f"the landing rule must be one of {', '.join(RULES)}, found {landing!r}")
-    if not (math.isfinite(gravity) and gravity > 0.0):
-        raise ParameterError(f"gravity must be positive, found {gravity} m/s^2")
+        raise ParameterError("the landing rule must be one of {known}, found {found}", known=tuple(RULES), found=repr(landing))
 
 
 def _stretch(motion: Motion, first: float | None, last: float | None) -> tuple[Instant, float]:
@@ -273,12 +260,12 @@ def _follow_chain(run: _Run, drop: float, start: Instant, sign: float) -> Follow
     go = launch(block, float(rocked.final[rocking.OMEGA]), run.spin_ratio, contact.restitution_x, contact.restitution_y)
     if not go.jumps:
         return so_far(rocked, go, None)
-    parameters = flying.flight_parameters(block, run.gravity, contact.mu, contact.mu_kinetic, drop, motion.dt, run.landing)
+    parameters = flying.flight_parameters(block, run.gravity, contact.mu, contact.kinetic, drop, motion.dt, run.landing)
     thrown = [0.0, go.spin, 0.0, go.horizontal, 0.0, go.vertical]
     flown = follow_on(FLYING, motion, parameters, thrown, flying.FLIGHT, gains=gains, start=rocked.end)
     if flown.final_mode == flying.JAMMED:
         raise SolverError(
-            f"jump: the foot that lands at {motion.start_s + flown.end_time:.3f} s jams: kinetic friction {contact.mu_kinetic} is more "
+            f"jump: the foot that lands at {motion.start_s + flown.end_time:.3f} s jams: kinetic friction {contact.kinetic} is more "
             "than a rigid contact can bear"
         )
     return so_far(rocked, go, flown)

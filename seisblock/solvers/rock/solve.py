@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.block import Block, Restitution
 from seisblock.dynamics import Trajectory, follow
 from seisblock.errors import ParameterError
@@ -29,8 +30,7 @@ def check_options(restitution: Restitution, gravity: float) -> None:
             f"the restitution, a ratio of angular velocities, must lie in [0, 1], found {restitution}; "
             "leave it out for 1 - 1.5 sin^2(alpha)"
         )
-    if not (math.isfinite(gravity) and gravity > 0.0):
-        raise ParameterError(f"gravity must be positive, found {gravity} m/s^2")
+    checks.gravity(gravity)
 
 
 def solve_rock(
@@ -124,7 +124,11 @@ def start_mode(block: Block, initial: tuple[float, float]) -> int:
     """Return the mode in which a block with this lean and angular velocity is ([Housner1963]_)."""
     theta, omega = initial
     if not (abs(theta) < math.pi / 2 and math.isfinite(omega)):
-        raise ParameterError(f"the initial lean must lie within pi/2 rad and its rate be finite, found {theta} rad and {omega} rad/s")
+        raise ParameterError(
+            "the initial lean must lie within pi/2 rad and its rate be finite, found {theta} rad and {omega} rad/s",
+            theta=theta,
+            omega=omega,
+        )
     if theta == 0.0 and omega == 0.0:
         return model.REST
     right, left = block.slendernesses

@@ -8,6 +8,7 @@ from typing import NoReturn
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.dynamics import Change, Trajectory, follow
 from seisblock.errors import ParameterError
@@ -155,8 +156,7 @@ def solve_slide(
 
 def check(motion: Motion, vertical: Factor, gravity: float) -> tuple[float, float, float]:
     """Return the factors on the motion's three rows, or refuse what cannot act ([Fujino1978]_)."""
-    if not (math.isfinite(gravity) and gravity > 0.0):
-        raise ParameterError(f"gravity must be positive, found {gravity:g} m/s^2")
+    checks.gravity(gravity)
     return 1.0, 0.0, vertical_gain(motion, vertical)
 
 

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from scipy.linalg import eigh
 
+from seisblock import checks
 from seisblock.errors import BodyError, ParameterError
 from seisblock.solvers.stack.arrays import PileArrays
 from seisblock.solvers.stack.frames import INERTIA, INVERSE, MASS, Q, R, X
@@ -85,8 +86,8 @@ def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
         If the step asked for is too coarse for the stiffest contact: the answer would be wrong; or so fine that it would never come.
     """
     limit = stable_step(pile)
-    if step is not None and not step > 0.0:
-        raise ParameterError(f"the time step must be positive, found {step:g} s")
+    if step is not None:
+        checks.positive("the time step", step, "s")
     if step is not None and not step <= limit:
         raise ParameterError(
             f"a step of {step:g} s is too coarse for the stiffest contact of the pile {pile.body.name}, stable up to {limit:.3g} s: "

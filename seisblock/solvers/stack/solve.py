@@ -8,6 +8,7 @@ from dataclasses import asdict
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.dynamics.halt import heed
@@ -97,8 +98,7 @@ def solve_stack(
     """
     check_call(body, Pile, motion)
     contact = PileContact() if contact is None else contact
-    if not (gravity > 0.0 and math.isfinite(gravity)):
-        raise ParameterError(f"gravity must be positive, found {gravity} m/s^2")
+    checks.gravity(gravity)
     pile = pile_arrays(body, contact, points)
     steps = steps_per_sample(pile, motion.dt, step)
     quiet = math.ceil(AFTERWARDS / motion.dt)

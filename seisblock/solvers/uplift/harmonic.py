@@ -6,11 +6,11 @@ says nothing of the motion beyond it.
 
 from __future__ import annotations
 
-import math
 from typing import Literal
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.spring_block import SpringBlock, corner_rows, dashpot_matrix, mass_matrix, stiffness_matrix
 from seisblock.errors import ParameterError
 from seisblock.solvers.uplift.modes import Modes, natural_modes
@@ -33,9 +33,8 @@ def shaking_direction(phi_deg: float, rho_deg: float) -> FloatArray:
     """
     from scipy.special import cosdg, sindg
 
-    for name, value in (("phi", phi_deg), ("rho", rho_deg)):
-        if not math.isfinite(value):
-            raise ParameterError(f"{name} must be a finite angle in degrees, found {value}")
+    checks.finite("phi", phi_deg, "degrees")
+    checks.finite("rho", rho_deg, "degrees")
     return np.array([cosdg(phi_deg) * sindg(rho_deg), sindg(phi_deg) * sindg(rho_deg), cosdg(rho_deg)])
 
 

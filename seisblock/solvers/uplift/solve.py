@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.dynamics.model import Trajectory, follow
 from seisblock.records.given import Factor, check_call, vertical_gain
@@ -151,6 +152,7 @@ def solve_uplift(
     True
     """
     check_call(body, SpringBlock, motion)
+    checks.gravity(gravity)
     gains = (1.0, 1.0, vertical_gain(motion, vertical, needed=False))
     p, start = parameters(body, gravity), at_rest(body, gravity)
     trajectory = follow(UPLIFT, motion, p, start, WHOLE_BASE, gains=gains)

@@ -8,10 +8,10 @@ from typing import Literal
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import WORN, Inset
 from seisblock.criteria.gravestones import DOWELLED, DOWELLED_REMARK, PLAIN, GravestoneFit, outside_fit
-from seisblock.errors import ParameterError
 from seisblock.measures import FilterRange
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
 from seisblock.studies.cemetery.rate import CONFIDENCE, CURVE_PGA, FREQUENCIES, CurvePoint, rate_curve, rate_of, remarks, threshold_ratio
@@ -135,8 +135,7 @@ def overturned(cemetery: Cemetery, shaking: Shaking, method: Method) -> BoolArra
 
         motion = shaking.motion or sine_motion(shaking.pga, shaking.frequency)
         return simulated_overturns(cemetery, motion, inset=method.inset, width=method.width, gravity=method.gravity)
-    if not shaking.pga > 0.0:
-        raise ParameterError(f"the peak ground acceleration must be positive, found {shaking.pga} m/s^2")
+    checks.positive("the peak ground acceleration", shaking.pga, "m/s^2")
     falls: BoolArray = shaking.pga > method.limits(cemetery, shaking.frequency)
     return falls
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.criteria.gravestones import outside_fit
 from seisblock.errors import ParameterError
@@ -104,8 +105,7 @@ def overturning_rate(
 
 def overturns(cemetery: Cemetery, pga: float, frequency: float, *, limits: Limits = fitted_limits) -> BoolArray:
     """Return which stones fall, (size,): those whose limit a PGA (m/s^2) exceeds ([Furukawa2009]_ eqs. (9), (10))."""
-    if not (np.isfinite(pga) and pga > 0.0):
-        raise ParameterError(f"the peak ground acceleration must be positive, found {pga} m/s^2")
+    checks.positive("the peak ground acceleration", pga, "m/s^2")
     falls: BoolArray = pga > limits(cemetery, frequency)
     return falls
 
@@ -169,8 +169,7 @@ def clopper_pearson(fallen: int, stones: int, confidence: float = CONFIDENCE) ->
 
     if not (0 <= fallen <= stones and stones > 0):
         raise ParameterError(f"a rate needs 0 <= fallen <= stones and at least one stone, found {fallen} of {stones}")
-    if not 0.0 < confidence < 1.0:
-        raise ParameterError(f"the confidence must lie between 0 and 1, found {confidence}")
+    checks.within("the confidence", confidence, "(0, 1)")
     tail = (1.0 - confidence) / 2.0
     low = float(betaincinv(fallen, stones - fallen + 1, tail)) if fallen else 0.0
     high = float(betaincinv(fallen + 1, stones - fallen, 1.0 - tail)) if fallen < stones else 1.0

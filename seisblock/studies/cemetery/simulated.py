@@ -6,15 +6,14 @@ width per side, where the outermost of 5 x 5 contact points lie, it comes within
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import WORN, Inset
-from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.rock.solve import rock_verdict
 from seisblock.studies.cemetery.limits import require_loose
@@ -48,8 +47,7 @@ def sine_motion(pga: float, frequency: float) -> Motion:
     ParameterError
         If the frequency is not positive.
     """
-    if not (math.isfinite(frequency) and frequency > 0.0):
-        raise ParameterError(f"a sine needs a positive frequency, found {frequency} Hz")
+    checks.positive("the frequency of the sine", frequency, "Hz")
     dt = 1.0 / (SINE_SAMPLES_PER_PERIOD * frequency)
     phase = 2.0 * np.pi * np.arange(round(SINE_DURATION / dt) + 1) / SINE_SAMPLES_PER_PERIOD
     return Motion.from_arrays(pga * np.sin(phase), dt, name=f"sine {frequency:g} Hz")

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import Inset
 from seisblock.criteria.gravestones import DOWELLED_REMARK, outside_fit
 from seisblock.criteria.intensity import FITTED_INTENSITY, SCATTER, intensity_from_velocity
-from seisblock.errors import ParameterError
 from seisblock.measures import jma_class
 from seisblock.studies.cemetery.limits import Limits, fitted_limits
 from seisblock.studies.cemetery.rate import threshold_ratio
@@ -118,10 +118,8 @@ class Assumptions:
     frequency_error: float = FREQUENCY_ERROR
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.level < 1.0:
-            raise ParameterError(f"the level of the intervals must lie between 0 and 1, found {self.level}")
-        if not (math.isfinite(self.frequency_error) and self.frequency_error >= 0.0):
-            raise ParameterError(f"the error of the frequency, in ln f, must be zero or more, found {self.frequency_error}")
+        checks.within("the level of the intervals", self.level, "(0, 1)")
+        checks.not_negative("the error of the frequency, in ln f,", self.frequency_error)
 
     def band(self, frequency: float | None) -> tuple[list[float], FloatArray]:
         """Return the frequencies that stand for a given one, or for the whole band, Hz, and the weight of each, (n,)."""
@@ -193,8 +191,8 @@ def estimate_shaking(
     7.0
     """
     rules = assumptions or Assumptions()
-    if frequency is not None and not (math.isfinite(frequency) and frequency > 0.0):
-        raise ParameterError(f"the equivalent frequency must be positive, found {frequency} Hz")
+    if frequency is not None:
+        checks.positive("the equivalent frequency", frequency, "Hz")
     band, weights = rules.band(frequency)
     parts = rules.likelihoods(survey, band)
     bound = "upper" if survey.fell == 0 else "lower" if survey.fell == survey.judged else None

@@ -7,13 +7,13 @@ steps of the scan and back can be missed.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.errors import ParameterError
@@ -129,9 +129,8 @@ def scale_factors(
     >>> [round(f.scale, 6) for f in found.scale_factors]
     [0.5, 1.5]
     """
-    for name, value in (("observed displacement", observed), ("largest factor", limit)):
-        if not (math.isfinite(value) and value > 0.0):
-            raise ParameterError(f"the {name} must be positive, found {value}")
+    checks.positive("the observed displacement", observed, "m")
+    checks.positive("the largest factor", limit)
     if steps < 1:
         raise ParameterError(f"the scan needs at least one step, found {steps}")
     grid = [limit * i / steps for i in range(steps + 1)]

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.block import Block, Restitution, resized, restitutions
 from seisblock.bodies.inset import HALF
 from seisblock.errors import ParameterError
@@ -48,13 +49,12 @@ class Spread:
     inset: float = 0.1
 
     def __post_init__(self) -> None:
-        for key in ("size", "slenderness", "restitution", "amplitude"):
-            if not 0.0 <= getattr(self, key) < 1.0:
-                raise ParameterError(f"the spread of the {key} is a share in [0, 1), found {getattr(self, key)}")
-        if not 0.0 <= self.inset < HALF:
-            raise ParameterError(f"the spread of the inset is a share of the width in [0, {HALF}), found {self.inset}")
-        if not 0.0 <= self.azimuth_deg <= 180.0:
-            raise ParameterError(f"the spread of the azimuth lies between 0 and 180 degrees, found {self.azimuth_deg}")
+        checks.within("the spread of the size, a share,", self.size, "[0, 1)")
+        checks.within("the spread of the slenderness, a share,", self.slenderness, "[0, 1)")
+        checks.within("the spread of the restitution, a share,", self.restitution, "[0, 1)")
+        checks.within("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
+        checks.within("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
+        checks.within("the spread of the inset, a share of the width,", self.inset, f"[0, {HALF})")
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,120 @@
+"""What a number must be: said once, for solvers, bodies, criteria and the command line.
+
+Every check takes the quantity as a sentence begins with it, a template if it has values, then the number; it returns the number as a
+float, or refuses it. Nothing is worded before it is refused: bodies are built in inner loops.
+"""
+
+from __future__ import annotations
+
+import math
+from numbers import Real
+from typing import Any
+
+from seisblock.errors import InputError, ParameterError
+from seisblock.words import said
+
+Refusal = type[InputError]
+"""The class of error that says so."""
+
+
+def finite(what: str, value: Any, /, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
+    """Return a finite number.
+
+    Parameters
+    ----------
+    what : str
+        The quantity, as a sentence begins: ``the slope``, or ``{name}: the slope``.
+    value : any
+        What was given for it; a truth or a text is no number.
+    unit : str
+        Told after the number.
+    error : class
+        Raised instead of :class:`ParameterError`.
+    names : any
+        Of the fields of `what`.
+
+    Examples
+    --------
+    >>> finite("the slope", 3, "degrees")
+    3.0
+    >>> finite("{name}: the slope", float("nan"), name="stair")
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: stair: the slope must be a finite number, found nan
+    """
+    number = _number(what, value, error, names)
+    if not math.isfinite(number):
+        raise error("{what} must be a finite number, found {found}", what=said(what, **names), found=_found(number, unit))
+    return number
+
+
+def positive(what: str, value: Any, /, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
+    """Return a finite number above zero; parameters as for :func:`finite`.
+
+    Examples
+    --------
+    >>> positive("gravity", 0, "m/s^2")
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: gravity must be positive, found 0 m/s^2
+    """
+    number = _number(what, value, error, names)
+    if not 0.0 < number < math.inf:
+        raise error("{what} must be positive, found {found}", what=said(what, **names), found=_found(number, unit))
+    return number
+
+
+def not_negative(what: str, value: Any, /, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
+    """Return a finite number that is zero or more; parameters as for :func:`finite`."""
+    number = _number(what, value, error, names)
+    if not 0.0 <= number < math.inf:
+        raise error("{what} must be zero or more, found {found}", what=said(what, **names), found=_found(number, unit))
+    return number
+
+
+def within(what: str, value: Any, /, interval: str, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
+    """Return a number of an interval.
+
+    Parameters
+    ----------
+    what, value, unit, error, names
+        As for :func:`finite`.
+    interval : str
+        Its two ends, each included by ``[`` or ``]``, left out by ``(`` or ``)``.
+
+    Examples
+    --------
+    >>> within("the level", 90.0, "(0, 1)")
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: the level must lie in (0, 1), found 90
+    """
+    number = _number(what, value, error, names)
+    low, high = (float(end) for end in interval[1:-1].split(","))
+    above = low <= number if interval[0] == "[" else low < number
+    below = number <= high if interval[-1] == "]" else number < high
+    if not (above and below):
+        found = _found(number, unit)
+        raise error("{what} must lie in {interval}, found {found}", what=said(what, **names), interval=interval, found=found)
+    return number
+
+
+def fraction(what: str, value: Any, /, *, error: Refusal = ParameterError, **names: Any) -> float:
+    """Return a number from 0 to 1, both included; parameters as for :func:`finite`."""
+    return within(what, value, "[0, 1]", error=error, **names)
+
+
+def gravity(value: Any) -> float:
+    """Return an acceleration of gravity, m/s^2: positive."""
+    return positive("gravity", value, "m/s^2")
+
+
+def _number(what: str, value: Any, error: Refusal, names: dict[str, Any]) -> float:
+    """Return what is a number as one."""
+    if isinstance(value, float):
+        return value
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise error("{what} must be a number, found {value}", what=said(what, **names), value=repr(value))
+    return float(value)
+
+
+def _found(number: float, unit: str) -> str:
+    """Return a number with its unit."""
+    return f"{number:.10g} {unit}".rstrip()

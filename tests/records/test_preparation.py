@@ -1,0 +1,87 @@
+"""One frozen list of steps does to a record what the command line's options do (P6)."""
+
+import json
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import seisblock
+from seisblock.cli import main
+from seisblock.errors import ComponentError, ParameterError, RecordError
+from seisblock.records import Component, Preparation, Record, process
+
+RNG = np.random.default_rng(3)
+RECORD = Record(tuple(Component(code, RNG.normal(0.3, 1.0, 2000)) for code in ("NS", "EW", "UD")), 0.01)
+
+
+def same(one, other):
+    """Assert that two records hold the same samples and tell the same story."""
+    assert one.codes == other.codes and one.history == other.history and one.offset_s == other.offset_s
+    for a, b in zip(one.components, other.components, strict=True):
+        np.testing.assert_array_equal(a.acceleration, b.acceleration)
+
+
+def test_steps_come_in_the_order_that_is_told():
+    """Mean, high-pass, factor, target, window: as if each verb were called by itself."""
+    prepared = Preparation(True, 0.2, 1.5, 4.0, ("NS", "37"), (5.0, 15.0)).apply(RECORD)
+    by_hand = process.scale(process.highpass(process.demean(RECORD), 0.2), 1.5)
+    same(prepared, process.crop(process.scale_to_pga(by_hand, 4.0, ("NS", "37")), 5.0, 15.0))
+    assert max(np.abs(process.pick(prepared, name).acceleration).max() for name in ("NS", "37")) <= 4.0
+    assert len(prepared.history) == 5
+
+
+def test_nothing_asked_changes_nothing():
+    """Numbers round-trip; the record itself stays as it is in any case."""
+    before = RECORD.component("EW").acceleration.copy()
+    assert Preparation().apply(RECORD) is RECORD
+    Preparation(demean=True, scale=2.0).apply(RECORD)
+    np.testing.assert_array_equal(RECORD.component("EW").acceleration, before)
+
+
+@pytest.mark.parametrize(
+    ("asked", "carries", "removed"), [(None, True, True), (None, False, False), (False, True, False), (True, False, True)]
+)
+def test_the_mean_is_removed_where_counts_carry_an_offset(asked, carries, removed):
+    """Unless it is asked for, or refused."""
+    record = Record(RECORD.components, RECORD.dt, metadata={"carries_offset": carries})
+    mean = Preparation(demean=asked).apply(record).component("NS").acceleration.mean()
+    assert bool(abs(mean) < 1e-12) is removed
+
+
+def test_one_preparation_serves_many_records_and_the_target_finds_the_largest_horizontal():
+    """It is a value: equal to its twin, hashable, and the same for all records."""
+    preparation = Preparation(target_pga=3.0, window=(None, 10.0))
+    assert preparation == Preparation(target_pga=3.0, window=(None, 10.0)) and len({preparation, Preparation()}) == 2
+    for size in (1.0, 7.0):
+        record = process.scale(RECORD, size)
+        prepared = preparation.apply(record)
+        whole = process.scale_to_pga(record, 3.0)
+        assert max(np.abs(c.acceleration).max() for c in whole.horizontals) == pytest.approx(3.0, rel=1e-15)
+        same(prepared, process.crop(whole, None, 10.0))
+
+
+@pytest.mark.parametrize(
+    ("asked", "error", "says"),
+    [
+        ({"scale": float("nan")}, ParameterError, "the scale factor must be a finite number"),
+        ({"highpass_hz": 0.0}, ParameterError, "the corner of the high-pass must be positive"),
+        ({"target_pga": -1.0}, ParameterError, "the target PGA must be positive, found -1 m/s"),
+        ({"target_pga": 1.0, "components": "XX"}, ComponentError, "no component 'XX'"),
+        ({"window": (30.0, 40.0)}, RecordError, "outside the record"),
+        ({"highpass_hz": 80.0}, ParameterError, "half the sampling rate"),
+    ],
+)
+def test_what_cannot_be_done_is_refused_in_a_sentence(asked, error, says):
+    """Numbers when it is made, the rest when a record goes through."""
+    with pytest.raises(error, match=says):
+        Preparation(**asked).apply(RECORD)
+
+
+def test_the_command_line_does_the_same():
+    """What a command says of its record's options is what a library user gets in one call."""
+    options = ["--demean", "--highpass", "0.2", "--target-pga", "500", "--component", "EW", "--window", "20:40"]
+    told = json.loads(CliRunner().invoke(main, ["measure", "synthetic_knet.EW", *options, "--json", "--quiet"]).stdout)["results"][0]
+    preparation = Preparation(demean=True, highpass_hz=0.2, target_pga=5.0, components=("EW",), window=(20.0, 40.0))
+    found = seisblock.measure(preparation.apply(seisblock.read("synthetic_knet.EW")), ["EW"]).components[0]
+    assert told["pga_m_s2"] == found.pga_m_s2 and told["pgv_m_s"] == found.pgv_m_s
