@@ -54,18 +54,22 @@ from .solvers.uplift.modes import natural_modes
 from .solvers.uplift.solve import UpliftOutcome, solve_uplift
 from .studies.cemetery.rate import Rate, overturning_rate, rate_curve
 from .studies.gravestone_criterion import CriterionStudy, criterion_study
-from .studies.inverse.estimate import Assumptions, ShakingEstimate, estimate_shaking
+from .studies.inverse.assumptions import Assumptions
+from .studies.inverse.estimate import ShakingEstimate, estimate_shaking
 from .studies.inverse.factors import ScaleFactors, jumped, scale_factors, slid
 from .studies.inverse.survey import Survey, counted_survey, marked_survey
 from .studies.rocking.margin import FactorRange, Margin, find_margin
 from .studies.rocking.perturb import Perturbation, Spread, perturb
 from .studies.rocking.spectra import RockingSpectrum, rocking_spectrum
 from .studies.sliding import SlidePoint, slide_study
+from .studies.standing.azimuths import AzimuthFate, respond_directions
+from .studies.standing.probability import Probability, Versions, respond_probability
 
 __version__: str
 
 __all__ = [
     "Assumptions",
+    "AzimuthFate",
     "Block",
     "bodies",
     "BodyError",
@@ -120,6 +124,7 @@ __all__ = [
     "Pile",
     "PileContact",
     "PileStone",
+    "Probability",
     "Rate",
     "rate_curve",
     "read",
@@ -133,7 +138,9 @@ __all__ = [
     "RecordMeasures",
     "RecordNotFoundError",
     "records",
+    "respond_directions",
     "respond_many",
+    "respond_probability",
     "RespondOutcome",
     "Response",
     "response_spectrum",
@@ -183,4 +190,5 @@ __all__ = [
     "UpliftOutcome",
     "validation",
     "Verdict",
+    "Versions",
 ]

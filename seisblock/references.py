@@ -33,6 +33,14 @@ class Reference:
 
 _ALL = (
     Reference(
+        "Urone2022",
+        "Urone, P. P. and Hinrichs, R.",
+        2022,
+        "College Physics, 2nd edition",
+        "OpenStax",
+        kind="book",
+    ),
+    Reference(
         "Sugimoto2017",
         "Sugimoto, K. and Taniguchi, T. and Mukaibo, K. and Ono, Y.",
         2017,

@@ -8,14 +8,16 @@ from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.inset import Inset, parse_inset
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.toml import length, read_table
-from seisblock.bodies.two_layer import two_layer_block
+from seisblock.bodies.two_layer import contact, two_layer_block
 from seisblock.errors import BodyError, ParameterError
 from seisblock.units import parse_length, parse_mass
 
 _LENGTHS = ("width", "height", "depth", "centroid_height", "centroid_offset")
 _NUMBERS = ("density", "centroid_inertia")
-_KEYS = {"kind", "source", "name", "mass", "restitution", "inset", *_LENGTHS, *_NUMBERS}
+_FRICTION = ("mu", "mu_kinetic")
+_KEYS = {"kind", "source", "name", "mass", "restitution", "inset", *_FRICTION, *_LENGTHS, *_NUMBERS}
 
 
 def load_block(name: str | Path, *, side: str = "short") -> Block:
@@ -25,7 +27,7 @@ def load_block(name: str | Path, *, side: str = "short") -> Block:
     ----------
     name : str or Path
         ``kind = "block"`` with ``width`` and ``height`` (a number in m, or a text with a unit) and whatever else
-        :class:`~seisblock.bodies.block.Block` takes; or ``kind = "two-layer"``, taken as one rigid block.
+        :class:`~seisblock.bodies.block.Block` takes; or ``kind = "two-layer"`` or ``"pile"``, taken as one rigid block.
     side : "short" or "long"
         Which side lies along the motion, where a two-layer body gives both.
 
@@ -48,18 +50,11 @@ def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
     where = table.get("source", "body")
     kind = table.get("kind")
     if kind == "two-layer":
-        body = two_layer_block(table, side)
-        return Block(
-            body.width,
-            body.height,
-            body.depth,
-            body.mass,
-            centroid_height=body.centroid_height,
-            centroid_inertia=body.centroid_inertia,
-            name=body.name,
-        )
+        return two_layer_block(table, side).as_block()
+    if kind == "pile":
+        return load_pile(where).as_block()
     if kind != "block":
-        raise BodyError(f'{where}: expected kind = "block" or "two-layer", found {kind!r}')
+        raise BodyError(f'{where}: expected kind = "block", "two-layer" or "pile", found {kind!r}')
     unknown = set(table) - _KEYS
     if unknown:
         raise BodyError(f"{where}: unknown entries {', '.join(sorted(unknown))}; a block has {', '.join(sorted(_KEYS - {'source'}))}")
@@ -92,6 +87,13 @@ def restitution_of(table: Mapping[str, Any], name: str) -> float | None:
     """Return the restitution that a body's file brings along, or None."""
     own = table.get("restitution")
     return None if own is None else number(own, f"{name}: restitution")
+
+
+def friction_of(table: Mapping[str, Any], name: str) -> tuple[float | None, float | None]:
+    """Return the static and the kinetic friction that a body's file brings along, None where it is silent."""
+    found: Mapping[str, Any] = contact(table) if table.get("kind") == "two-layer" else table
+    mu, kinetic = (None if found.get(key) is None else number(found[key], f"{name}: {key}") for key in _FRICTION)
+    return mu, kinetic
 
 
 def number(value: Any, what: str) -> float:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock import checks
+from seisblock.bodies.block import Block
 from seisblock.bodies.toml import length, lengths, masses, of_kind, read_table
 from seisblock.errors import BodyError, ParameterError
 from seisblock.units import STANDARD_GRAVITY
@@ -107,6 +108,18 @@ class TwoLayerBlock:
         upper = self.upper_height**2 / 12 + (self.height - self.upper_height / 2 - y) ** 2
         lower = self.lower_height**2 / 12 + (self.lower_height / 2 - y) ** 2
         return self.upper_mass * upper + self.lower_mass * lower
+
+    def as_block(self) -> Block:
+        """Return it as one rigid block: same base, mass, centre and inertia."""
+        return Block(
+            self.width,
+            self.height,
+            self.depth,
+            self.mass,
+            centroid_height=self.centroid_height,
+            centroid_inertia=self.centroid_inertia,
+            name=self.name,
+        )
 
     def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
         """Horizontal ground acceleration above which it rocks, g x_G/y_G, m/s^2 ([Sugimoto2017]_ eq. (2))."""

@@ -27,6 +27,10 @@ from seisblock.words import noted, plain_text, said, tell
 
 COMMANDS: dict[str, tuple[str, str]] = {
     "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),
+    "respond": (
+        "seisblock.cli.respond:respond",
+        "What a free-standing object does: rests, slides, rocks, flies, falls, whichever comes.",
+    ),
     "slide": ("seisblock.cli.slide:slide", "Sliding on a level or sloping base, with Coulomb friction."),
     "rock": ("seisblock.cli.rock:rock", "Rocking and overturning of one block, with its margins."),
     "jump": ("seisblock.cli.jump:jump", "Rocking, impact and jump of a two-layer block."),

@@ -194,7 +194,7 @@ def _assumptions(asked: dict[str, Any]) -> Any:
     from functools import partial
 
     from seisblock.studies.cemetery.limits import rigid_limits
-    from seisblock.studies.inverse.estimate import assumptions_for
+    from seisblock.studies.inverse.assumptions import assumptions_for
 
     given = {name: asked[name] for name in ("common_error", "stone_error", "bias", "frequency_error")}
     given["level"] = asked["confidence"]

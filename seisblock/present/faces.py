@@ -61,6 +61,13 @@ def film_of(responses: Responses) -> Callable[[Path, Filming], None] | None:
     return None if film is None else lambda path, filming: film(responses[0], path, filming)
 
 
+def _respond(responses: Responses, gal: bool) -> Figure:
+    """Draw a free-standing object."""
+    from seisblock.present.figures.respond import figure
+
+    return figure(responses, gal=gal)
+
+
 def _rock(responses: Responses, gal: bool) -> Figure:
     """Draw rocking."""
     from seisblock.present.figures.rock import figure
@@ -96,6 +103,13 @@ def _stack(responses: Responses, gal: bool) -> Figure:
     return figure(responses)
 
 
+def _film_respond(response: Response[Any], path: Path, filming: Filming) -> None:
+    """Film a free-standing object."""
+    from seisblock.present.films.respond import animate_respond
+
+    animate_respond(response, path, filming)
+
+
 def _film_rock(response: Response[Any], path: Path, filming: Filming) -> None:
     """Film rocking."""
     from seisblock.present.films.rock import animate_rocking
@@ -125,6 +139,7 @@ def _film_stack(response: Response[Any], path: Path, filming: Filming) -> None:
 
 
 FACES = {
+    "respond": Face(_respond, _film_respond),
     "rock": Face(_rock, _film_rock),
     "slide": Face(_slide, _film_slide),
     "jump": Face(_jump, _film_jump),

@@ -22,6 +22,8 @@ WITHOUT_DOCUMENT = {"report", "completion", "schema"}
 
 EVERY = (
     "measure",
+    "respond --width 45cm --height 180cm --mu 0.3 --runs 5",
+    "respond --block gravestone --runs 0 --component all-azimuths",
     "measure synthetic_knet.EW synthetic_jma --width 24cm --height 72cm",
     "slide --mu 0.2",
     "slide --mu 0.2 synthetic_knet.EW synthetic_jma --component EW",

@@ -12,7 +12,8 @@ from seisblock.measures import measure
 from seisblock.records import Component, Record, motion_of
 from seisblock.solvers.rock.solve import rock_verdict
 from seisblock.studies.cemetery.limits import fitted_limits
-from seisblock.studies.inverse.estimate import Assumptions, assumptions_for, estimate_shaking
+from seisblock.studies.inverse.assumptions import Assumptions, assumptions_for
+from seisblock.studies.inverse.estimate import estimate_shaking
 from seisblock.studies.inverse.joint import joint_estimate
 from seisblock.studies.inverse.plausible import plausibility, remark_on_plausibility
 from seisblock.studies.inverse.survey import counted_survey, marked_survey

@@ -14,16 +14,8 @@ from seisblock.criteria.intensity import intensity_from_velocity
 from seisblock.errors import BodyError, ParameterError
 from seisblock.measures import jma_class
 from seisblock.studies.cemetery.limits import fitted_limits
-from seisblock.studies.inverse.estimate import (
-    ALL_STONES,
-    DOWELLED_STONES,
-    FREQUENCY_ERROR,
-    PLAIN_STONES,
-    Assumptions,
-    contour,
-    estimate_shaking,
-    groups_of,
-)
+from seisblock.studies.inverse.assumptions import FREQUENCY_ERROR, Assumptions
+from seisblock.studies.inverse.estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, contour, estimate_shaking, groups_of
 from seisblock.studies.inverse.survey import (
     BIAS,
     COMMON_ERROR,

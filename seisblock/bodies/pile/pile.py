@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
+from seisblock.bodies.block import Block
 from seisblock.bodies.pile.checks import check_pile
 from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, overlap, span
 
@@ -89,6 +90,36 @@ class Pile:
         kept = tuple(stone for stone in self.stones if stone.name not in names)
         dowels = tuple(group for group in self.dowels if not set(group) & set(names))
         return replace(self, stones=kept, dowels=dowels, fixed=tuple(name for name in self.fixed if name not in names))
+
+    def as_block(self) -> Block:
+        """Return it as one rigid block that moves along x: the base of what touches the ground, mass, centre and inertia of all.
+
+        Its height is that of the highest stone; stones that stand wider than the base do not widen it.
+        """
+        centres = self.centres()
+        loose = [i for i, name in enumerate(self.names) if name not in self.fixed]
+        floor = min(centres[i][2] - 0.5 * self.stones[i].height for i in loose)
+        feet = [i for i in loose if centres[i][2] - 0.5 * self.stones[i].height - floor <= TOUCHING]
+        low = min(centres[i][0] - 0.5 * self.stones[i].width for i in feet)
+        high = max(centres[i][0] + 0.5 * self.stones[i].width for i in feet)
+        mass = sum(self.stones[i].mass for i in loose)
+        x, z = (sum(self.stones[i].mass * centres[i][axis] for i in loose) / mass for axis in (0, 2))
+        inertia = sum(
+            self.stones[i].mass
+            * ((self.stones[i].width ** 2 + self.stones[i].height ** 2) / 12 + (centres[i][0] - x) ** 2 + (centres[i][2] - z) ** 2)
+            for i in loose
+        )
+        top = max(centres[i][2] + 0.5 * self.stones[i].height for i in loose)
+        return Block(
+            high - low,
+            top - floor,
+            max(self.stones[i].depth for i in feet),
+            mass,
+            centroid_height=z - floor,
+            centroid_offset=x - 0.5 * (low + high),
+            centroid_inertia=inertia,
+            name=self.name,
+        )
 
     def dowelled(self, *names: str) -> Pile:
         """Return the pile with these stones held together."""

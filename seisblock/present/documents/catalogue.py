@@ -15,6 +15,7 @@ from seisblock.present.documents.units import unit_of
 
 KINDS: dict[str, tuple[str, ...]] = {
     "measure": ("measure:MEASURE",),
+    "respond": ("respond:RESPOND",),
     "slide": ("slide:SLIDE", "slide:STUDY"),
     "rock": ("rock:ROCK",),
     "jump": ("jump:JUMP",),

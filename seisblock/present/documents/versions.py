@@ -2,6 +2,7 @@
 
 VERSIONS = {
     "measure": 1,
+    "respond": 1,
     "slide": 1,
     "rock": 1,
     "jump": 2,

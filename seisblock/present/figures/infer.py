@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure, threshold
 from seisblock.records import Record
-from seisblock.studies.inverse.estimate import Assumptions, ShakingEstimate, contour
+from seisblock.studies.inverse.assumptions import Assumptions
+from seisblock.studies.inverse.estimate import ShakingEstimate, contour
 from seisblock.studies.inverse.survey import Survey, likelihood
 from seisblock.typing import FloatArray
 from seisblock.units import GAL

@@ -10,7 +10,8 @@ from rich.text import Text
 
 from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, table
 from seisblock.records import Record
-from seisblock.studies.inverse.estimate import Assumptions, Interval, ShakingEstimate
+from seisblock.studies.inverse.assumptions import Assumptions
+from seisblock.studies.inverse.estimate import Interval, ShakingEstimate
 from seisblock.studies.inverse.joint import JointEstimate
 from seisblock.units import GAL, KINE
 from seisblock.words import noted, tell

@@ -5,45 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from seisblock import checks
-from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
-from seisblock.bodies.inset import Inset
+from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.criteria.gravestones import DOWELLED_REMARK, outside_fit
 from seisblock.criteria.intensity import FITTED_INTENSITY, SCATTER, intensity_from_velocity
 from seisblock.measures import jma_class
-from seisblock.studies.cemetery.limits import Limits, fitted_limits
+from seisblock.studies.cemetery.limits import Limits
 from seisblock.studies.cemetery.rate import threshold_ratio
-from seisblock.studies.inverse.survey import (
-    BIAS,
-    BIAS_OF_WEAR,
-    COMMON_ERROR,
-    EDGE_ERROR,
-    SHARP_BIAS,
-    STONE_ERROR,
-    Likelihood,
-    Survey,
-    likelihood,
-)
+from seisblock.studies.inverse.assumptions import Assumptions
+from seisblock.studies.inverse.survey import Likelihood, Survey
 from seisblock.typing import FloatArray
-
-LEVEL = 0.9
-"""Default level of the intervals."""
-
-BAND = (0.5, 3.0)
-"""Equivalent frequencies, Hz, over which a survey is averaged where none is given: the range of the fit ([Furukawa2009]_)."""
-
-BAND_STEPS = 26
-"""Frequencies in that band, evenly spaced in ln f."""
-
-FREQUENCY_ERROR = 0.1
-"""Default standard deviation of a given equivalent frequency, in ln f: what filters and definitions differ by."""
-
-FREQUENCY_REACH, FREQUENCY_STEPS = 2.5, 11
-"""A given frequency is averaged over so many standard deviations to each side, in so many steps."""
 
 PLAIN_STONES, DOWELLED_STONES, ALL_STONES = "not reinforced", "reinforced", "all"
 """Names of the groups that are judged apart, and together."""
@@ -90,70 +64,6 @@ class ShakingEstimate:
     jma_intensity: float | None
     jma_intensity_interval: Interval
     jma_classes: tuple[str | None, str | None]
-
-
-@dataclass(frozen=True)
-class Assumptions:
-    """What an estimate rests on.
-
-    Parameters
-    ----------
-    common_error, stone_error : float
-        Standard deviations in ln PGA, of a cemetery and of each stone.
-    level : float
-        Of the intervals, between 0 and 1.
-    limits : callable
-        The criterion.
-    bias : float
-        How much more PGA than the criterion's the ground must have, in ln PGA; see :mod:`seisblock.studies.inverse.survey`.
-    frequency_error : float
-        Standard deviation of a given equivalent frequency, in ln f.
-    """
-
-    common_error: float = COMMON_ERROR
-    stone_error: float = STONE_ERROR
-    level: float = LEVEL
-    limits: Limits = fitted_limits
-    bias: float = BIAS
-    frequency_error: float = FREQUENCY_ERROR
-
-    def __post_init__(self) -> None:
-        checks.within("the level of the intervals", self.level, "(0, 1)")
-        checks.not_negative("the error of the frequency, in ln f,", self.frequency_error)
-
-    def band(self, frequency: float | None) -> tuple[list[float], FloatArray]:
-        """Return the frequencies that stand for a given one, or for the whole band, Hz, and the weight of each, (n,)."""
-        if frequency is None:
-            return np.geomspace(*BAND, BAND_STEPS).tolist(), np.full(BAND_STEPS, 1.0 / BAND_STEPS)
-        if self.frequency_error == 0.0:
-            return [frequency], np.ones(1)
-        steps = np.linspace(-FREQUENCY_REACH, FREQUENCY_REACH, FREQUENCY_STEPS)
-        weights = np.exp(-0.5 * steps**2)
-        return (frequency * np.exp(self.frequency_error * steps)).tolist(), weights / weights.sum()
-
-    def likelihoods(self, survey: Survey, frequencies: Sequence[float]) -> list[Likelihood]:
-        """Return the likelihood of a survey at each frequency."""
-        return [
-            likelihood(survey, f, common_error=self.common_error, stone_error=self.stone_error, bias=self.bias, limits=self.limits)
-            for f in frequencies
-        ]
-
-
-def assumptions_for(edges: Inset | None, **given: Any) -> Assumptions:
-    """Return the assumptions for stones whose worn edges are known: their bias, and less scatter ([Furukawa2009]_ eq. (9)).
-
-    Parameters
-    ----------
-    edges : Inset or None
-        How far in from each side the stones' edges lie; None: anything from sharp to 0.1 of the width.
-    given
-        Fields of :class:`Assumptions`; None where not given.
-    """
-    chosen = {name: value for name, value in given.items() if value is not None}
-    if edges is not None:
-        share = edges.of(PAPER_WIDTH) / PAPER_WIDTH
-        chosen = {"bias": SHARP_BIAS + BIAS_OF_WEAR * share, "common_error": EDGE_ERROR, **chosen}
-    return Assumptions(**chosen)
 
 
 def estimate_shaking(

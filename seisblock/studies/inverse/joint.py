@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.errors import ParameterError
-from seisblock.studies.inverse.estimate import Assumptions, Interval, ShakingEstimate, estimate_shaking
+from seisblock.studies.inverse.assumptions import Assumptions
+from seisblock.studies.inverse.estimate import Interval, ShakingEstimate, estimate_shaking
 from seisblock.studies.inverse.survey import Survey
 from seisblock.typing import FloatArray
 from seisblock.words import Said, said

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.studies.inverse.estimate import BAND, Assumptions
+from seisblock.studies.inverse.assumptions import BAND, Assumptions
 from seisblock.studies.inverse.survey import Survey
 from seisblock.typing import FloatArray
 from seisblock.words import Said, said

@@ -1,0 +1,59 @@
+"""How rough two surfaces are: a few pairs with their source, for want of a measurement at the object itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from seisblock.errors import ParameterError
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Friction of one pair of surfaces.
+
+    Parameters
+    ----------
+    mu, mu_kinetic : float
+        Static and kinetic coefficient.
+    source : str
+        Citation with its locator.
+    note : str
+        What was measured, and what is assumed.
+    """
+
+    mu: float
+    mu_kinetic: float
+    source: str
+    note: str = ""
+
+
+SURFACES = {
+    "granite/granite": Surface(0.438, 0.438, "[Furukawa2009]_ table 2", "kinetic value of gravestones; the static one is taken as equal"),
+    "wood/stone": Surface(0.18, 0.17, "[Sugimoto2017]_ section 4.1", "ABS resin on steel, which the paper takes for posts on stone"),
+    "rubber/concrete": Surface(1.0, 0.7, "[Urone2022]_ table 5.1", "dry"),
+    "wood/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
+    "metal/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
+    "steel/steel": Surface(0.6, 0.3, "[Urone2022]_ table 5.1", "dry"),
+    "teflon/steel": Surface(0.04, 0.04, "[Urone2022]_ table 5.1"),
+}
+"""Pairs in either order; real values scatter by a third, so that a probability varies them."""
+
+
+def surface(pair: str) -> Surface:
+    """Return the friction of a pair such as ``granite/granite``, in either order.
+
+    Raises
+    ------
+    ParameterError
+        If the pair is not in the table; the message lists those that are.
+
+    Examples
+    --------
+    >>> surface("stone/wood").mu
+    0.18
+    """
+    parts = [part.strip().lower() for part in pair.split("/")]
+    for name in ("/".join(parts), "/".join(reversed(parts))):
+        if name in SURFACES:
+            return SURFACES[name]
+    raise ParameterError(f"no friction is known of {pair!r}; there are {', '.join(SURFACES)}: or give the coefficient itself")

@@ -1,0 +1,99 @@
+"""A free-standing body and what it stands on: one rigid block with its friction, from options, a file or a bundled name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.friction import SURFACES, surface
+from seisblock.bodies.library import friction_of
+from seisblock.bodies.toml import read_table
+from seisblock.cli.bodies.block import choose_block
+from seisblock.cli.bodies.options import block_options
+from seisblock.cli.command import option
+from seisblock.cli.types import LENGTH
+from seisblock.errors import BodyError
+
+
+@dataclass(frozen=True)
+class StandingChoice:
+    """A block, its friction, and one line on where they come from."""
+
+    block: Block
+    mu: float
+    mu_kinetic: float | None
+    says: str
+
+
+_FRICTION = (
+    option("--mu", type=float, section="Body", metavar="MU", help="Static friction coefficient, 1. [default: the body's own; else needed]"),
+    option(
+        "--mu-kinetic", type=float, section="Body", metavar="MU", help="Kinetic friction coefficient, 1, at most --mu. [default: as --mu]"
+    ),
+    option(
+        "--surface",
+        section="Body",
+        metavar="A/B",
+        help=f"Friction from a table of pairs, instead of --mu: {', '.join(SURFACES)}.",
+    ),
+    option(
+        "--restitution",
+        type=float,
+        default=0.0,
+        show_default=True,
+        metavar="E",
+        section="Body",
+        help="Restitution of impacts at a corner (Poisson's), a ratio of impulses, [0, 1).",
+    ),
+    option(
+        "--rocking-restitution",
+        type=float,
+        metavar="E",
+        section="Body",
+        help="Angular velocity after over that before when the other corner comes down, [0, 1]. [default: from the impact itself]",
+    ),
+    option(
+        "--tenon",
+        type=LENGTH,
+        default=0.0,
+        section="Body",
+        help="Depth of tenons that hold the feet until they have left them in flight, m or with a unit (2cm). [default: none]",
+    ),
+)
+
+
+def standing_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the options of a free-standing body; it receives them by name, for :func:`choose_standing`."""
+    for declare in reversed(_FRICTION):
+        function = declare(function)
+    return block_options(function)
+
+
+def choose_standing(asked: Mapping[str, Any]) -> StandingChoice:
+    """Return the body and its friction that a set of options describes; taken out of what is left for the solver.
+
+    Raises
+    ------
+    BodyError
+        If the body is not known, or nothing says how rough the ground is.
+    """
+    chosen = choose_block({**asked, "restitution": None})
+    mu, kinetic, origin = asked.get("mu"), asked.get("mu_kinetic"), "as given"
+    if asked.get("surface"):
+        if mu is not None:
+            raise BodyError("give either --mu or --surface, not both")
+        found = surface(asked["surface"])
+        mu, kinetic = found.mu, found.mu_kinetic if kinetic is None else kinetic
+        origin = f"{asked['surface']}, {found.source.replace('_', '')}" + (f": {found.note}" if found.note else "")
+    elif mu is None and asked.get("block"):
+        mu, own = friction_of(read_table(asked["block"]), asked["block"])
+        kinetic = own if kinetic is None else kinetic
+        origin = f"from {asked['block']}"
+    if mu is None:
+        raise BodyError(
+            "how rough is it under the body? Give --mu, the static friction coefficient, or --surface with a pair: " + ", ".join(SURFACES)
+        )
+    told = f"mu {mu:g}" + ("" if kinetic is None else f", kinetic {kinetic:g}")
+    return StandingChoice(chosen.block, mu, kinetic, f"{chosen.says}; {told} ({origin})")

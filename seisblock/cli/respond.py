@@ -1,0 +1,115 @@
+"""``seisblock respond``: what a free-standing object does, whichever comes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from seisblock.cli.bodies.standing import choose_standing, standing_options
+from seisblock.cli.command import Command, option
+from seisblock.cli.emit import emit
+from seisblock.cli.inputs import load, motions
+from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.talk import say
+from seisblock.cli.types import LENGTH
+
+if TYPE_CHECKING:
+    from seisblock.bodies.block import Block
+    from seisblock.records import Motion
+    from seisblock.studies.standing.azimuths import AzimuthFate
+
+ALL_AZIMUTHS = "all-azimuths"
+VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth_deg")
+
+
+@click.command(
+    cls=Command,
+    examples=(
+        "seisblock respond --width 45cm --height 180cm --mu 0.3",
+        "seisblock respond record.csv --block gravestone --component EW --plot respond.png",
+    ),
+)
+@record_options
+@standing_options
+@option(
+    "--vertical/--no-vertical",
+    default=None,
+    help="Whether the vertical component acts. [default: where the record has one]",
+)
+@option("--runs", type=click.IntRange(min=0), default=200, show_default=True, help="Plausible versions behind the probability; 0 for none.")
+@option("--moved", type=LENGTH, default=0.01, help="Displacement beyond which it counts as moved, m or with a unit. [default: 1cm]")
+@option("--vary-size", type=float, default=0.05, show_default=True, help="Versions: half width of the size, a share.")
+@option(
+    "--vary-inset", type=float, default=0.1, show_default=True, help="Versions: worn from sharp edges to this share of the width per side."
+)
+@option("--vary-mu", type=float, default=0.2, show_default=True, help="Versions: half width of the friction, a share.")
+@option("--vary-restitution", type=float, default=0.1, show_default=True, help="Versions: how much larger the restitution may be, 1.")
+@option("--vary-amplitude", type=float, default=0.1, show_default=True, help="Versions: half width of the shaking's amplitude, a share.")
+@option("--vary-azimuth", type=float, default=10.0, show_default=True, help="Versions: half width of the direction of shaking, degrees.")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of the versions.")
+@option("--settle", type=float, default=60.0, show_default=True, metavar="S", help="How long it is followed after the record, s.")
+@gravity_option
+@output_options
+def respond(
+    source: Source,
+    output: Output,
+    gravity: float,
+    vertical: bool | None,
+    runs: int,
+    moved: float,
+    seed: int,
+    settle: float,
+    **given: Any,
+) -> None:
+    """Tell what a free-standing object does: rests, slides, rocks, slides while rocking, flies, falls, whichever comes.
+
+    Plane motion of one rigid body with Coulomb friction, each horizontal component by itself, the vertical acting where the record has
+    it. After the record's end the object is followed until it rests. Beside the verdict stands the share of plausible
+    versions of the object and the shaking that fall. --component all-azimuths looks in every direction and answers for the worst.
+    """
+    from seisblock.cli.progress import progress
+    from seisblock.present.documents.respond import document
+    from seisblock.present.text import respond as shown
+    from seisblock.solvers.respond.solve import solve_respond
+    from seisblock.studies.standing.probability import Versions, respond_probability
+
+    widths = {name: given.pop(f"vary_{name.removesuffix('_deg')}") for name in VARIED}
+    chosen = choose_standing(given)
+    say(f"body: {chosen.says}")
+    options: dict[str, Any] = {
+        "mu": chosen.mu,
+        "mu_kinetic": chosen.mu_kinetic,
+        **{name: given[name] for name in ("restitution", "rocking_restitution", "tenon")},
+        "gravity": gravity,
+        "settle_s": settle,
+    }
+    responses, extras = [], []
+    for motion, sweep in _motions(source, chosen.block, vertical, options):
+        responses.append(solve_respond(chosen.block, motion, vertical=vertical, **options))
+        extra: dict[str, Any] = {}
+        if runs:
+            same = {**options, "vertical": vertical is not False, "runs": runs, "moved_m": moved, "seed": seed}
+            with progress(f"versions {motion.name}") as tell:
+                extra["probability"] = respond_probability(chosen.block, motion, versions=Versions(**widths), progress=tell, **same)
+        if sweep:
+            extra["directions"] = sweep
+        extras.append(extra)
+    emit(document(responses, chosen.block, extras), output, responses=responses, tables=lambda: shown.tables(responses, extras))
+
+
+def _motions(source: Source, block: Block, vertical: bool | None, options: dict[str, Any]) -> Iterator[tuple[Motion, list[AzimuthFate]]]:
+    """Yield each motion asked for; the worst direction, with all of them, when they are all asked for."""
+    from seisblock.records import motion_of
+    from seisblock.studies.standing.azimuths import respond_directions
+
+    every = [name.lower() for name in source.component] == [ALL_AZIMUTHS]
+    for record in load(replace(source, component=()) if every else source):
+        if not every:
+            yield from ((motion, []) for motion in motions(record, source))
+            continue
+        found = respond_directions(block, record, vertical=vertical is not False, **options)
+        say(f"worst of {len(found)} directions: azimuth {found[0].azimuth_deg:g} degrees")
+        yield motion_of(record, f"{found[0].azimuth_deg:g}"), found

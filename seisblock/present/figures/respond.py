@@ -1,0 +1,99 @@
+"""What a free-standing object does, in pictures: ground motion with its thresholds, displacement, lean and lift, modes shaded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from seisblock.present.figures import canvas
+from seisblock.results import Phase, Response
+from seisblock.solvers.respond.outcome import FLIGHT, ROCK, SLIDE, SLIDE_ROCK, RespondOutcome
+from seisblock.units import GAL
+
+COLOURS = {SLIDE: "#d5dcef", ROCK: "#f4d9c6", SLIDE_ROCK: "#e3d3e8", FLIGHT: "#cfe3d4"}
+SEEN = 1 / 2000
+"""Phases shorter than this share of what is shown are not drawn: dying hops come by the thousand."""
+
+Responds = Sequence[Response[RespondOutcome]]
+
+
+def figure(responses: Responds, *, gal: bool = True) -> Figure:
+    """Return the figure: per component a column with ground acceleration, displacement, lean and, where it flies, lift."""
+    flies = any(response.outcome.flights for response in responses)
+    leans = any(response.outcome.max_rotation_rad > 0.0 for response in responses)
+    rows = 2 + leans + flies
+    made, axes = canvas.new_figure(rows, columns=len(responses), width=2.0 + 5.4 * len(responses), sharex="col")
+    for column, response in enumerate(responses):
+        panels = [axes[row * len(responses) + column] for row in range(rows)]
+        first, last = stretch(response)
+        _ground(panels[0], response, gal=gal)
+        _curve(panels[1], response, 100.0 * response["displacement"], "x (cm)", canvas.SECOND)
+        if leans:
+            _lean(panels[2], response)
+        if flies:
+            _curve(panels[-1], response, 1e3 * np.maximum(response["lift"], 0.0), "lift (mm)", "#2e7d4f")
+        for panel in panels:
+            canvas.shade(panel, seen(response.phases, first, last), COLOURS, names=panel is panels[1])
+        canvas.legend(panels[1])
+        panels[0].set_xlim(first, last)
+        canvas.label(panels[-1], "t (s)")
+    return made
+
+
+def stretch(response: Response[RespondOutcome]) -> tuple[float, float]:
+    """Return the stretch of time worth drawing: from before it first moves until it rests, the whole record where it never does."""
+    first, last = float(response.motion.time[0]), float(response.motion.time[-1])
+    moving = [phase for phase in response.phases if phase.name in COLOURS]
+    if not moving:
+        return first, last
+    start, end = moving[0].start_s, moving[-1].end_s
+    margin = 0.05 * (end - start) + 0.2
+    return max(first, start - margin), min(float(response.time[-1]), end + margin)
+
+
+def seen(phases: Sequence[Phase], first: float, last: float) -> list[Phase]:
+    """Return the phases that are long enough to be seen."""
+    return [phase for phase in phases if phase.duration_s >= SEEN * (last - first)]
+
+
+def _ground(axis: Axes, response: Response[RespondOutcome], *, gal: bool) -> None:
+    """Draw the ground acceleration with the levels at which it would slide and rock from rest."""
+    unit, name = (GAL, "gal") if gal else (1.0, "m/s²")
+    block, options = response.body, response.options
+    right, left = block.arms
+    gravity = options["gravity_m_s2"] / unit
+    canvas.curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
+    for level, text, dash in (
+        ((-right / block.centre, left / block.centre), "rocks: b/h", (0, (6, 2))),
+        ((-options["mu"], options["mu"]), "slides: μ", (0, (1.5, 1.5))),
+    ):
+        for index, share in enumerate(level):
+            axis.axhline(share * gravity, color=canvas.THRESHOLD, linewidth=0.8, linestyle=dash, label=text if index == 0 else None)
+    reach = float(np.abs(response["ground_acceleration"]).max()) / unit
+    axis.set_ylim(-1.15 * reach, 1.15 * reach)
+    canvas.label(axis, y=f"a ({name})")
+    canvas.legend(axis)
+    title = f"{response.motion.name}  {block.name}: {response.outcome.outcome}"
+    axis.set_title(title, fontsize=9, loc="left", parse_math=False)
+
+
+def _curve(axis: Axes, response: Response[RespondOutcome], values: np.ndarray, text: str, colour: str) -> None:
+    """Draw one curve of the response, cut to what is shown before it is thinned."""
+    first, last = stretch(response)
+    shown = (response.time >= first - response.motion.dt) & (response.time <= last + response.motion.dt)
+    canvas.curve(axis, response.time[shown], values[shown], color=colour, linewidth=1.1)
+    canvas.label(axis, y=text)
+
+
+def _lean(axis: Axes, response: Response[RespondOutcome]) -> None:
+    """Draw the lean over alpha, up to a little beyond what matters."""
+    alpha = min(response.body.slendernesses)
+    _curve(axis, response, response["rotation"] / alpha, "θ/α", canvas.ACCENT)
+    reach = float(np.abs(response["rotation"]).max()) / alpha
+    if reach > 0.8:
+        canvas.threshold(axis, [-1.0, 1.0])
+    limit = max(1.15 * min(reach, 1.5), 1e-3)
+    axis.set_ylim(-limit, limit)

@@ -1,0 +1,204 @@
+"""How the fate of a free-standing object is told: what happened, how sure that is, then the numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from rich.text import Text
+
+from seisblock.present.text.tables import number, record_line, seconds, table
+from seisblock.results import Response
+from seisblock.solvers.respond.outcome import RespondOutcome
+from seisblock.studies.standing.probability import Probability
+from seisblock.words import tell
+
+Responds = Sequence[Response[RespondOutcome]]
+
+STIRS_M = 5e-4
+"""A body that ends and passes nearer than this to where it stood has not moved, in words."""
+
+FEWEST = 20
+"""Quantiles of fewer versions are not told."""
+
+
+def tables(responses: Responds, extras: Sequence[Mapping[str, Any]]) -> Iterator[Any]:
+    """Yield, per record, its line, what happened and how sure it is, a table with a column per component, and the notes."""
+    records = list({id(r.motion.record): r.motion.record for r in responses}.values())
+    for record in records:
+        part = [(r, e) for r, e in zip(responses, extras, strict=True) if r.motion.record is record]
+        if record is not None:
+            yield record_line(record)
+        for response, extra in part:
+            yield Text(verdict(response), style="bold")
+            if "probability" in extra:
+                yield Text("  " + share(extra["probability"]))
+            if "directions" in extra:
+                yield Text("  " + around(extra["directions"]))
+        yield _table([r for r, _ in part])
+        if any("probability" in extra for _, extra in part):
+            yield Text(varied(next(extra["probability"] for _, extra in part if "probability" in extra)), style="dim")
+        yield Text()
+
+
+def verdict(response: Response[RespondOutcome]) -> str:
+    """Return what happened, in words."""
+    outcome, name = response.outcome, response.motion.name or "x"
+    if outcome.overturned:
+        assert outcome.overturning_time_s is not None
+        slid = tell(", having slid {path}", path=length(outcome.slip_path_m)) if outcome.slip_path_m >= STIRS_M else ""
+        towards = side(outcome.overturned_towards, name)
+        words = tell("overturns to {towards} at {time:.2f} s{slid}", towards=towards, time=outcome.overturning_time_s, slid=slid)
+    elif outcome.outcome == "rests":
+        words = tell("stands still")
+    else:
+        words = tell(", ").join(_stays(response))
+    flag = tell("; a change of the input by a millionth changes this") if outcome.sensitive else ""
+    return tell("{name}: {words}{flag}.", name=name, words=words, flag=flag)
+
+
+def _stays(response: Response[RespondOutcome]) -> Iterator[str]:
+    """Yield what a body did that has moved and not fallen."""
+    outcome, name = response.outcome, response.motion.name or "x"
+    time = outcome.time_in_mode_s
+    rocks = bool(time["rock"] or time["slide_rock"])
+    if rocks and outcome.max_rotation_ratio >= 0.01:
+        yield tell("rocks to {share} of the way to alpha", share=percent(outcome.max_rotation_ratio))
+    elif rocks:
+        yield tell("rocks, less than 1 % of the way to alpha")
+    if outcome.slip_path_m >= STIRS_M:
+        yield tell("slides {path} in all", path=length(outcome.slip_path_m))
+    elif outcome.slip_path_m > 0.0 and not rocks:
+        yield tell("slides less than half a millimetre")
+    if outcome.flights and time["flight"] >= 1e-3:
+        yield tell("leaves the ground for {time:.2f} s", time=time["flight"])
+    if not rocks:
+        yield tell("never rocks")
+    end = outcome.final_displacement_m
+    if not outcome.settled:
+        yield tell("moves on")
+    elif abs(end) >= STIRS_M:
+        yield tell("comes to rest {path} to {towards}", path=length(abs(end)), towards=side("+x" if end > 0.0 else "-x", name))
+    else:
+        yield tell("comes to rest where it stood")
+
+
+def side(towards: str | None, name: str) -> str:
+    """Return a direction as +EW or -EW, or as an azimuth."""
+    sign = 1 if towards == "+x" else -1
+    try:
+        azimuth = float(name)
+    except ValueError:
+        return f"{'+' if sign > 0 else '-'}{name}"
+    return tell("azimuth {degrees:g}", degrees=(azimuth if sign > 0 else azimuth + 180.0) % 360.0)
+
+
+def length(value_m: float) -> str:
+    """Return a length as a person says it: mm below 1 cm, cm below 1 m, else m."""
+    if value_m < 0.00995:
+        return f"{value_m * 1e3:.1f} mm"
+    return f"{value_m * 100:.1f} cm" if value_m < 0.9995 else f"{value_m:.2f} m"
+
+
+def share(found: Probability) -> str:
+    """Return how many versions fall and move, as a sentence; never as if it were the object's own probability."""
+    fallen = round(found.overturned * found.runs)
+    low, high = found.interval
+    if fallen == 0:
+        falls = tell("none of {runs} plausible versions falls", runs=found.runs)
+    elif fallen == found.runs:
+        falls = tell("all {runs} plausible versions fall", runs=found.runs)
+    else:
+        falls = tell(
+            "{fallen} of {runs} plausible versions fall, {share} ({low} to {high})",
+            fallen=fallen,
+            runs=found.runs,
+            share=percent(found.overturned),
+            low=percent(low),
+            high=percent(high),
+        )
+    far = length(found.moved_m)
+    if found.moved in (0.0, 1.0):
+        moves = tell("all move more than {far}", far=far) if found.moved else tell("none moves more than {far}", far=far)
+    else:
+        moves = tell("{share} move more than {far}", share=percent(found.moved), far=far)
+    middle = ""
+    if found.moved > 0.0 and found.runs - fallen >= FEWEST:
+        ends = found.final_displacement_m
+        middle = tell("; nine in ten of those that stand end between {low} and {high}", low=signed(ends["q05"]), high=signed(ends["q95"]))
+    return tell("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
+
+
+def percent(share: float) -> str:
+    """Return a share in per cent; neither 0 % nor 100 % where it is not quite."""
+    if 0.0 < share < 0.01:
+        return tell("below 1 %")
+    if 0.99 < share < 1.0:
+        return tell("over 99 %")
+    return f"{100.0 * share:.0f} %"
+
+
+def signed(value_m: float) -> str:
+    """Return a signed length; zero has no sign."""
+    if abs(value_m) < 5e-5:
+        return "0"
+    return f"{value_m * 100:+.1f} cm"
+
+
+def around(found: Sequence[Any]) -> str:
+    """Return in how many directions it falls."""
+    fallen = sum(each.overturned for each in found)
+    return tell("falls in {fallen} of {all} directions; this is the worst.", fallen=fallen, all=len(found))
+
+
+def varied(found: Probability) -> str:
+    """Return what was varied, and what the share is worth."""
+    by = found.versions
+    return tell(
+        "of this model's scatter alone: size ±{size}, edges worn by 0 to {inset} of the width, friction ±{mu}, restitution up to "
+        "+{restitution:g}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees; on shaking tables 3 % of two granite rocks fell where "
+        "none of 20 versions did, and 2 % stood where all fell",
+        size=percent(by.size),
+        inset=percent(by.inset),
+        mu=percent(by.mu),
+        restitution=by.restitution,
+        amplitude=percent(by.amplitude),
+        azimuth=by.azimuth_deg,
+    )
+
+
+def _table(responses: Responds) -> Any:
+    """Return the numbers, a column per component."""
+    first = responses[0]
+    block, options, outcomes = first.body, first.options, [response.outcome for response in responses]
+    ratio = min(block.arms) / block.centre
+    onset = min(options["mu"], ratio) * options["gravity_m_s2"] * 100.0
+    title = tell(
+        "{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset:.0f} gal",
+        name=block.name,
+        ratio=ratio,
+        mu=options["mu"],
+        kinetic=options["mu_kinetic"],
+        first=tell("slides") if options["mu"] < ratio else tell("rocks"),
+        onset=onset,
+    )
+    spent = [o.time_in_mode_s for o in outcomes]
+    rows: list[tuple[str, list[Any]]] = [
+        (tell("outcome"), [tell(o.outcome) for o in outcomes]),
+        (tell("largest lean (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
+        (tell("  over alpha"), [number(o.max_rotation_ratio) for o in outcomes]),
+        (tell("ends at (cm)"), [f"{_tidy(o.final_displacement_m * 100):.2f}" for o in outcomes]),
+        (tell("furthest from start (cm)"), [f"{o.max_displacement_m * 100:.2f}" for o in outcomes]),
+        (tell("slip path (cm)"), [f"{o.slip_path_m * 100:.2f}" for o in outcomes]),
+        (tell("flights, impacts"), [f"{o.flights}, {o.impacts}" for o in outcomes]),
+        (tell("  slides, rocks (s)"), [f"{seconds(s['slide'])}, {seconds(s['rock'])}" for s in spent]),
+        (tell("  both, in flight (s)"), [f"{seconds(s['slide_rock'])}, {seconds(s['flight'])}" for s in spent]),
+        (tell("lost to friction, impacts (J)"), [f"{number(o.energy_friction_j)}, {number(o.energy_impacts_j)}" for o in outcomes]),
+    ]
+    return table(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
+
+
+def _tidy(value: float) -> float:
+    """Return a number without the sign of a zero, to two decimals."""
+    return 0.0 if abs(value) < 0.005 else value

@@ -1,0 +1,112 @@
+"""``seisblock respond``: what happened, how sure it is, and the contract of its document."""
+
+import json
+import re
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+
+CABINET = ("--width", "45cm", "--height", "180cm", "--mu", "0.3")
+KEYS = {
+    "component", "outcome", "overturned", "overturned_towards", "overturning_time_s", "max_rotation_rad", "max_rotation_ratio",
+    "final_displacement_m", "max_displacement_m", "slip_path_m", "flights", "impacts", "time_in_mode_s", "energy_friction_j",
+    "energy_impacts_j", "sensitive", "events", "probability",
+}  # fmt: skip
+
+
+def run(*words):
+    """Run the command."""
+    return CliRunner().invoke(main, ["respond", *(str(word) for word in words)])
+
+
+def answer(*words):
+    """Return its document."""
+    done = run(*words, "--json")
+    assert done.exit_code == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_the_document_keeps_the_contract():
+    """Every key of the contract, events from time 0, modes and corners by their names."""
+    document = answer(*CABINET, "--runs", "10")
+    assert document["schema"].startswith("seisblock/respond/")
+    for result in document["results"]:
+        assert set(result) >= KEYS
+        assert set(result["time_in_mode_s"]) == {"rest", "slide", "rock", "slide_rock", "flight"}
+        assert set(result["probability"]) >= {"runs", "overturned", "moved", "interval"}
+        assert result["events"][0]["time_s"] == 0.0
+        for event in result["events"]:
+            assert event["mode"] in {"rest", "slide", "rock", "slide-rock", "flight", "overturned"}
+            assert event["corner"] in {"left", "right", None} and event["slip"] in {"+", "-", None}
+
+
+def test_the_first_line_says_what_happened_and_the_second_how_sure_that_is():
+    """Verdict, share of versions, then the table."""
+    lines = run("elcentro_1940_ns", *CABINET, "--mu", "0.1", "--runs", "20", "--quiet").stdout.splitlines()
+    assert lines[2].startswith("NS: slides ") and "never rocks" in lines[2] + lines[3]
+    assert any("20 plausible versions" in line for line in lines[3:6])
+
+
+@pytest.mark.parametrize("words", [("--width", "60cm", "--height", "60cm", "--mu", "1.2"), ("--block", "gravestone")])
+def test_a_body_that_nothing_stirs_stands_still(words, tmp_path):
+    """A weak record: the sentence says so, and no displacement is minus zero."""
+    shown = run("elcentro_1940_ns", *words, "--scale", "0.1", "--runs", "5", "--quiet").stdout
+    assert "NS: stands still." in shown and "none of 5 plausible versions falls; none moves" in shown and "-0.0" not in shown
+
+
+def test_bodies_by_name_bring_their_friction():
+    """Block, two-layer block and pile of the samples, each as one rigid body."""
+    for name, mu in (("gravestone", 0.438), ("chozusha", 0.18), ("lantern", 0.6)):
+        document = answer("elcentro_1940_ns", "--block", name, "--runs", "0")
+        assert document["parameters"]["mu"] == mu
+        assert "probability" not in document["results"][0]
+
+
+def test_surfaces_are_looked_up():
+    """--surface takes friction from the table, and the source is told."""
+    done = run("elcentro_1940_ns", "--width", "45cm", "--height", "180cm", "--surface", "wood/stone", "--runs", "0")
+    assert "mu 0.18, kinetic 0.17" in done.stderr and "Sugimoto2017" in done.stderr
+
+
+BAD = (
+    (("--width", "45cm", "--height", "180cm"), "how rough"),
+    ((*CABINET, "--mu", "-0.1"), "mu|friction"),
+    ((*CABINET, "--mu-kinetic", "0.5"), "kinetic"),
+    ((*CABINET, "--restitution", "1"), "restitution"),
+    ((*CABINET, "--rocking-restitution", "1.5"), "restitution"),
+    ((*CABINET, "--centroid-offset", "30cm"), "above the base"),
+    ((*CABINET, "--surface", "granite/granite"), "not both"),
+    (("--width", "45cm", "--height", "180cm", "--surface", "a/b"), "there are"),
+    ((*CABINET, "--runs", "-1"), "runs"),
+    ((*CABINET, "--moved", "0"), "positive"),
+    ((*CABINET, "--vary-size", "2"), "spread"),
+    (("elcentro_1940_ns", *CABINET, "--vertical"), "vertical"),
+    (("elcentro_1940_ns", *CABINET, "--component", "all-azimuths"), "two horizontal"),
+)
+
+
+@pytest.mark.parametrize(("words", "said"), BAD, ids=[" ".join(words[-2:]) for words, _ in BAD])
+def test_what_cannot_be_meant_is_one_sentence(words, said):
+    """Exit 2 or 3, one line, no traceback."""
+    done = run(*words)
+    assert done.exit_code in (2, 3), done.output
+    assert re.search(said, done.stderr) and "Traceback" not in done.output
+
+
+def test_files(tmp_path):
+    """Figure, history and film are written; the history holds the modes."""
+    csv, plot, film = (tmp_path / name for name in ("a.csv", "a.png", "a.html"))
+    done = run("elcentro_1940_ns", *CABINET, "--runs", "0", "--csv", csv, "--plot", plot, "--animate", film)
+    assert done.exit_code == 0, done.stderr
+    header, *rows = csv.read_text().splitlines()
+    assert header.split(",")[-1] == "phase" and {row.split(",")[-1] for row in rows} >= {"rest", "rock"}
+    assert plot.read_bytes().startswith(b"\x89PNG") and "<html" in film.read_text()
+
+
+def test_every_direction(tmp_path):
+    """all-azimuths answers for the worst one and lists them all."""
+    document = answer("synthetic_jma", "--width", "45cm", "--height", "180cm", "--mu", "0.3", "--component", "all-azimuths", "--runs", "0")
+    (result,) = document["results"]
+    assert len(result["directions"]) == 36 and float(result["component"]) == result["directions"][0]["azimuth_deg"]

@@ -1,0 +1,106 @@
+"""How sure the fate of a free-standing body is, and in which direction it is worst."""
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.friction import SURFACES, surface
+from seisblock.errors import ParameterError
+from seisblock.readers import read
+from seisblock.records import Motion, motion_of
+from seisblock.references import REFERENCES
+from seisblock.solvers.respond.solve import solve_respond
+from seisblock.studies.standing.azimuths import respond_directions
+from seisblock.studies.standing.probability import Probability, Versions, respond_probability
+
+PULSE = Motion.from_arrays(6.0 * np.sin(np.linspace(0.0, 2 * np.pi, 201)), 0.005)
+NOTHING_VARIES = Versions(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+
+
+def share(block, motion, **options):
+    """Return the probability of 40 versions."""
+    return respond_probability(block, motion, runs=options.pop("runs", 40), settle_s=20.0, **options)
+
+
+@pytest.mark.parametrize(("width", "height", "mu"), [(0.24, 0.8, 0.6), (0.24, 0.8, 0.1), (0.5, 0.5, 0.3)])
+def test_versions_that_do_not_differ_are_the_verdict(width, height, mu):
+    """With nothing varied the share is that of the single run, 0 or 1, and every quantile is its displacement."""
+    block = Block(width, height)
+    outcome = solve_respond(block, PULSE, mu=mu, settle_s=20.0).outcome
+    found = share(block, PULSE, mu=mu, versions=NOTHING_VARIES, runs=3)
+    assert found.overturned == float(outcome.overturned)
+    assert found.moved == float(outcome.overturned or abs(outcome.final_displacement_m) > 0.01)
+    if not outcome.overturned:
+        assert set(found.final_displacement_m.values()) == {outcome.final_displacement_m}
+
+
+def test_the_same_seed_gives_the_same_answer_on_any_number_of_threads(monkeypatch):
+    """Versions are drawn before they are handed out."""
+    answers = []
+    for cores in (1, 3):
+        monkeypatch.setattr("os.cpu_count", lambda cores=cores: cores)
+        answers.append(share(Block(0.24, 0.8), PULSE, mu=0.5, seed=7))
+    assert answers[0] == answers[1]
+    assert share(Block(0.24, 0.8), PULSE, mu=0.5, seed=8) != answers[0]
+
+
+def test_more_shaking_never_makes_it_surer_to_stand():
+    """The share of falls goes from none to all as the pulse grows."""
+    shares = [
+        share(Block(0.24, 0.8), Motion.from_arrays(factor * PULSE.horizontal, PULSE.dt), mu=0.8).overturned for factor in (0.3, 0.8, 2.0)
+    ]
+    assert shares[0] == 0.0 and shares[2] == 1.0 and shares == sorted(shares)
+
+
+def test_worn_versions_are_worn_as_told():
+    """A body that is worn already by more than the widest version is varied about its own edges: so never sharp."""
+    block = Block(0.24, 0.8).worn(0.2)
+    sharp = Versions(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+    own = solve_respond(block, PULSE, mu=0.6, settle_s=20.0).outcome
+    assert share(block, PULSE, mu=0.6, versions=sharp, runs=2).overturned == float(own.overturned)
+
+
+@pytest.mark.parametrize("width", [("size", 1.0), ("mu", -0.1), ("inset", 0.5), ("azimuth_deg", 200.0)])
+def test_impossible_widths_are_refused(width):
+    """Shares lie below 1, insets below a half."""
+    with pytest.raises(ParameterError, match="spread"):
+        Versions(**dict([width]))
+
+
+def test_no_runs_are_refused():
+    """A share of nothing is none."""
+    with pytest.raises(ParameterError, match="at least 1 run"):
+        share(Block(0.24, 0.8), PULSE, mu=0.5, runs=0)
+
+
+def test_the_interval_is_clopper_and_pearsons():
+    """Its ends are the probabilities at which so few, or so many, falls have 2.5 %."""
+    from scipy.stats import binom
+
+    found = share(Block(0.24, 0.8), Motion.from_arrays(0.78 * PULSE.horizontal, PULSE.dt), mu=0.8, runs=60)
+    count = round(found.overturned * 60)
+    assert isinstance(found, Probability) and 0 < count < 60
+    assert binom.sf(count - 1, 60, found.interval[0]) == pytest.approx(0.025, rel=1e-6)
+    assert binom.cdf(count, 60, found.interval[1]) == pytest.approx(0.025, rel=1e-6)
+
+
+def test_directions_are_those_of_single_runs():
+    """Each azimuth is what `--component` of that azimuth gives, and the worst comes first."""
+    record = read("synthetic_jma.csv")
+    block, options = Block(0.45, 1.8), {"mu": 0.3, "settle_s": 20.0}
+    found = respond_directions(block, record, step_deg=45.0, **options)
+    assert {each.azimuth_deg for each in found} == {0.0, 45.0, 90.0, 135.0}
+    for each in found:
+        outcome = solve_respond(block, motion_of(record, f"{each.azimuth_deg:g}"), **options).outcome
+        assert each.overturned == outcome.overturned and each.overturned_towards == outcome.overturned_towards
+    assert [each.overturned for each in found] == sorted((each.overturned for each in found), reverse=True)
+
+
+def test_every_pair_of_surfaces_has_its_source():
+    """Each cites a reference with a locator, and kinetic friction is not above static."""
+    for name, pair in SURFACES.items():
+        key, _, locator = pair.source.strip("[").partition("]_ ")
+        assert key in REFERENCES and locator, name
+        assert 0.0 < pair.mu_kinetic <= pair.mu
+    with pytest.raises(ParameterError, match="granite/granite"):
+        surface("butter/toast")
