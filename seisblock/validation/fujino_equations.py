@@ -98,9 +98,7 @@ def _equation_15(alpha: float, ratio: float, slope: float) -> float:
 def _steady() -> float:
     """Return the simulated swing of the slip after the transient of a harmonic base."""
     t = 2e-4 * np.arange(250001)
-    u = solve_slide(sliding_base(0.1, kappa=0.9), Motion.from_arrays(4.0 * np.sin(2.0 * math.pi * t), 2e-4), gravity=G)[
-        "relative_displacement"
-    ]
+    u = solve_slide(sliding_base(0.1, kappa=0.9), Motion.from_arrays(4.0 * np.sin(2.0 * math.pi * t), 2e-4), gravity=G)["displacement"]
     tail = u[u.size * 49 // 50 :]
     return float(tail.max() - tail.min())
 
@@ -123,19 +121,19 @@ EQUATIONS = (
          lambda: solve_slide(sliding_base(MU, kappa=KAPPA), constant(MU * G), gravity=G).outcome.max_slip_m,
          note="(1) prints <=, (5) <: equality sticks here"),
     Case("fujino-2", WHERE + "eq. (2)", "relative acceleration, level base, no vertical motion", "m/s^2", -4.0 + KAPPA * MU * G, EXACT,
-         _last(constant(4.0), "relative_acceleration")),
+         _last(constant(4.0), "acceleration")),
     Case("fujino-3", WHERE + "eq. (3)", "relative velocity after 1 s", "m/s", -4.0 + KAPPA * MU * G, EXACT,
-         _last(constant(4.0), "relative_velocity")),
+         _last(constant(4.0), "velocity")),
     Case("fujino-4", WHERE + "eq. (4)", "relative displacement after 1 s", "m", 0.5 * (-4.0 + KAPPA * MU * G), EXACT,
-         _last(constant(4.0), "relative_displacement"), note="the scan drops the dot of z' in (4)"),
+         _last(constant(4.0), "displacement"), note="the scan drops the dot of z' in (4)"),
     Case("fujino-5", WHERE + "eq. (5)", "start of the slip on a ramp with vertical motion: mu (g + y'')", "s", MU * (G - UP), 1e-12,
          _start(ramp(up=-UP), vertical=1.0)),
     Case("fujino-6", WHERE + "eq. (6)", "relative acceleration with vertical motion", "m/s^2", LEVEL_PULL, EXACT,
-         _last(constant(4.0, UP), "relative_acceleration", vertical=1.0)),
+         _last(constant(4.0, UP), "acceleration", vertical=1.0)),
     Case("fujino-7", WHERE + "eq. (7)", "relative velocity after 1 s with vertical motion", "m/s", LEVEL_PULL, EXACT,
-         _last(constant(4.0, UP), "relative_velocity", vertical=1.0)),
+         _last(constant(4.0, UP), "velocity", vertical=1.0)),
     Case("fujino-8", WHERE + "eq. (8)", "relative displacement after 1 s with vertical motion", "m", 0.5 * LEVEL_PULL, EXACT,
-         _last(constant(4.0, UP), "relative_displacement", vertical=1.0),
+         _last(constant(4.0, UP), "displacement", vertical=1.0),
          note="the last term of (8) must be -/+ rho_d y'_t0 (t - t0), as in (13)"),
     Case("fujino-9", WHERE + "eq. (9)", "start of an uphill slip on a ramp: g tan(th + atan mu)", "s",
          G * math.tan(math.radians(TH) + PHI), 1e-11, _start(ramp(), slope_deg=TH), note="both inputs resolved on the slope"),
@@ -144,12 +142,12 @@ EQUATIONS = (
     Case("fujino-9-10", WHERE + "eqs. (9), (10)", "width of the band in which friction holds: 2 mu g cos th", "m/s^2",
          2.0 * MU * G * COS, EXACT, lambda: float(np.diff(slip_limits(TH, MU, gravity=G))[0])),
     Case("fujino-11", WHERE + "eq. (11)", "relative acceleration downhill", "m/s^2", SLOPE_PULL, EXACT,
-         _last(constant(-4.0), "relative_acceleration", slope_deg=TH),
+         _last(constant(-4.0), "acceleration", slope_deg=TH),
          note="rho_s in (11)-(13) must be rho_d, and its sign follows which of (9), (10) was met"),
     Case("fujino-12", WHERE + "eq. (12)", "relative velocity downhill after 1 s", "m/s", SLOPE_PULL, EXACT,
-         _last(constant(-4.0), "relative_velocity", slope_deg=TH), note="(12) lacks the initial velocity z'_t0"),
+         _last(constant(-4.0), "velocity", slope_deg=TH), note="(12) lacks the initial velocity z'_t0"),
     Case("fujino-13", WHERE + "eq. (13)", "relative displacement downhill after 1 s", "m", 0.5 * SLOPE_PULL, EXACT,
-         _last(constant(-4.0), "relative_displacement", slope_deg=TH)),
+         _last(constant(-4.0), "displacement", slope_deg=TH)),
     Case("fujino-14", WHERE + "eq. (14)", "static friction above which a slide stops: tan th / kappa", "1",
          friction_that_stops(TH, KAPPA), 1e-12, _steepest_that_stops),
     Case("fujino-15", WHERE + "eq. (15)", "eq. (15) as printed at 30 degrees with fig. 16's alpha and mu", "1",

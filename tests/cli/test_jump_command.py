@@ -150,7 +150,7 @@ def test_csv_and_plot(tmp_path):
     result = run("--csv", tmp_path / "h.csv", "--plot", tmp_path / "f.png", "--component", "EW")
     assert result.exit_code == 0, result.stderr
     rows = list(csv.DictReader((tmp_path / "h.csv").open()))
-    assert list(rows[0])[:5] == ["component", "time_s", "theta_rad", "x_G_m", "y_G_m"]
+    assert list(rows[0])[:5] == ["component", "time_s", "rotation_rad", "displacement_m", "height_m"]
     assert {row["phase"] for row in rows} == {"rest", "rocking", "flight", "rocking-sliding"}
     assert (tmp_path / "f.png").read_bytes().startswith(b"\x89PNG")
 

@@ -124,13 +124,13 @@ def test_time_history_has_both_limits_of_each_event(tmp_path):
     assert {
         "time_s",
         "ground_acceleration_m_s2",
-        "relative_acceleration_m_s2",
-        "relative_velocity_m_s",
-        "relative_displacement_m",
+        "acceleration_m_s2",
+        "velocity_m_s",
+        "displacement_m",
         "phase",
     } <= set(rows[0])
     assert {row["phase"] for row in rows} == {"stick", "slip forward", "slip backward"}
-    assert all(float(row["relative_velocity_m_s"]) == 0.0 for row in rows if row["phase"] == "stick")
+    assert all(float(row["velocity_m_s"]) == 0.0 for row in rows if row["phase"] == "stick")
     times = np.array([float(row["time_s"]) for row in rows])
     assert (np.diff(times) >= 0).all()
 

@@ -33,7 +33,7 @@ def test_mirror(seed, mu, kappa):
     motion = noise(seed)
     mirrored = Motion(motion.acceleration * [[-1.0], [1.0], [1.0]], motion.dt)
     one, other = (solve_slide(sliding_base(mu, kappa=kappa), m, vertical=1.0) for m in (motion, mirrored))
-    np.testing.assert_array_equal(one["relative_displacement"], -other["relative_displacement"])
+    np.testing.assert_array_equal(one["displacement"], -other["displacement"])
 
 
 @QUICK
@@ -100,11 +100,11 @@ def test_energy_lost_is_friction_work(seed, mu, kappa):
     """Relative to the base, work of the inertial force less work of friction is the kinetic energy left."""
     motion = noise(seed)
     response = solve_slide(sliding_base(mu, kappa=kappa), motion)
-    u, v, a = (response[name] for name in ("relative_displacement", "relative_velocity", "ground_acceleration"))
+    u, v, a = (response[name] for name in ("displacement", "velocity", "ground_acceleration"))
     h = np.diff(response.time)
     # v is a quadratic and a straight line within each step: Simpson's rule on the cubic a v is exact, with v in mid-step from
     # its ends and its slope there
-    slope = response["relative_acceleration"]
+    slope = response["acceleration"]
     middle = 0.5 * (v[:-1] + v[1:]) + h / 8.0 * (slope[:-1] - slope[1:])
     power = h / 6.0 * (a[:-1] * v[:-1] + 2.0 * (a[:-1] + a[1:]) * middle + a[1:] * v[1:])
     work = -power.sum()
@@ -121,7 +121,7 @@ def test_ground_velocity_does_not_matter(seed, mu, kappa, sample):
     names = np.array([phase.name for phase in whole.phases])[whole.phase_of_row()]
     resting = [k for k in range(sample, motion.samples - 1) if (names[whole.time == k * motion.dt] == "stick").all()]
     if resting:
-        before = whole["relative_displacement"][whole.time == resting[0] * motion.dt][0]
+        before = whole["displacement"][whole.time == resting[0] * motion.dt][0]
         rest = solve_slide(sliding_base(mu, kappa=kappa), Motion(motion.acceleration[:, resting[0] :], motion.dt)).outcome
         assert rest.residual_slip_m == pytest.approx(whole.outcome.residual_slip_m - before, abs=1e-13)
 
@@ -132,7 +132,7 @@ def test_speed_has_one_sign_in_each_slip(seed, mu, kappa):
     """Phases named forward have u' >= 0, backward u' <= 0, and sticking ones zero."""
     response = solve_slide(sliding_base(mu, kappa=kappa), noise(seed), vertical=1.0)
     names = np.array([phase.name for phase in response.phases])[response.phase_of_row()]
-    v = response["relative_velocity"]
+    v = response["velocity"]
     assert (v[names == SLIDING[0]] >= -1e-12).all()
     assert (v[names == SLIDING[1]] <= 1e-12).all()
     assert (v[names == "stick"] == 0.0).all()

@@ -44,7 +44,7 @@ def test_the_rise_is_that_of_the_path_flown(spin):
     assert early == (abs(spin) >= 0.6)
     expected = up * flown - G * flown**2 / 2 if early else up**2 / (2 * G)
     assert chain.max_rise_m == pytest.approx(expected, rel=1e-9)
-    seen = float(response["y_G"][flight_rows(response)].max()) - SHORT.centroid_height
+    seen = float(response["height"][flight_rows(response)].max()) - SHORT.centroid_height
     assert seen <= chain.max_rise_m * (1.0 + 1e-9)
     assert chain.max_rise_m - seen <= G * PULSE.dt**2 / 8 + 1e-12
 
@@ -66,14 +66,14 @@ def test_the_friction_that_a_landing_needs_is_its_impulse():
     chain = response.outcome.chains[0]
     touch = next(i for i, t in enumerate(response.time) if t == chain.landing_s)
     step = slice(touch - 1, touch + 3)
-    t, x, y = (values[step] for values in (response.time, response["x_G"], response["y_G"]))
+    t, x, y = (values[step] for values in (response.time, response["displacement"], response["height"]))
     # the ground stands still: before the landing a parabola, after it a circle about the right corner
     vx = 0.95 * chain.impact_velocity_rad_s * SHORT.centroid_height
     vy = 0.85 * chain.impact_velocity_rad_s * 1.04 - G * chain.jump_duration_s
     assert (x[1] - x[0]) / (t[1] - t[0]) == pytest.approx(vx, rel=1e-9)
     omega = 0.19 * chain.impact_velocity_rad_s
     corner = np.array([x[1], y[1]]) - np.array([0.0, 0.0])
-    lean = float(response["theta"][touch])
+    lean = float(response["rotation"][touch])
     arm = np.array(
         [-1.04 * math.cos(lean) + SHORT.centroid_height * math.sin(lean), 1.04 * math.sin(lean) + SHORT.centroid_height * math.cos(lean)]
     )
@@ -112,7 +112,7 @@ def test_without_friction_the_landing_leaves_the_horizontal_velocity_alone():
     chain = response.outcome.chains[0]
     speed = 0.95 * chain.impact_velocity_rad_s * SHORT.centroid_height
     moments, rows = np.unique(response.time[response.time >= chain.landing_s], return_index=True)
-    path = response["x_G"][response.time >= chain.landing_s][rows]
+    path = response["displacement"][response.time >= chain.landing_s][rows]
     np.testing.assert_allclose(path, path[0] + speed * (moments - moments[0]), rtol=1e-9)
     assert chain.outcome == "still moving a minute after the record"
     stopped = solve_jump(SHORT, PULSE, contact=icy, spin="ratio=0.1", gravity=G).outcome.chains[0]
@@ -133,7 +133,7 @@ def test_enough_friction_holds_the_corner_and_keeps_its_angular_momentum():
     velocity = np.array([0.95 * speed * SHORT.centroid_height, 0.85 * speed * 1.04 - G * chain.jump_duration_s])
     momentum = SHORT.centroid_inertia * -0.19 * speed + SHORT.mass * (arm[0] * velocity[1] - arm[1] * velocity[0])
     rows = np.flatnonzero(response.time >= chain.landing_s)[1:4]
-    bend = np.polyfit(response.time[rows] - chain.landing_s, response["theta"][rows], 2)
+    bend = np.polyfit(response.time[rows] - chain.landing_s, response["rotation"][rows], 2)
     assert -bend[1] == pytest.approx(momentum / SHORT.corner_inertia, rel=2e-3)
 
 
@@ -159,7 +159,7 @@ def test_all_chains_count_and_the_verdict_is_the_final_state():
     assert first.outcome.chains == chains[:1]
     assert every.outcome.total_displacement_m == pytest.approx(sum(chain.total_displacement_m for chain in chains), rel=1e-12)
     assert every.outcome.final_displacement_m == pytest.approx(every.outcome.total_displacement_m, abs=1e-12)
-    assert every["x_G"][-1] == every.outcome.final_displacement_m
+    assert every["displacement"][-1] == every.outcome.final_displacement_m
     assert every.outcome.total_displacement_m < 0.0 < first.outcome.total_displacement_m
     assert every.outcome.friction_needed_at_landing == max(chain.friction_needed_at_landing for chain in chains)
 
@@ -235,7 +235,7 @@ def test_what_is_left_at_the_end_is_told():
     response = solve_jump(SHORT, PULSE, contact=CONTACT, spin="ratio=0.19", gravity=G)
     chain = response.outcome.chains[0]
     rows = np.flatnonzero((response.time > chain.end_s - 0.02) & (response.time <= chain.end_s))
-    slope = abs(np.diff(response["theta"][rows[-3:-1]]) / np.diff(response.time[rows[-3:-1]]))[0]
+    slope = abs(np.diff(response["rotation"][rows[-3:-1]]) / np.diff(response.time[rows[-3:-1]]))[0]
     assert chain.end_angular_velocity_rad_s == pytest.approx(slope, rel=0.05)
 
 

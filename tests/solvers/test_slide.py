@@ -88,7 +88,7 @@ def test_an_object_flies_where_drive_and_normal_force_vanish_together(slope, bef
 
 def test_one_way_never_goes_back():
     """Without flight the displacement of a one-way slide never falls."""
-    u = solve_slide(sliding_base(0.1, kappa=0.5, one_way=True), shaking())["relative_displacement"]
+    u = solve_slide(sliding_base(0.1, kappa=0.5, one_way=True), shaking())["displacement"]
     assert (np.diff(u) >= -1e-15).all()
     assert u[-1] > 0.1
 
@@ -128,7 +128,7 @@ def test_largest_slip_between_samples_is_found():
     """The extremum is that of the cubic, between samples and not at one of them."""
     coarse = solve_slide(0.1, Motion.from_arrays([0.0, 4.0, -4.0, 0.0, 0.0], 0.2))
     dense = solve_slide(0.1, Motion.from_arrays(np.interp(np.arange(4001) / 1000, np.arange(5), [0.0, 4.0, -4.0, 0.0, 0.0]), 0.0002))
-    assert coarse.outcome.max_slip_m == pytest.approx(np.abs(dense["relative_displacement"]).max(), rel=1e-9)
+    assert coarse.outcome.max_slip_m == pytest.approx(np.abs(dense["displacement"]).max(), rel=1e-9)
 
 
 def test_worst_direction_is_the_largest_slip_of_each_combination():

@@ -92,7 +92,7 @@ def test_stiff_springs_are_a_rigid_block_that_rocks():
         body = SpringBlock.from_frequency(a, a, h, frequency_vertical=frequency, beta=1.0, damping=0.5)
         response = solve_uplift(body, Motion.from_arrays(pulse, dt))
         rows = np.searchsorted(response.time, time[: int(np.argmax(lean))])
-        errors.append(np.abs(response["lean_along"][rows] + lean[: rows.size]).max() / lean.max())
+        errors.append(np.abs(response["rotation"][rows] + lean[: rows.size]).max() / lean.max())
     assert errors[-1] < 0.01
     assert all(later < 0.7 * earlier for earlier, later in itertools.pairwise(errors))
 
@@ -113,7 +113,7 @@ def test_mirror_image():
     back = solve_uplift(SLENDER, Motion(motion.acceleration * np.array([[-1.0], [1.0], [1.0]]), motion.dt))
     for one, other in ((1, 3), (2, 4)):
         np.testing.assert_allclose(back[f"uplift_{one}"], there[f"uplift_{other}"], rtol=0, atol=1e-12)
-    np.testing.assert_allclose(back["lean_along"], -there["lean_along"], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(back["rotation"], -there["rotation"], rtol=0, atol=1e-12)
 
 
 def test_similarity():
@@ -122,7 +122,7 @@ def test_similarity():
     small = solve_uplift(SLENDER, motion)
     large = SpringBlock.from_frequency(2.4, 2.4, 7.2, frequency_vertical=3.0, beta=0.707, damping=0.05)
     big = solve_uplift(large, Motion(motion.acceleration, 2 * motion.dt))
-    np.testing.assert_allclose(big["lean_along"], small["lean_along"], rtol=0, atol=1e-10)
+    np.testing.assert_allclose(big["rotation"], small["rotation"], rtol=0, atol=1e-10)
     assert big.outcome.max_uplift_m == pytest.approx(4.0 * small.outcome.max_uplift_m, rel=1e-9)
 
 
@@ -214,7 +214,7 @@ def test_a_hop_of_the_whole_block():
     up[2, 10:14] = -60.0
     response = solve_uplift(SpringBlock.from_frequency(0.6, 0.6, 0.6, frequency_vertical=15.0, beta=1.0), Motion(up, 0.01))
     assert "in the air" in [phase.name for phase in response.phases]
-    assert response["lean_along"] == pytest.approx(0.0, abs=1e-12)
+    assert response["rotation"] == pytest.approx(0.0, abs=1e-12)
     assert contact_name(9) == "on corners 1 4"
 
 
@@ -246,7 +246,7 @@ def test_a_large_lean_is_said_to_be_beyond_the_model():
     assert response.outcome.within_model is False
     assert response.outcome.lean_ratio > 0.1
     slenderness = np.array([SLENDER.height / SLENDER.width, SLENDER.height / SLENDER.depth])
-    leans = np.abs(np.array([response["lean_along"], response["lean_across"]])).max(axis=1) * slenderness
+    leans = np.abs(np.array([response["rotation"], response["rotation_across"]])).max(axis=1) * slenderness
     assert response.outcome.lean_ratio == pytest.approx(leans.max())
     weak = solve_uplift(SLENDER, shaking(6.0, 0.01, peaks=(1.0, 0.8, 0.5))).outcome
     assert weak.within_model

@@ -34,8 +34,8 @@ def _column(panels: Sequence[Any], response: Response[JumpOutcome]) -> None:
     canvas.curve(panels[0], motion.time, motion.horizontal, color=canvas.INPUT)
     level = outcome.rocking_threshold_m_s2
     canvas.threshold(panels[0], [level, -level], "g x_G / y_G")
-    rise = response["y_G"] - response.body.centroid_height
-    for panel, values in zip(panels[1:], (np.degrees(response["theta"]), rise * 1e3, response["x_G"] * 1e3), strict=True):
+    rise = response["height"] - response.body.centroid_height
+    for panel, values in zip(panels[1:], (np.degrees(response["rotation"]), rise * 1e3, response["displacement"] * 1e3), strict=True):
         canvas.curve(panel, response.time, values, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
     for panel in panels:
         canvas.shade(panel, response.phases, COLOURS, names=panel is panels[0])

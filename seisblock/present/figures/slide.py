@@ -35,10 +35,10 @@ def _column(panels: Sequence[Any], response: Response[SlideOutcome]) -> None:
     for index, limit in enumerate((lower, upper)):
         name = None if index else "limits of static friction"
         canvas.curve(top, time, limit, color=canvas.THRESHOLD, linestyle=(0, (6, 2, 1, 2)), label=name)
-    block = response["ground_velocity"] + response["relative_velocity"]
+    block = response["ground_velocity"] + response["velocity"]
     canvas.curve(middle, time, response["ground_velocity"], color=canvas.INPUT, label="base")
     canvas.curve(middle, time, block, color=canvas.ACCENT, label="object")
-    canvas.curve(bottom, time, response["relative_displacement"] * 1e3, color=canvas.ACCENT)
+    canvas.curve(bottom, time, response["displacement"] * 1e3, color=canvas.ACCENT)
     canvas.shade(middle, phases, COLOURS, names=True)
     canvas.shade(bottom, phases, COLOURS)
     bottom.axhline(0.0, color=canvas.INPUT, linewidth=0.6)

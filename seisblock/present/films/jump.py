@@ -29,12 +29,12 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray) -> Film:
     """Return the film of a jump for the times of its pictures, (n,), s."""
     block: TwoLayerBlock = response.body
     motion, drop = response.motion, float(response.options["drop_m"])
-    x, z, turn = (at(times, response.time, response[name]) for name in ("x_G", "y_G", "theta"))
+    x, z, turn = (at(times, response.time, response[name]) for name in ("displacement", "height", "rotation"))
     body = Body(_pieces(block), x, z, turn)
     half, below = block.width / 2, -block.centroid_height
     feet = [body.path(np.array([side * half, below])) for side in (-1.0, 1.0)]
     trails = tuple(Trail(name, *foot, colour) for name, foot, colour in zip(("left foot", "right foot"), feet, FEET, strict=True))
-    rise = (response["y_G"] - block.centroid_height) * 1e3
+    rise = (response["height"] - block.centroid_height) * 1e3
     level = response.outcome.rocking_threshold_m_s2 * 100.0
     return Film(
         title=f"{motion.name}  {block.name}: {response.outcome.outcome}",
@@ -45,7 +45,7 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray) -> Film:
         trails=trails,
         strips=(
             Strip("a (gal)", motion.time, motion.horizontal * 100.0, (-level, level), "#737373"),
-            Strip("θ (deg)", response.time, np.degrees(response["theta"])),
+            Strip("θ (deg)", response.time, np.degrees(response["rotation"])),
             Strip("rise of G (mm)", response.time, rise),
         ),
         phases=response.phases,

@@ -31,7 +31,7 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray) -> Film:
     """Return the film of a slide for the times of its pictures, (n,), s."""
     base: SlidingBase = response.body
     motion = response.motion
-    slip = at(times, response.time, response["relative_displacement"])
+    slip = at(times, response.time, response["displacement"])
     x, z, turn = place(base, slip)
     size = max(0.5 * float(np.ptp(slip)), SMALLEST)
     block = Piece(rectangle(-size, size, 0.0, 1.2 * size), "#b5a58a")
@@ -47,7 +47,7 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray) -> Film:
         trails=(Trail("object", x, z),),
         strips=(
             Strip("a (gal)", motion.time, gal, (-limit, limit) if level else (), "#737373"),
-            Strip("x − z (mm)", response.time, response["relative_displacement"] * 1e3),
+            Strip("x − z (mm)", response.time, response["displacement"] * 1e3),
         ),
         phases=response.phases,
         colours=COLOURS,

@@ -127,7 +127,7 @@ def solve_jump(
     Returns
     -------
     Response of JumpOutcome
-        Channels ``theta`` (rad, positive when the block leans to +x), ``x_G`` (m, displacement of the centroid) and ``y_G`` (m,
+        Channels ``rotation`` (rad, positive when the block leans to +x), ``displacement`` (m, of the centroid) and ``height`` (m,
         its height above the floor). A block that topples is a result, not an error.
 
     Raises
@@ -185,7 +185,7 @@ def solve_jump(
         "jump", outcome, motion, block, np.empty(0), options=options, warnings=warnings_of(motion, chains, contact.mu), citations=citations
     )
     shown = with_curves(bare, followed)
-    return replace(shown, outcome=replace(outcome, final_displacement_m=float(shown["x_G"][-1])))
+    return replace(shown, outcome=replace(outcome, final_displacement_m=float(shown["displacement"][-1])))
 
 
 def _end_of(chains: tuple[Chain, ...]) -> str:

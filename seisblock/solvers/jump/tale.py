@@ -104,9 +104,9 @@ def with_curves(response: Response[Any], followed: list[Followed]) -> Response[A
         _rest(parts, phases, clock, now, float(clock[-1]) + motion.dt, moved, raised)
     time, theta, x, rise = (np.concatenate(column) for column in zip(*parts, strict=True))
     channels = (
-        Channel("theta", "rad", theta, "θ"),
-        Channel("x_G", "m", x, "x_G"),
-        Channel("y_G", "m", block.centroid_height + rise, "y_G"),
+        Channel("rotation", "rad", theta, "θ"),
+        Channel("displacement", "m", x, "x_G"),
+        Channel("height", "m", block.centroid_height + rise, "y_G"),
         Channel("ground_acceleration", "m/s^2", np.interp(time, clock, motion.horizontal, right=0.0), "z''"),
     )
     return replace(response, time=time, channels=channels, phases=tuple(phases), events=tuple(events))

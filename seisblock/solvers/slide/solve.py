@@ -92,7 +92,7 @@ def solve_slide(
     -------
     Response of SlideOutcome
         Channels ``ground_acceleration`` (along the base), ``lower_limit`` and ``upper_limit`` (between which static friction holds),
-        ``relative_acceleration``, ``relative_velocity``, ``relative_displacement`` of the object, and ``ground_velocity``; SI.
+        ``acceleration``, ``velocity``, ``displacement`` of the object, and ``ground_velocity``; SI.
 
     Raises
     ------
@@ -271,8 +271,8 @@ def _channels(
         Channel("ground_acceleration", unit, along, "z''"),
         Channel("lower_limit", unit, pull - base.mu * normal, ""),
         Channel("upper_limit", unit, pull + base.mu * normal, ""),
-        Channel("relative_acceleration", unit, acceleration, "x'' - z''"),
-        Channel("relative_velocity", speed, states[:, SPEED], "x' - z'"),
-        Channel("relative_displacement", "m", states[:, SLIP], "x - z"),
+        Channel("acceleration", unit, acceleration, "x'' - z''"),
+        Channel("velocity", speed, states[:, SPEED], "x' - z'"),
+        Channel("displacement", "m", states[:, SLIP], "x - z"),
         Channel("ground_velocity", speed, velocity, "z'"),
     )

@@ -136,8 +136,8 @@ def solve_uplift(
     -------
     Response of UpliftOutcome
         Channels: corner displacements ``uplift_1`` to ``uplift_4`` (m, positive when lifted), ``contact_force_1`` to ``_4`` (N),
-        displacements ``x``, ``y``, ``z`` of the centre of gravity (m, relative to the ground; z from the springs' natural length), and
-        ``lean_along``, ``lean_across`` (rad, positive when leaning to +x, +y).
+        of the centre of gravity ``displacement``, ``displacement_across``, ``displacement_up`` (m, relative to the ground; up from the
+        springs' natural length), and ``rotation``, ``rotation_across`` (rad, positive when leaning to +x, +y).
 
     Raises
     ------
@@ -173,11 +173,11 @@ def solve_uplift(
         channels=(
             *(Channel(f"uplift_{i + 1}", "m", states[:, U + i], f"u_{i + 1}") for i in range(4)),
             *(Channel(f"contact_force_{i + 1}", "N", body.mass * states[:, F + i], f"N_{i + 1}") for i in range(4)),
-            Channel("x", "m", states[:, X], "x"),
-            Channel("y", "m", states[:, Y], "y"),
-            Channel("z", "m", states[:, U : U + 4].mean(axis=1), "z"),
-            Channel("lean_along", "rad", theta_y, "theta_y"),
-            Channel("lean_across", "rad", -theta_x, "-theta_x"),
+            Channel("displacement", "m", states[:, X], "x"),
+            Channel("displacement_across", "m", states[:, Y], "y"),
+            Channel("displacement_up", "m", states[:, U : U + 4].mean(axis=1), "z"),
+            Channel("rotation", "rad", theta_y, "theta_y"),
+            Channel("rotation_across", "rad", -theta_x, "-theta_x"),
         ),
         phases=_phases(motion, trajectory),
         events=tuple(
