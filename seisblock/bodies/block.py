@@ -160,8 +160,8 @@ class Block:
     def restitutions(self) -> tuple[float, float]:
         """Angular velocity after an impact over that before, onto the right and onto the left corner.
 
-        Angular momentum about the corner that is struck is kept ([Housner1963]_); 1 - 1.5 sin^2(alpha) for a rectangle. Zero where
-        the block is so wide that it would not turn on.
+        Angular momentum about the corner that is struck is kept ([Housner1963]_; derived here); 1 - 1.5 sin^2(alpha) for a rectangle.
+        Zero where the block is so wide that it would not turn on.
         """
         right, left = self.arms
         kept = self.gyration_squared + self.centre**2 - right * left
@@ -175,12 +175,12 @@ class Block:
 
     @property
     def lever_ratios(self) -> tuple[float, float]:
-        """Mass times R over I_O, at the right and the left corner, 1/m: p^2 = g m R/I_O ([Housner1963]_)."""
+        """Mass times R over I_O, at the right and the left corner, 1/m: p^2 = g m R/I_O ([Furukawa2009]_ eq. (3))."""
         right, left = (radius / (self.gyration_squared + radius**2) for radius in self.radii)
         return right, left
 
     def frequency_parameter(self, gravity: float = STANDARD_GRAVITY) -> float:
-        """Return p = sqrt(m g R/I_O) of the side of the smaller alpha, rad/s ([Housner1963]_)."""
+        """Return p = sqrt(m g R/I_O) of the side of the smaller alpha, rad/s ([Furukawa2009]_ eq. (3))."""
         side = RIGHT if self.slendernesses[RIGHT] <= self.slendernesses[LEFT] else LEFT
         return math.sqrt(gravity * self.lever_ratios[side])
 

@@ -40,7 +40,7 @@ class SpringBlock:
         Stiffness of the springs at EACH corner.
     damping : float
         Damping ratio, in [0, 1). Under harmonic shaking it is the paper's modal h, the same in each mode; under a record it is
-        the zeta of each corner dashpot, c = 2 zeta k / omega of its direction.
+        the zeta of each corner dashpot, c = 2 zeta k / omega of its direction (derived here).
 
     Raises
     ------
@@ -183,7 +183,7 @@ def stiffness_matrix(body: SpringBlock) -> FloatArray:
 
 
 def dashpot_matrix(body: SpringBlock) -> FloatArray:
-    """Return the damping matrix of corner dashpots c = 2 zeta k / omega: (6, 6) array, 1/s."""
+    """Return the damping matrix of corner dashpots c = 2 zeta k / omega, (6, 6), 1/s (derived here)."""
     return _sum_over_corners(body, [2.0 * body.damping * w for w in body.omega])
 
 

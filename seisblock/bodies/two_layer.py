@@ -59,7 +59,7 @@ class TwoLayerBlock:
 
     @property
     def height(self) -> float:
-        """H = h1 + h2, m."""
+        """H = h1 + h2, m ([Sugimoto2017]_ fig. 5)."""
         return self.upper_height + self.lower_height
 
     @property
@@ -98,12 +98,12 @@ class TwoLayerBlock:
 
     @property
     def width_moment(self) -> float:
-        """Second moment of mass along the width about the centroid, m B^2/12, kg m^2."""
+        """Second moment of mass along the width about the centroid, m B^2/12, kg m^2 (derived here)."""
         return self.mass * self.width**2 / 12
 
     @property
     def height_moment(self) -> float:
-        """Second moment of mass along the height about the centroid, sum m_i (h_i^2/12 + (y_i - y_G)^2), kg m^2."""
+        """Second moment of mass along the height about the centroid, sum m_i (h_i^2/12 + (y_i - y_G)^2), kg m^2 (derived here)."""
         y = self.centroid_height
         upper = self.upper_height**2 / 12 + (self.height - self.upper_height / 2 - y) ** 2
         lower = self.lower_height**2 / 12 + (self.lower_height / 2 - y) ** 2

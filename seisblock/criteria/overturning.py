@@ -160,7 +160,7 @@ def velocity_step(slenderness: float, frequency_parameter: float, gravity: float
 
 
 def ishiyama_acceleration(width: float, height: float, gravity: float = STANDARD_GRAVITY) -> float:
-    """Return g B/H, m/s^2: the acceleration that must be exceeded, together with the velocity ([Ishiyama1982]_).
+    """Return g B/H, m/s^2: the acceleration that must be exceeded, together with the velocity ([Ishiyama1982]_ criterion).
 
     Parameters and errors as :func:`static_acceleration`.
     """
@@ -168,7 +168,7 @@ def ishiyama_acceleration(width: float, height: float, gravity: float = STANDARD
 
 
 def ishiyama_velocity(width: float, height: float) -> float:
-    """Return 10 B/sqrt(H) cm/s with B and H in cm, that is B/sqrt(H) m/s with B and H in m ([Ishiyama1982]_).
+    """Return 10 B/sqrt(H) cm/s with B and H in cm, that is B/sqrt(H) m/s with B and H in m ([Ishiyama1982]_ criterion).
 
     A lower limit from experiments and simulations: about 0.4 times the velocity step of a slender block at g = 980 cm/s^2.
 

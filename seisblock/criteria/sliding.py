@@ -164,7 +164,7 @@ def pulse_slip(acceleration: float, duration: float, yield_acceleration: float) 
 
 
 def steady_slip(amplitude: float, frequency: float, mu: float, *, kappa: float = 1.0, gravity: float = STANDARD_GRAVITY) -> float | None:
-    """Return the slip per half cycle of an object that slides without rest on a base in harmonic motion ([WestermoUdwadia1983]_).
+    """Return the slip per half cycle of what slides without rest on a base in harmonic motion ([WestermoUdwadia1983]_ steady sliding).
 
     Parameters
     ----------

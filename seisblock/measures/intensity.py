@@ -69,7 +69,7 @@ def significant_duration(acceleration: FloatArray, dt: float, *, between: tuple[
 
 
 def jma_intensity(record: Record) -> float | None:
-    """Return the instrumental seismic intensity of the Japan Meteorological Agency, not rounded ([JMA1996]_).
+    """Return the instrumental seismic intensity of the Japan Meteorological Agency, not rounded ([JMA1996]_ method).
 
     The three components are filtered in the frequency domain (period effect f^-1/2, high cut at 10 Hz, low cut at 0.5 Hz,
     nothing at zero frequency), added as vectors, and I = 2 log10 a0 + 0.94, where a0 (gal) is the largest amplitude that is

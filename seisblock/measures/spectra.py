@@ -54,7 +54,7 @@ def default_periods() -> FloatArray:
 def response_spectrum(
     acceleration: FloatArray, dt: float, periods: ArrayLike | None = None, *, damping: float = DAMPING
 ) -> ResponseSpectrum:
-    """Return the response spectrum by the exact solution for piecewise linear ground acceleration ([NigamJennings1969]_).
+    """Return the response spectrum by the exact solution for piecewise linear ground acceleration ([NigamJennings1969]_ method).
 
     u'' + 2 h w u' + w^2 u = -a(t) from rest. The exact step from sample to sample is linear in the state and the two samples,
     hence a second-order recursive filter of the record. Where the record is coarse against the period it is evaluated at

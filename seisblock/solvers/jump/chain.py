@@ -246,7 +246,7 @@ def _time_above_threshold(followed: Followed) -> float:
 
 
 def phases_and_events(followed: Followed) -> tuple[tuple[Phase, ...], tuple[Event, ...]]:
-    """Return the phases and events of a chain, tilts in the house sign (positive when leaning to +x) ([Sugimoto2017]_)."""
+    """Return the phases and events of a chain, tilts in the house sign (positive when leaning to +x)."""
     tilt = -followed.sign
     onset, impact = followed.onset_s, followed.impact_s
     rest, last = np.zeros(1), tilt * followed.rocked.final[:1]
@@ -269,7 +269,7 @@ def phases_and_events(followed: Followed) -> tuple[tuple[Phase, ...], tuple[Even
 
 
 def curves(followed: Followed) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return time (s), tilt (rad), displacement and rise of the centroid (m), each (m,), in the component's frame ([Sugimoto2017]_)."""
+    """Return time (s), tilt (rad), displacement and rise of the centroid (m), each (m,), in the component's frame."""
     block, t0 = followed.block, followed.motion.start_s
     times, states, _ = followed.rocked.table()
     time = np.concatenate([[followed.onset_s], times + t0])

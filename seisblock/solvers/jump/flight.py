@@ -1,4 +1,4 @@
-"""Flight of the two-layer block, its landing on a lower corner, and the motion about that corner ([Sugimoto2017]_ 3.8-3.11).
+"""Flight of the two-layer block, its landing on a lower corner, and the motion about that corner ([Sugimoto2017]_ sections 3.8 to 3.11).
 
 Assumptions
     How a corner that lands is stopped is said in :mod:`seisblock.solvers.jump.landing`. Whether one that stands still then slips is
@@ -129,7 +129,7 @@ def _flat_series(slip, y, f, p, c, g):
 
 @kernel(SERIES)
 def flight_series(mode, y, f, p, order, c, g):
-    """Write the series of the flight, or of the motion about the corner that touches ([Sugimoto2017]_)."""
+    """Write the series of the flight, or of the motion about the corner that touches."""
     if mode == FLIGHT:
         return _flight_series(y, f, p, order, c, g)
     side = 2 * corner_of(mode) - 1
@@ -237,7 +237,7 @@ def _held_or_slipping(corner, y, f, p, mu, held):
 
 @kernel(RESET)
 def flight_reset(mode, guard, y, f, p):
-    """Land, stop slipping, slip again, lift off again, or end ([Sugimoto2017]_)."""
+    """Land, stop slipping, slip again, lift off again, or end."""
     if mode == FLIGHT:
         if p[BY_FRICTION] == 0.0:
             touch_down(guard, y, p)

@@ -51,7 +51,7 @@ def touch_down(corner, y, p):
 
 @kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
 def take_off(corner, y, p):
-    """Turn the state about a corner into that of the flight: position and velocity of the centroid ([Sugimoto2017]_)."""
+    """Turn the state about a corner into that of the flight: position and velocity of the centroid."""
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
     tilting = -side * y[OMEGA]
@@ -66,7 +66,7 @@ def touch_down_by_friction(corner, y, p):
     """Turn the state of the flight into that of the corner that touches, after a plastic impulse within the cone of friction.
 
     Per unit mass, with the corner at (rx, ry) from the centroid and w the clockwise spin, (dx', dy', dw) = (T, P, (ry T - rx P)/k^2);
-    u is the corner's velocity upwards, v that along the ground ([WangMason1992]_).
+    u is the corner's velocity upwards, v that along the ground (derived here; [WangMason1992]_).
     """
     side = 2 * corner - 1
     psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]

@@ -22,26 +22,26 @@ _t = types()
 
 @kernel(_t.int64(_t.int64, _t.int64), inline=True)
 def landed(corner, kind):
-    """Return the mode of a kind of motion about a corner ([Sugimoto2017]_)."""
+    """Return the mode of a kind of motion about a corner."""
     return 1 + 2 * kind + corner
 
 
 @kernel(_t.int64(_t.int64), inline=True)
 def corner_of(mode):
-    """Return the corner that touches ([Sugimoto2017]_)."""
+    """Return the corner that touches."""
     return (mode - 1) % 2
 
 
 @kernel(_t.int64(_t.int64), inline=True)
 def kind_of(mode):
-    """Return the kind of motion about the corner ([Sugimoto2017]_)."""
+    """Return the kind of motion about the corner."""
     return (mode - 1) // 2
 
 
 def flight_parameters(
     block: TwoLayerBlock, gravity: float, mu: float, mu_kinetic: float, drop: float, dt: float, rule: str = "paper"
 ) -> FloatArray:
-    """Return the parameters of the model ([Sugimoto2017]_); `dt` is the sampling interval, the longest step, `rule` that of landings."""
+    """Return the parameters of the model; `dt` is the sampling interval, the longest step, `rule` that of landings."""
     return np.array(
         [
             block.slenderness,
@@ -61,7 +61,7 @@ def flight_parameters(
 
 
 def centroid(block: TwoLayerBlock, drop: float, modes: IntArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return displacement x and rise y of the centroid, (n,), m, from states of this model ([Sugimoto2017]_).
+    """Return displacement x and rise y of the centroid, (n,), m, from states of this model.
 
     After landing the state holds the foot's slip; the centroid follows from the tilt about the corner that touches.
     """

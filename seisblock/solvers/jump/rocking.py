@@ -63,7 +63,7 @@ def rocking_series(mode, y, f, p, order, c, g):
 
 @kernel(SKIP)
 def rocking_skip(mode, acceleration, gains, sample, p):
-    """Pass over the samples at which a resting block feels less than its threshold ([Sugimoto2017]_)."""
+    """Pass over the samples at which a resting block feels less than its threshold."""
     if mode != REST:
         return sample
     reached = sample
@@ -74,7 +74,7 @@ def rocking_skip(mode, acceleration, gains, sample, p):
 
 @kernel(RESET)
 def rocking_reset(mode, guard, y, f, p):
-    """End the search for the onset, or the rocking ([Sugimoto2017]_)."""
+    """End the search for the onset, or the rocking."""
     if mode == REST:
         return ROSE_FORWARD if guard == 0 else ROSE_BACKWARD
     if guard == 0:
@@ -97,7 +97,7 @@ ROCKING = Model(
 
 
 def rocking_parameters(block: TwoLayerBlock, gravity: float, direction: str) -> FloatArray:
-    """Return the parameters of the model ([Sugimoto2017]_); a direction not asked for has an infinite threshold."""
+    """Return the parameters of the model; a direction not asked for has an infinite threshold."""
     per_inertia = block.mass * block.radius / block.corner_inertia
     threshold = block.rocking_threshold(gravity)
     forward = threshold if direction in ("+", "both") else math.inf

@@ -26,7 +26,7 @@ def follow_on(
     gains: Sequence[float],
     start: Instant,
 ) -> Trajectory:
-    """Follow a model through a motion and, from its last sample on, for at most 60 s of still ground ([Sugimoto2017]_).
+    """Follow a model through a motion and, from its last sample on, for at most 60 s of still ground.
 
     Parameters are those of :func:`seisblock.dynamics.follow`. The ground stops at once: its acceleration leaps from that of the last
     sample to zero. The trajectory counts samples on, as if the record had gone on.

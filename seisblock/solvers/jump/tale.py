@@ -85,7 +85,7 @@ def exceeds(needed: float | None, given: float) -> bool:
 
 
 def with_curves(response: Response[Any], followed: list[Followed]) -> Response[Any]:
-    """Return a response with phases, events and channels over the whole motion: the chains and the rest between them ([Sugimoto2017]_)."""
+    """Return a response with phases, events and channels over the whole motion: the chains and the rest between them."""
     motion, block = response.motion, response.body
     clock = motion.time
     parts: list[tuple[np.ndarray, ...]] = []

@@ -39,7 +39,7 @@ class Curves:
 
 
 def curves(stand: Stand, states: FloatArray, modes: IntArray) -> Curves:
-    """Return the motion that states (n, n_states) of the model in some modes (n,) describe ([ShentonJones1991]_).
+    """Return the motion that states (n, n_states) of the model in some modes (n,) describe.
 
     Negative modes end a motion: they must have been replaced by those that they ended.
     """
@@ -60,7 +60,7 @@ def curves(stand: Stand, states: FloatArray, modes: IntArray) -> Curves:
 
 
 def energy(stand: Stand, gravity: float, states: FloatArray, modes: IntArray) -> FloatArray:
-    """Return kinetic and potential energy, (n,), J, of states in some modes ([ShentonJones1991]_)."""
+    """Return kinetic and potential energy, (n,), J, of states in some modes."""
     of = curves(stand, states, modes)
     kinetic = 0.5 * (of.velocity**2 + of.rise_rate**2 + stand.gyration_squared * of.angular_velocity**2)
     return stand.mass * (kinetic + gravity * of.height)

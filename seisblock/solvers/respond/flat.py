@@ -6,7 +6,7 @@ Slide
     x'' = -a - s mu_k G with the resultant at s mu_k h from below the centre, while s x' > 0 and G > 0.
 Flight
     x'' = -a, y'' = -G, theta'' = 0; the gap of a corner has the acceleration -G - r_y theta'^2, so it is a state of its own.
-a and a_y are the ground's accelerations along +x and up, G = g + a_y ([ShentonJones1991]_).
+a and a_y are the ground's accelerations along +x and up, G = g + a_y (derived here, as in [ShentonJones1991]_).
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ ROUND_OFF = 1e-10
 
 @kernel(_t.void(MATRIX, _t.int64, _t.int64, _t.float64), inline=True)
 def constant(c, i, degree, value):
-    """Write a state that has one value, to be moved on by what is added to its series ([ShentonJones1991]_)."""
+    """Write a state that has one value, to be moved on by what is added to its series."""
     c[i, 0] = value
     for k in range(1, degree + 1):
         c[i, k] = 0.0
@@ -69,7 +69,7 @@ def constant(c, i, degree, value):
 
 @kernel(_t.void(MATRIX, _t.int64, _t.int64), inline=True)
 def still(c, first, last):
-    """Mark the states from the first to before the last as ones that do not move ([ShentonJones1991]_)."""
+    """Mark the states from the first to before the last as ones that do not move."""
     for i in range(first, last):
         c[i, 1] = OFF
 
@@ -103,7 +103,7 @@ def rest_slacks(held, f, p, g):
 
 @kernel(_t.int64(_t.float64, VECTOR, MATRIX, VECTOR, MATRIX, MATRIX), inline=True)
 def slide_series(s, y, f, p, c, g):
-    """Write a slide towards `s`: cubics, and quartics for the energies ([Shenton1996]_)."""
+    """Write a slide towards `s`: cubics, and quartics for the energies."""
     degree = 4
     push = f[ALONG, 0] + f[ACROSS, 0]
     push_rate = f[ALONG, 1] + f[ACROSS, 1]
@@ -142,7 +142,7 @@ def slide_series(s, y, f, p, c, g):
 
 @kernel(_SERIES)
 def flight_series(y, f, p, order, c, g):
-    """Write a flight, and the gaps of both lower corners ([ShentonJones1991]_)."""
+    """Write a flight, and the gaps of both lower corners."""
     push = f[ALONG, 0] + f[ACROSS, 0]
     push_rate = f[ALONG, 1] + f[ACROSS, 1]
     up = f[UP, 0]
@@ -212,7 +212,7 @@ def release_slack(y, p, degree, c, g):
 
 @kernel(SKIP)
 def skip(mode, acceleration, gains, sample, p):
-    """While at rest, pass over the samples that cannot end it: the conditions are linear in the input ([Shenton1996]_)."""
+    """While at rest, pass over the samples that cannot end it: the conditions are linear in the input."""
     if mode % HELD != REST:
         return sample
     along = gains[ALONG]

@@ -16,7 +16,7 @@ Clatter
 Jam
     Where a slip that presses on has no consistent force it ends at once, by an impact that begins with u = 0 ([GenotBrogliato1999]_).
 
-Without restitution and with friction enough the rocking impact is Housner's, theta' times
+Derived here. Without restitution and with friction enough the rocking impact is Housner's, theta' times
 (k^2 + h^2 - b1 b2)/(k^2 + h^2 + b_B^2) ([Housner1963]_).
 """
 
@@ -78,7 +78,7 @@ _STRIKE = _t.int64(_t.boolean, VECTOR, MATRIX, VECTOR, _t.boolean)
 
 @kernel(_t.int64(_t.boolean, _t.float64, VECTOR, VECTOR))
 def lift_off(right, rate, y, p):
-    """Turn a state about a corner, which rises at `rate`, into one of flight ([ShentonJones1991]_)."""
+    """Turn a state about a corner, which rises at `rate`, into one of flight."""
     theta = y[THETA]
     omega = y[OMEGA]
     apart = foot(right, p) - foot(not right, p)
@@ -142,7 +142,7 @@ def _both(right, rise, y, f, p, held):
 
 @kernel(_t.boolean(_t.float64, MATRIX, VECTOR, _t.boolean))
 def stays_flat(slip, f, p, held):
-    """Whether a body put flat on the ground with this slip velocity would rest or slide ([Shenton1996]_)."""
+    """Whether a body put flat on the ground with this slip velocity would rest or slide."""
     flat_slip = 0.0 if abs(slip) < p[SMALL_RATE] else slip
     kind = following(True, True, NONE, 0.0, 0.0, flat_slip, f, p, held)
     return kind in (REST, SLIDE_PLUS, SLIDE_MINUS)

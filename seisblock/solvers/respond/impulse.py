@@ -2,7 +2,7 @@
 
 All impulses are per unit mass: P normal, T along the ground. With r from the centre to the struck corner, u' = nn P + tn T and
 v' = tn P + tt T change its normal and its slip velocity, where nn = 1 + r_x^2/k^2, tt = 1 + r_y^2/k^2, tn = -r_x r_y/k^2; the
-centre gains (T, P) and the body (r_y T - r_x P)/k^2.
+centre gains (T, P) and the body (r_y T - r_x P)/k^2 (derived here).
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def struck(right, theta, omega, u, v, restitution, p, held):
 
 @kernel(_t.UniTuple(_t.float64, 3)(_t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR))
 def jammed(right, theta, omega, v, restitution, p):
-    """Return theta', u and the energy lost, J/kg, after a slip that presses on has been stopped at once ([GenotBrogliato1999]_).
+    """Return theta', u and the energy lost, J/kg, after a slip that presses on has been stopped at once.
 
     An impact without collision: Routh's path leads from u = 0 below zero while it slips, and back to u = 0 once it sticks. The impulses of
     greatest compression are therefore those that stop both u and v, whatever the path; then comes the restitution, sticking.

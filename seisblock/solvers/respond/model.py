@@ -107,7 +107,7 @@ def _point_slacks(right, arms, degree, p, c, g):
 
 @kernel(SERIES)
 def series(mode, y, f, p, order, c, g):
-    """Write the motion of one mode and its slacks ([ShentonJones1991]_)."""
+    """Write the motion of one mode and its slacks."""
     held = mode >= HELD
     kind = mode - HELD if held else mode
     for k in range(END):
@@ -192,7 +192,7 @@ def _rises(right, y, f, p):
 
 @kernel(RESET)
 def reset(mode, guard, y, f, p):
-    """Return the mode that follows a guard: an impact, the end, or the first consistent mode ([ShentonJones1991]_)."""
+    """Return the mode that follows a guard: an impact, the end, or the first consistent mode."""
     held = mode >= HELD
     kind = mode - HELD if held else mode
     if guard >= END:
@@ -225,5 +225,5 @@ RESPOND = Model("respond", series, reset, STATES, GUARDS, MODES, scratch=SCRATCH
 
 @functools.cache
 def model_with(points: int) -> Model:
-    """Return the model of bodies with so many further points, one guard each ([ShentonJones1991]_)."""
+    """Return the model of bodies with so many further points, one guard each."""
     return replace(RESPOND, guards=GUARDS + ("further point",) * points) if points else RESPOND

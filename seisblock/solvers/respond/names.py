@@ -79,25 +79,25 @@ LEAST_CONE = 1e-8
 
 @kernel(_t.boolean(_t.int64), inline=True)
 def is_right(kind):
-    """Whether a rocking or skidding mode turns about the right corner ([ShentonJones1991]_)."""
+    """Whether a rocking or skidding mode turns about the right corner."""
     return kind % 2 == 1
 
 
 @kernel(_t.float64(_t.int64), inline=True)
 def sense(kind):
-    """Return the sign of the slip of a sliding or skidding mode ([ShentonJones1991]_)."""
+    """Return the sign of the slip of a sliding or skidding mode."""
     return 1.0 if kind in (SLIDE_PLUS, SKID_RIGHT_PLUS, SKID_LEFT_PLUS) else -1.0
 
 
 @kernel(_t.float64(_t.boolean, VECTOR), inline=True)
 def foot(right, p):
-    """Return xi, how far a lower corner of the upright body lies to +x of the centre, m ([ShentonJones1991]_)."""
+    """Return xi, how far a lower corner of the upright body lies to +x of the centre, m."""
     return p[ARM_RIGHT] if right else -p[ARM_LEFT]
 
 
 @kernel(_t.UniTuple(_t.float64, 2)(_t.boolean, _t.float64, VECTOR), inline=True)
 def corner(right, theta, p):
-    """Return where a lower corner is from the centre, (r_x, r_y), m ([ShentonJones1991]_)."""
+    """Return where a lower corner is from the centre, (r_x, r_y), m."""
     xi = foot(right, p)
     if theta == 0.0:
         return xi, -p[HEIGHT]

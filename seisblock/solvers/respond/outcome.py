@@ -107,7 +107,7 @@ class RespondOutcome:
 
 
 def mode_change(time_s: float, mode: int) -> ModeChange:
-    """Return a mode of the model in the user's words ([ShentonJones1991]_)."""
+    """Return a mode of the model in the user's words."""
     kind = mode % names.HELD if mode >= 0 else names.REST
     turns = kind in (names.ROCK_RIGHT, names.ROCK_LEFT) or names.SKID_RIGHT_PLUS <= kind <= names.SKID_LEFT_MINUS
     slips = names.SLIDE_PLUS <= kind <= names.SKID_LEFT_MINUS
@@ -120,7 +120,7 @@ def mode_change(time_s: float, mode: int) -> ModeChange:
 
 
 def mode_changes(run: Run, start_s: float) -> list[ModeChange]:
-    """Return the changes of mode; an impact after which the mode is the same is none ([ShentonJones1991]_)."""
+    """Return the changes of mode; an impact after which the mode is the same is none."""
     found: list[ModeChange] = []
     for time, change in run.changes():
         if change.target == names.GAVE_UP:
@@ -132,7 +132,7 @@ def mode_changes(run: Run, start_s: float) -> list[ModeChange]:
 
 
 def phases(events: list[ModeChange], end_s: float) -> tuple[Phase, ...]:
-    """Return the stretches of one mode each, the two corners and slips told apart by events alone ([ShentonJones1991]_)."""
+    """Return the stretches of one mode each, the two corners and slips told apart by events alone."""
     merged: list[ModeChange] = []
     for event in events:
         if event["mode"] != OVERTURNED and not (merged and merged[-1]["mode"] == event["mode"]):
@@ -142,7 +142,7 @@ def phases(events: list[ModeChange], end_s: float) -> tuple[Phase, ...]:
 
 
 def time_in_mode(stretches: Iterable[Phase]) -> TimeInMode:
-    """Return how long each mode lasted in all ([ShentonJones1991]_)."""
+    """Return how long each mode lasted in all."""
     total: TimeInMode = {"rest": 0.0, "slide": 0.0, "rock": 0.0, "slide_rock": 0.0, "flight": 0.0}
     for phase in stretches:
         total[phase.name.replace("-", "_")] += phase.duration_s  # type: ignore[literal-required]
@@ -150,13 +150,13 @@ def time_in_mode(stretches: Iterable[Phase]) -> TimeInMode:
 
 
 def lean_ratio(setting: Setting, highest: float, lowest: float) -> float:
-    """Return the larger lean over alpha of its corner, from the largest leans to +x and, negative, to -x ([Housner1963]_)."""
+    """Return the larger lean over alpha of its corner, from the largest leans to +x and, negative, to -x."""
     right, left = setting.stand.slendernesses
     return max(highest / right, -lowest / left)
 
 
 def gather(run: Run, setting: Setting, start_s: float, sensitive: bool | None) -> RespondOutcome:
-    """Gather the outcome of a run ([ShentonJones1991]_)."""
+    """Gather the outcome of a run."""
     final = run.final
     mass = setting.stand.mass
     events = mode_changes(run, start_s)
@@ -200,7 +200,7 @@ def _leaves_ground(change: Change) -> bool:
 
 
 def in_words(run: Run, events: list[ModeChange]) -> str:
-    """Say in a word or two what the body did ([ShentonJones1991]_)."""
+    """Say in a word or two what the body did."""
     if run.mode == names.OVERTURNED:
         return OVERTURNS
     if run.mode == names.GAVE_UP:
@@ -213,14 +213,14 @@ def in_words(run: Run, events: list[ModeChange]) -> str:
 
 
 def status(run: Run) -> Status:
-    """Return how the run ended ([ShentonJones1991]_)."""
+    """Return how the run ended."""
     if run.mode == names.GAVE_UP:
         return Status.TOO_MANY_EVENTS
     return Status.STOPPED if run.mode == names.OVERTURNED or run.settles else Status.RECORD_ENDED
 
 
 def event_name(change: Change) -> str:
-    """Return what happened ([ShentonJones1991]_)."""
+    """Return what happened."""
     if change.target == names.OVERTURNED:
         return "overturns"
     if change.target == names.GAVE_UP:
@@ -236,12 +236,12 @@ def event_name(change: Change) -> str:
 
 
 def event_log(run: Run, start_s: float) -> tuple[Event, ...]:
-    """Return every event with both limits of the state ([ShentonJones1991]_)."""
+    """Return every event with both limits of the state."""
     return tuple(Event(event_name(change), start_s + time, change.before, change.after) for time, change in run.changes())
 
 
 def warnings(run: Run, setting: Setting, outcome: RespondOutcome, settle_s: float) -> tuple[str, ...]:
-    """Return what the user should know before believing the numbers ([GenotBrogliato1999]_)."""
+    """Return what the user should know before believing the numbers."""
     name = setting.stand.name
     told = []
     if run.mode == names.GAVE_UP:
@@ -265,7 +265,7 @@ def warnings(run: Run, setting: Setting, outcome: RespondOutcome, settle_s: floa
 
 
 def final_mode(run: Run) -> int:
-    """Return the last mode that was one of motion or rest, never an end ([ShentonJones1991]_)."""
+    """Return the last mode that was one of motion or rest, never an end."""
     if run.mode >= 0:
         return run.mode
     if run.mode == names.SETTLED:
@@ -274,5 +274,5 @@ def final_mode(run: Run) -> int:
 
 
 def motion_modes(run: Run, modes: np.ndarray) -> np.ndarray:
-    """Return modes with those that end a motion replaced by what they ended ([ShentonJones1991]_)."""
+    """Return modes with those that end a motion replaced by what they ended."""
     return np.where(modes < 0, final_mode(run), modes)

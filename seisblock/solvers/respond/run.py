@@ -22,14 +22,14 @@ STILL_DT = 0.01
 
 
 def check_settling(settle_s: float) -> None:
-    """Refuse a time to settle that is negative or no number ([ShentonJones1991]_)."""
+    """Refuse a time to settle that is negative or no number."""
     if not (math.isfinite(settle_s) and settle_s >= 0.0):
         raise ParameterError(f"the time to settle after the record must be zero or more, found {settle_s:g} s")
 
 
 @functools.lru_cache(maxsize=4)
 def still_ground(settle_s: float) -> Motion:
-    """Return ground that does not move, as a motion of at least `settle_s` seconds ([ShentonJones1991]_)."""
+    """Return ground that does not move, as a motion of at least `settle_s` seconds."""
     return Motion(np.zeros((3, math.ceil(settle_s / STILL_DT) + 1)), STILL_DT, name="still")
 
 
@@ -127,5 +127,5 @@ def run(
 
 
 def moves_on(mode: int) -> bool:
-    """Whether a body that the record leaves in this mode has not come to its end ([ShentonJones1991]_)."""
+    """Whether a body that the record leaves in this mode has not come to its end."""
     return mode >= 0 and mode % names.HELD != names.REST

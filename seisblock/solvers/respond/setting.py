@@ -86,7 +86,7 @@ class Stand:
 
     @property
     def friction_limit(self) -> float:
-        """Kinetic friction below which no slip can jam: the least 2 sqrt(kappa (1 + kappa)), kappa = k^2/R^2 ([GenotBrogliato1999]_)."""
+        """Kinetic friction below which no slip can jam: the least 2 sqrt(kappa (1 + kappa)), kappa = k^2/R^2 (derived here)."""
         kappa = self.gyration_squared / max(self.radii) ** 2
         return 2.0 * math.sqrt(kappa * (1.0 + kappa))
 
@@ -170,7 +170,7 @@ class Setting:
         return START + HELD if self.tenon > 0.0 else START
 
     def parameters(self, dt: float, *, still: bool = False) -> FloatArray:
-        """Return the parameters of the model in the order of its names ([ShentonJones1991]_)."""
+        """Return the parameters of the model in the order of its names."""
         body = self.stand
         given = NONE if self.rocking_restitution is None else self.rocking_restitution
         row = [
@@ -180,7 +180,7 @@ class Setting:
         return np.array(row + [value for point in self.further_points for value in point])
 
     def state(self, initial: Initial) -> FloatArray:
-        """Return the state of a body put down upright and at rest, or with the given six numbers ([ShentonJones1991]_)."""
+        """Return the state of a body put down upright and at rest, or with the given six numbers."""
         y = np.zeros(len(STATES))
         if initial is None:
             return y
@@ -213,5 +213,5 @@ def _within(what: str, value: float, least: float, most: float, expected: str) -
 
 
 def gains(motion: Motion, vertical: Factor | None) -> tuple[float, float, float]:
-    """Return the factors on the motion's rows; `vertical` None: the vertical motion acts where there is one ([ShentonJones1991]_)."""
+    """Return the factors on the motion's rows; `vertical` None: the vertical motion acts where there is one."""
     return 1.0, 0.0, vertical_gain(motion, True if vertical is None else vertical, needed=vertical is not None)

@@ -140,7 +140,7 @@ def make_setting(
     tenon: float = 0.0,
     further_points: Sequence[tuple[float, float]] = (),
 ) -> Setting:
-    """Return all that determines a run but the motion, checked, as :func:`respond_many` takes it ([ShentonJones1991]_).
+    """Return all that determines a run but the motion, checked, as :func:`respond_many` takes it.
 
     Parameters
     ----------
@@ -162,7 +162,7 @@ def make_setting(
 
 
 def verdict(found: Run) -> tuple[bool, bool]:
-    """Return whether the body has fallen, and whether to +x ([Housner1963]_)."""
+    """Return whether the body has fallen, and whether to +x."""
     fallen = found.mode == names.OVERTURNED
     return fallen, fallen and bool(found.final[names.THETA] > 0.0)
 
@@ -170,7 +170,7 @@ def verdict(found: Run) -> tuple[bool, bool]:
 def is_sensitive(
     found: Run, setting: Setting, motion: Motion, factors: tuple[float, float, float], initial: Initial, settle_s: float
 ) -> bool:
-    """Whether 1 - 1e-6 or 1 + 1e-6 times the motion leads to another verdict ([Housner1963]_)."""
+    """Whether 1 - 1e-6 or 1 + 1e-6 times the motion leads to another verdict."""
     for factor in (1.0 - NUDGE, 1.0 + NUDGE):
         along, across, up = (factor * gain for gain in factors)
         if verdict(run(setting, motion, (along, across, up), initial, settle_s, keep=False)) != verdict(found):

@@ -10,7 +10,7 @@ Uniqueness
     For a corner that sticks with pressing force N* and needs rho = abs(T*)/N*, a slip has an acceleration proportional to
     N* (rho - mu_k)/P and a force -b/P, b the free normal acceleration: once rho > mu_s exactly one of slip (b < 0) and flight (b > 0)
     follows. With a slip that has no consistent force (P <= 0, pressed on) there is none: Painleve's case, which ends in a jam
-    ([GenotBrogliato1999]_).
+    ([GenotBrogliato1999]_). Derived here.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ IMPOSSIBLE = -1e300
 
 @kernel(_t.UniTuple(_t.float64, 2)(_t.float64, MATRIX, VECTOR), inline=True)
 def loads(later, f, p):
-    """Return the ground's horizontal acceleration and G = g + a_y, m/s^2, `later` seconds from now ([Shenton1996]_)."""
+    """Return the ground's horizontal acceleration and G = g + a_y, m/s^2, `later` seconds from now (derived here)."""
     push = f[ALONG, 0] + f[ACROSS, 0] + later * (f[ALONG, 1] + f[ACROSS, 1])
     return push, p[GRAVITY] + f[UP, 0] + later * f[UP, 1]
 

@@ -12,7 +12,7 @@ Skid
     k^2 theta'' = -(r_x + s mu r_y) N, x'' = -a - s mu N, while N > 0, s v > 0 and P > 0; written in ``skid``.
 Both end when the other corner comes down (theta returns to zero) or at a quarter turn ([ShentonJones1991]_, [GenotBrogliato1999]_).
 
-The slip velocity is a state of its own; the centre's velocity is v - r_y theta'.
+The slip velocity is a state of its own; the centre's velocity is v - r_y theta'. Derived here.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ RX, RY, NORMAL, TANGENT = range(4)
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
 def first_turn(side, theta, omega, turn, rate, p):
-    """Return theta'' at the start of a mode, zero where rocking begins at its threshold but for round-off ([Shenton1996]_)."""
+    """Return theta'' at the start of a mode, zero where rocking begins at its threshold but for round-off."""
     if theta == 0.0 and omega == 0.0:
         return starts(side, 0.0, turn * p[HEIGHT], rate * p[HEIGHT], p) / p[HEIGHT]
     return turn
@@ -67,7 +67,7 @@ def first_turn(side, theta, omega, turn, rate, p):
 
 @kernel(_t.void(_t.float64, _t.int64, _t.float64, VECTOR, MATRIX, MATRIX), inline=True)
 def turning_slacks(side, degree, swing, p, c, g):
-    """Write the other corner's gap, as the lean towards this one, and the quarter turn ([ShentonJones1991]_).
+    """Write the other corner's gap, as the lean towards this one, and the quarter turn.
 
     `swing` bounds the change of the lean within the step.
     """

@@ -1,7 +1,7 @@
 """What becomes of a rocking block once the shaking is over: decided by energy, timed by quadrature.
 
 Without shaking the lean phi >= 0 on either side obeys phi'' = -V'(phi) with V = p^2 (cos(alpha - phi) - cos(alpha)), or
-p^2 (alpha phi - phi^2/2) in the linear option; the barrier stands at phi = alpha ([Housner1963]_). Impacts multiply phi' by the
+p^2 (alpha phi - phi^2/2) in the linear option; the barrier stands at phi = alpha (derived here). Impacts multiply phi' by the
 restitution, so that the fate is known after a few swings.
 """
 
@@ -19,7 +19,7 @@ MOST_SWINGS = 10_000
 
 @dataclass(frozen=True)
 class Side:
-    """One corner of a freely rocking block: alpha, rad, p^2, 1/s^2, and the restitution of impacts onto it."""
+    """One corner of a freely rocking block: alpha, rad, p^2, 1/s^2 ([Furukawa2009]_ eq. (3)), and the restitution of impacts onto it."""
 
     alpha: float
     p_squared: float
@@ -69,7 +69,7 @@ class Side:
 
 
 def sides(block: Block, gravity: float, restitution: Restitution, linear: bool) -> tuple[Side, Side]:
-    """Return the right and the left corner of a block ([Housner1963]_)."""
+    """Return the right and the left corner of a block."""
     onto = restitutions(block, restitution)
     right, left = (Side(block.slendernesses[k], gravity * block.lever_ratios[k], onto[k], linear) for k in (RIGHT, LEFT))
     return right, left

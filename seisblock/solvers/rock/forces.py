@@ -70,7 +70,7 @@ class _Rows:
         return -self.lever * (weight * (psi if self.linear else np.sin(psi)) + push * (1.0 if self.linear else np.cos(psi)))
 
     def forces(self, theta: FloatArray, omega: FloatArray, push: FloatArray, weight: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return H/m and N/m at other states: psi = s alpha - theta turns R into the horizontal and the vertical."""
+        """Return H/m and N/m at other states: psi = s alpha - theta turns R into the horizontal and the vertical (derived here)."""
         psi = self.lean - theta
         sine, cosine = np.sin(psi), np.cos(psi)
         alpha = -self.lever * (weight * (psi if self.linear else sine) + push * (1.0 if self.linear else cosine))
@@ -85,7 +85,7 @@ def demand(
 ) -> Demand:
     """Return the largest friction demand, and the loss of contact, before `until_s` (s after sample 0); impacts excepted.
 
-    The block's acceleration relative to the ground is that of a point at R from the corner in contact ([Ishiyama1982]_): with
+    The block's acceleration relative to the ground is that of a point at R from the corner in contact (derived here): with
     psi = s alpha - theta, H/m = a + R (theta'' cos(psi) + theta'^2 sin(psi)), N/m = g + a_v + R (theta'' sin(psi) - theta'^2 cos(psi)).
     """
     rows = _rows(block, motion, trajectory, gravity, linear, gains, until_s)

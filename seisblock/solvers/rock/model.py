@@ -52,7 +52,7 @@ HALF_PI = math.pi / 2
 
 
 def parameters(block: Block, dt: float, gravity: float, restitution: Restitution, linear: bool) -> FloatArray:
-    """Return the parameters of the model, in the order of the named integers above ([Housner1963]_)."""
+    """Return the parameters of the model, in the order of the named integers above."""
     alpha = block.slendernesses
     hold = alpha if linear else (math.tan(alpha[RIGHT]), math.tan(alpha[LEFT]))
     onto = restitutions(block, restitution)
@@ -61,7 +61,7 @@ def parameters(block: Block, dt: float, gravity: float, restitution: Restitution
 
 @kernel(SERIES)
 def series(mode, y, f, p, order, c, g):
-    """Write the lean, the angular velocity and the slacks of one mode as power series ([Housner1963]_)."""
+    """Write the lean, the angular velocity and the slacks of one mode as power series."""
     weight = p[GRAVITY] + f[UPWARD, 0]
     weight_rate = f[UPWARD, 1]
     push = f[ALONG, 0]
@@ -141,7 +141,7 @@ def series(mode, y, f, p, order, c, g):
 
 @kernel(RESET)
 def reset(mode, guard, y, f, p):
-    """Start, impact, passing alpha either way, overturning ([Housner1963]_)."""
+    """Start, impact, passing alpha either way, overturning."""
     if mode == REST:
         return TO_RIGHT if guard == 0 else TO_LEFT
     if mode > TO_LEFT:
@@ -175,7 +175,7 @@ def reset(mode, guard, y, f, p):
 
 @kernel(SKIP)
 def skip(mode, acceleration, gains, sample, p):
-    """While at rest, pass over the samples that cannot start rocking ([Housner1963]_)."""
+    """While at rest, pass over the samples that cannot start rocking."""
     if mode != REST:
         return sample
     along = gains[ALONG]

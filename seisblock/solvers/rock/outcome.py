@@ -79,7 +79,7 @@ class RockOutcome:
 
 
 def lean_ratio(block: Block, largest: tuple[float, float]) -> float:
-    """Return the larger lean over alpha of its corner, from the largest leans to +x and to -x ([Housner1963]_)."""
+    """Return the larger lean over alpha of its corner, from the largest leans to +x and to -x."""
     return max(lean / alpha for lean, alpha in zip(largest, block.slendernesses, strict=True))
 
 
@@ -94,7 +94,7 @@ def gather(
     restitution: Restitution,
     linear: bool,
 ) -> RockOutcome:
-    """Gather the outcome from the trajectory and what follows it ([Housner1963]_)."""
+    """Gather the outcome from the trajectory and what follows it."""
     changes = trajectory.changes
     starts = [c.time for c in changes if c.source == model.REST]
     impacts = sum(c.source in (model.TO_RIGHT, model.TO_LEFT) and c.guard == model.DOWN for c in changes)
@@ -146,7 +146,7 @@ def gather(
 
 
 def event_name(change: Change) -> str:
-    """Return what happened ([Housner1963]_)."""
+    """Return what happened."""
     if change.source == model.REST:
         return "rocking starts"
     if change.target == model.OVERTURNED:
@@ -159,7 +159,7 @@ def event_name(change: Change) -> str:
 
 
 def phases(trajectory: Trajectory, start_s: float) -> tuple[Phase, ...]:
-    """Return the stretches of one mode each ([Housner1963]_)."""
+    """Return the stretches of one mode each."""
     changes = trajectory.changes
     if not changes:
         return (Phase(model.MODES[trajectory.final_mode], start_s, start_s + trajectory.end_time),)
@@ -173,7 +173,7 @@ def phases(trajectory: Trajectory, start_s: float) -> tuple[Phase, ...]:
 
 
 def warnings(block: Block, outcome: RockOutcome, gravity: float) -> tuple[str, ...]:
-    """Return what the user should know before believing the numbers ([Housner1963]_)."""
+    """Return what the user should know before believing the numbers."""
     found = []
     if outcome.threshold_m_s2 > gravity:
         found.append(f"{block.name}: wider than tall; it rocks only above {outcome.threshold_m_s2 / gravity:.2f} g and will rather slide")

@@ -23,7 +23,7 @@ CITATIONS = ("Housner1963", "Zhang2001", "Ishiyama1982")
 
 
 def check_options(restitution: Restitution, gravity: float) -> None:
-    """Refuse a restitution outside [0, 1] and a gravity that is not positive ([Housner1963]_)."""
+    """Refuse a restitution outside [0, 1] and a gravity that is not positive."""
     given = () if restitution is None else restitution if isinstance(restitution, tuple) else (restitution,)
     if not all(0.0 <= ratio <= 1.0 for ratio in given):
         raise ParameterError(
@@ -121,7 +121,7 @@ def solve_rock(
 
 
 def start_mode(block: Block, initial: tuple[float, float]) -> int:
-    """Return the mode in which a block with this lean and angular velocity is ([Housner1963]_)."""
+    """Return the mode in which a block with this lean and angular velocity is."""
     theta, omega = initial
     if not (abs(theta) < math.pi / 2 and math.isfinite(omega)):
         raise ParameterError(
@@ -140,7 +140,7 @@ def start_mode(block: Block, initial: tuple[float, float]) -> int:
 def afterwards(
     trajectory: Trajectory, block: Block, gravity: float, restitution: Restitution, linear: bool, *, timed: bool = True
 ) -> Fate | None:
-    """Return what free rocking ([Housner1963]_) makes of the block after the record's end, None when at rest or overturned by then."""
+    """Return what free rocking makes of the block after the record's end, None when at rest or overturned by then."""
     if trajectory.final_mode in (model.REST, model.OVERTURNED):
         return None
     theta, omega = trajectory.final

@@ -81,7 +81,7 @@ def _excess(drive, mu, normal):
 
 @kernel(SERIES)
 def series(mode, y, f, p, order, c, g):
-    """Write the cubics of one mode, and the slacks that end it ([Fujino1978]_)."""
+    """Write the cubics of one mode, and the slacks that end it."""
     drive, drive_rate, normal, normal_rate = _loads(mode >= LEVEL, f, p)
     g[CONTACT, 0] = g[FOOT, 0] = OFF
     phase = mode % LEVEL
@@ -172,7 +172,7 @@ def _land(level, y, f, p):
 
 @kernel(SKIP)
 def skip(mode, acceleration, gains, sample, p):
-    """Return the last of the samples that follow, one by one, within both limits of static friction ([Fujino1978]_)."""
+    """Return the last of the samples that follow, one by one, within both limits of static friction."""
     if mode % LEVEL != STICK:
         return sample
     s, c = (0.0, 1.0) if mode >= LEVEL else (p[SINE], p[COSINE])
@@ -192,7 +192,7 @@ def skip(mode, acceleration, gains, sample, p):
 
 @kernel(RESET)
 def reset(mode, guard, y, f, p):
-    """Return the mode that follows an event ([Fujino1978]_)."""
+    """Return the mode that follows an event."""
     level = LEVEL if mode >= LEVEL else 0
     phase = mode % LEVEL
     if guard == CONTACT:
@@ -223,7 +223,7 @@ SLIDE = Model(
 
 
 def parameters(base: SlidingBase, gravity: float) -> tuple[float, ...]:
-    """Return a base and gravity as the parameters of the model, (8,) ([Fujino1978]_)."""
+    """Return a base and gravity as the parameters of the model, (8,)."""
     foot = math.inf if base.slope_length is None else base.slope_length
     downhill = -1.0 if base.slope_deg < 0.0 else 1.0
     return base.mu, base.kinetic, gravity, math.sin(base.angle), math.cos(base.angle), foot, downhill, float(base.one_way)

@@ -155,7 +155,7 @@ def solve_slide(
 
 
 def check(motion: Motion, vertical: Factor, gravity: float) -> tuple[float, float, float]:
-    """Return the factors on the motion's three rows, or refuse what cannot act ([Fujino1978]_)."""
+    """Return the factors on the motion's three rows, or refuse what cannot act."""
     checks.gravity(gravity)
     return 1.0, 0.0, vertical_gain(motion, vertical)
 

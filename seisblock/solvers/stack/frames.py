@@ -26,7 +26,7 @@ BOX = 6
 
 @kernel(_t.void(VECTOR), inline=True)
 def orient(b):
-    """Write a body's rotation matrix from its quaternion (w, x, y, z) (for [Furukawa2009]_)."""
+    """Write a body's rotation matrix from its quaternion (w, x, y, z)."""
     w, x, y, z = b[Q], b[Q + 1], b[Q + 2], b[Q + 3]
     b[R] = 1.0 - 2.0 * (y * y + z * z)
     b[R + 1] = 2.0 * (x * y - w * z)
@@ -41,7 +41,7 @@ def orient(b):
 
 @kernel(_t.void(VECTOR, VECTOR), inline=True)
 def spin(b, inert):
-    """Write a body's spin from its angular momentum and its axes (for [Furukawa2009]_)."""
+    """Write a body's spin from its angular momentum and its axes."""
     l0 = b[R] * b[L] + b[R + 3] * b[L + 1] + b[R + 6] * b[L + 2]
     l1 = b[R + 1] * b[L] + b[R + 4] * b[L + 1] + b[R + 7] * b[L + 2]
     l2 = b[R + 2] * b[L] + b[R + 5] * b[L + 1] + b[R + 8] * b[L + 2]
@@ -56,7 +56,7 @@ def spin(b, inert):
 
 @kernel(_t.void(VECTOR, _t.float64), inline=True)
 def turn(b, dt):
-    """Turn a body's quaternion by its spin over a step (Cayley's form, which keeps it a unit) (for [Furukawa2009]_)."""
+    """Turn a body's quaternion by its spin over a step (Cayley's form, which keeps it a unit)."""
     w, x, y, z = b[Q], b[Q + 1], b[Q + 2], b[Q + 3]
     h = 0.5 * dt
     p0, p1, p2 = h * b[W], h * b[W + 1], h * b[W + 2]
@@ -71,7 +71,7 @@ def turn(b, dt):
 
 @kernel(_t.void(VECTOR, VECTOR, VECTOR), inline=True)
 def arm(b, box, r):
-    """Write where the centre of a box is from the centre of its body, in the ground's axes (for [Furukawa2009]_)."""
+    """Write where the centre of a box is from the centre of its body, in the ground's axes."""
     a0, a1, a2 = box[AT], box[AT + 1], box[AT + 2]
     if a0 == 0.0 and a1 == 0.0 and a2 == 0.0:
         r[0] = 0.0
@@ -85,7 +85,7 @@ def arm(b, box, r):
 
 @kernel(_t.void(_t.int64, _t.int64, MATRIX, MATRIX, INTEGERS, MATRIX, VECTOR))
 def relative(carrier, partner, bodies, boxes, owner, arms, rel):
-    """Write the state of one box as another sees it: its axes, its centre, its velocity there, its spin (for [Furukawa2009]_)."""
+    """Write the state of one box as another sees it: its axes, its centre, its velocity there, its spin."""
     c = bodies[owner[carrier]]
     p = bodies[owner[partner]]
     rc, rp = arms[0], arms[1]
@@ -109,7 +109,7 @@ def relative(carrier, partner, bodies, boxes, owner, arms, rel):
 
 @kernel(_t.void(VECTOR, VECTOR, MATRIX, VECTOR))
 def act(c, p, arms, total):
-    """Add a sum of contact forces to the carrier's body, and its opposite to the partner's (for [Furukawa2009]_); zero the sum."""
+    """Add a sum of contact forces to the carrier's body, and its opposite to the partner's; zero the sum."""
     f0 = p[R] * total[0] + p[R + 1] * total[1] + p[R + 2] * total[2]
     f1 = p[R + 3] * total[0] + p[R + 4] * total[1] + p[R + 5] * total[2]
     f2 = p[R + 6] * total[0] + p[R + 7] * total[1] + p[R + 8] * total[2]

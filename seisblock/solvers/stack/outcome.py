@@ -103,7 +103,7 @@ class Track:
 
 
 def stone_track(pile: PileArrays, rows: FloatArray) -> Track:
-    """Return the way of each stone from the rows that were kept (for [Furukawa2009]_); stones of a body move together, fixed ones stay."""
+    """Return the way of each stone from the rows that were kept; stones of a body move together, fixed ones stay."""
     stones = len(pile.body.stones)
     centres = np.empty((len(rows), stones, 3))
     quaternions = np.zeros((len(rows), stones, 4))
@@ -120,7 +120,7 @@ def stone_track(pile: PileArrays, rows: FloatArray) -> Track:
 
 
 def rotated(q: FloatArray, v: FloatArray) -> FloatArray:
-    """Return vectors (..., 3) turned by quaternions (..., 4) (for [Furukawa2009]_)."""
+    """Return vectors (..., 3) turned by quaternions (..., 4)."""
     w, u = q[..., :1], q[..., 1:]
     return v + 2.0 * np.cross(u, np.cross(u, v) + w * v)
 
@@ -158,7 +158,7 @@ def _turn(track: Track, i: int) -> FloatArray:
 
 
 def channels(pile: PileArrays, track: Track) -> tuple[Channel, ...]:
-    """Return tilt, slip, centre and quaternion of every stone (for [Furukawa2009]_)."""
+    """Return tilt, slip, centre and quaternion of every stone."""
     made = []
     for i, name in enumerate(pile.body.names):
         slip = _slip(pile, track, i)
@@ -182,7 +182,7 @@ def stack_outcome(
     gravity: float,
     step: float,
 ) -> StackOutcome:
-    """Return the outcome of a run (for [Furukawa2009]_).
+    """Return the outcome of a run.
 
     Raises
     ------

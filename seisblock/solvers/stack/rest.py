@@ -27,7 +27,7 @@ _AXES = np.eye(3)
 
 
 def point_rows(pile: PileArrays) -> tuple[FloatArray, FloatArray]:
-    """Return how each contact point of the joints is displaced by the bodies' small motions ([Furukawa2009]_).
+    """Return how each contact point of the joints is displaced by the bodies' small motions.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def stable_step(pile: PileArrays) -> float:
 
 
 def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
-    """Return how many steps a sampling interval takes ([Furukawa2009]_).
+    """Return how many steps a sampling interval takes.
 
     Raises
     ------
@@ -112,7 +112,7 @@ def _mass_matrix(pile: PileArrays) -> FloatArray:
 
 
 def sink(pile: PileArrays, gravity: float, bodies: FloatArray, stretches: FloatArray) -> None:
-    """Lower the bodies into their springs until these carry them ([Furukawa2009]_); points that would have to pull let go.
+    """Lower the bodies into their springs until these carry them; points that would have to pull let go.
 
     Raises
     ------

@@ -20,7 +20,7 @@ APART = 1e30
 
 @kernel(_t.boolean(VECTOR, VECTOR, VECTOR))
 def boxes_meet(rel, carrier, partner):
-    """Whether two boxes may meet (for [Furukawa2009]_): no face of either separates them."""
+    """Whether two boxes may meet: no face of either separates them."""
     for i in range(3):
         reach = abs(rel[3 * i]) * carrier[0] + abs(rel[3 * i + 1]) * carrier[1] + abs(rel[3 * i + 2]) * carrier[2]
         if abs(rel[REL_D + i]) > partner[i] + reach:
@@ -51,7 +51,7 @@ def _nearest(y, half):
 
 @kernel(_t.void(_t.int64, VECTOR, MATRIX, VECTOR, VECTOR, _t.float64, MATRIX, VECTOR, VECTOR, VECTOR))
 def press_corners(n, rel, corners, half, k, dt, slots, y, normal, total):
-    """Sum the forces at the carrier's corners inside the partner (for [Furukawa2009]_)."""
+    """Sum the forces at the carrier's corners inside the partner."""
     for c in range(n):
         _seen(rel, corners[c], y)
         d0, d1, d2 = half[0] - abs(y[0]), half[1] - abs(y[1]), half[2] - abs(y[2])
@@ -136,7 +136,7 @@ def _lie(rel, a, e, at, through, half, k, dt, slot, y, normal, total):
 
 @kernel(_t.void(_t.int64, VECTOR, MATRIX, INTEGER_TABLE, VECTOR, VECTOR, _t.float64, MATRIX, MATRIX, VECTOR))
 def press_edges(n, rel, corners, edges, half, k, dt, slots, work, total):
-    """Sum the forces where the carrier's edges pass through the partner (for [Furukawa2009]_).
+    """Sum the forces where the carrier's edges pass through the partner.
 
     Parameters
     ----------

@@ -148,7 +148,7 @@ def _near(i, j, bounds):
 
 @kernel(_t.float64(MATRIX, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def press_all(bodies, dt, look, pile, memory):
-    """Add every contact force to the bodies ([Furukawa2009]_); return the energy in the springs, J.
+    """Add every contact force to the bodies; return the energy in the springs, J.
 
     Which boxes are near each other is found anew when asked to `look`, with a margin for what they may move until the next time.
     """
@@ -176,7 +176,7 @@ def press_all(bodies, dt, look, pile, memory):
 
 @kernel(_t.void(_t.int64, MATRIX, MATRIX, _t.float64, _t.float64, _t.float64, _t.float64))
 def kick(n, bodies, inert, a0, a1, a2, dt):
-    """Change the velocities by the forces, in axes that accelerate by (a0, a1, a2), gravity among it, over `dt` ([Furukawa2009]_)."""
+    """Change the velocities by the forces, in axes that accelerate by (a0, a1, a2), gravity among it, over `dt`."""
     for i in range(n):
         b = bodies[i]
         m = inert[i, MASS]
@@ -190,7 +190,7 @@ def kick(n, bodies, inert, a0, a1, a2, dt):
 
 @kernel(_t.void(_t.int64, MATRIX, MATRIX, _t.float64))
 def drift(n, bodies, inert, dt):
-    """Move and turn the bodies over `dt` ([Furukawa2009]_), and clear the forces; spins stay those of the half step, as velocities do."""
+    """Move and turn the bodies over `dt`, and clear the forces; spins stay those of the half step, as velocities do."""
     for i in range(n):
         b = bodies[i]
         for k in range(3):
@@ -214,7 +214,7 @@ def drift(n, bodies, inert, dt):
 
 @kernel(_t.float64(_t.int64, MATRIX, MATRIX, _t.float64))
 def energy_of(n, bodies, inert, gravity):
-    """Return the kinetic and potential energy of the stones, J ([Furukawa2009]_)."""
+    """Return the kinetic and potential energy of the stones, J."""
     energy = 0.0
     for i in range(n):
         b = bodies[i]

@@ -118,7 +118,7 @@ def _reset(mode, guard, y, f, p):
 
 
 def contact_name(mode: int) -> str:
-    """Return the name of a contact state ([Okumura1987]_)."""
+    """Return the name of a contact state."""
     held = [str(i + 1) for i in range(4) if mode >> i & 1]
     return {4: "on all corners", 0: "in the air"}.get(len(held), f"on corner{'s' if len(held) > 1 else ''} {' '.join(held)}")
 
@@ -149,7 +149,7 @@ UPLIFT_AGAIN = replace(UPLIFT, order=ORDER - 3)
 
 
 def parameters(body: SpringBlock, gravity: float) -> FloatArray:
-    """Return the model's parameters ([Okumura1987]_); corner dashpots are c = 2 zeta k / omega of their direction.
+    """Return the model's parameters ([Okumura1987]_); corner dashpots are c = 2 zeta k / omega of their direction (derived here).
 
     The static settlement, and rates and forces to match, are the floors of the states.
     """
@@ -177,7 +177,7 @@ def parameters(body: SpringBlock, gravity: float) -> FloatArray:
 
 
 def at_rest(body: SpringBlock, gravity: float) -> FloatArray:
-    """Return the state of static equilibrium, (16,) ([Okumura1987]_)."""
+    """Return the state of static equilibrium, (16,)."""
     state = np.zeros(N_STATES)
     state[U : U + 4] = -body.static_settlement(gravity)
     state[F : F + 4] = gravity / 4.0
@@ -185,7 +185,7 @@ def at_rest(body: SpringBlock, gravity: float) -> FloatArray:
 
 
 def rotations(states: FloatArray, body: SpringBlock) -> tuple[FloatArray, FloatArray]:
-    """Return theta_x and theta_y, right-handed, rad, from rows of states ([Okumura1987]_)."""
+    """Return theta_x and theta_y, right-handed, rad, from rows of states."""
     corner = states[:, U : U + 4]
     sx, sy = np.array(CORNERS, dtype=np.float64).T
     return 0.5 * corner @ sy / body.depth, -0.5 * corner @ sx / body.width

@@ -91,7 +91,7 @@ def rocking_spectrum(
 
 
 def size_of(frequency_parameter: ArrayLike, gravity: float = STANDARD_GRAVITY) -> FloatArray:
-    """Return 2R, m, of rectangular blocks with these p, rad/s: 3 g/(2 p^2) ([Housner1963]_)."""
+    """Return 2R, m, of rectangular blocks with these p, rad/s: 3 g/(2 p^2) (from [Furukawa2009]_ eq. (6))."""
     return 1.5 * gravity / _grid(frequency_parameter, "frequency parameter", "rad/s", math.inf) ** 2
 
 
