@@ -34,6 +34,10 @@ class Pointer(types.WrapperAddressProtocol):  # type: ignore[misc]
         """Return the signature."""
         return self._signature
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Travel to another process without the address, which means nothing there."""
+        return Pointer, (self._kernel, self._signature)
+
     def __call__(self, *arguments: Any) -> Any:
         """Call the kernel from Python."""
         return self._kernel(*arguments)
