@@ -1,8 +1,14 @@
-"""What every test shares: an English locale and a terminal of 80 columns, whoever runs it."""
+"""What every test shares: an English locale, a terminal of 80 columns, and the evidence, which is computed once in a session."""
 
+import contextlib
+import dataclasses
+import json
 import os
 
 import hypothesis
+import pytest
+
+from seisblock.validation.case import Case, CaseResult
 
 os.environ.setdefault("COLUMNS", "80")
 os.environ["NO_COLOR"] = "1"
@@ -13,3 +19,32 @@ for name in ("LC_ALL", "LC_MESSAGES", "LANG"):
 hypothesis.settings.register_profile("ci", derandomize=True, deadline=None)
 if os.environ.get("CI"):
     hypothesis.settings.load_profile("ci")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def evidence(tmp_path_factory):
+    """Let each validation case be computed by the first test that runs it, in whatever process; later runs find what it computed.
+
+    The papers' tests, the command and its examples all run every case. Cases that a test makes up are computed each time.
+    """
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base) / "evidence"
+    folder.mkdir(exist_ok=True)
+    run = Case.run
+
+    def run_once(case: Case) -> CaseResult:
+        if case.key.startswith("toy"):
+            return run(case)
+        kept = folder / f"{case.key}.json"
+        with contextlib.suppress(FileNotFoundError):
+            expected, computed = json.loads(kept.read_text(encoding="ascii"))
+            return dataclasses.replace(run(dataclasses.replace(case, expected=expected, compute=lambda: computed)), case=case)
+        result = run(case)
+        fresh = folder / f"{case.key}.{os.getpid()}"
+        fresh.write_text(json.dumps([result.expected, result.computed]), encoding="ascii")
+        fresh.replace(kept)
+        return result
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Case, "run", run_once)
+        yield folder
