@@ -2,14 +2,13 @@
 
 import math
 
+import mujoco
 import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.records import Motion
 from seisblock.solvers.rock.solve import solve_rock
-
-mujoco = pytest.importorskip("mujoco")
 
 SCENE = """
 <mujoco>

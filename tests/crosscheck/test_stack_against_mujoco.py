@@ -12,8 +12,6 @@ from seisblock.bodies.pile.toml import load_pile
 from seisblock.records import Motion
 from seisblock.solvers.stack.solve import solve_stack
 
-pytest.importorskip("mujoco", reason="an extra: pip install seisblock[mujoco]")
-
 WIDTH, DT = 0.2424, 0.01
 STIFF = PileContact(stiffness=1e9)
 BLOCK = Pile("block", (PileStone("block", WIDTH, WIDTH, 3 * WIDTH),), mu=1.0)

@@ -1,7 +1,8 @@
 """Slide-rock: a body that turns about a corner which slides, as power series in time; see :mod:`seisblock.solvers.respond.turning`.
 
 N holds theta'' and theta'' holds N. At each order of the series the pair is solved for N, whose factor is Painleve's
-P = 1 + r_x (r_x + s mu r_y)/k^2 at the start of the step, so neither P nor a quotient is needed as a series (derived here; [GenotBrogliato1999]_).
+P = 1 + r_x (r_x + s mu r_y)/k^2 at the start of the step, so neither P nor a quotient is needed as a series (derived here;
+[GenotBrogliato1999]_).
 """
 
 from __future__ import annotations
