@@ -12,7 +12,7 @@ compiled when a wheel is built; English loads none.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
@@ -89,6 +89,16 @@ def tell(text: str, /, **values: Any) -> str:
     """
     whole = text if isinstance(text, Said) and not values else Said(text, values)
     return _told(whole, language())
+
+
+def listed(parts: Iterable[str]) -> str:
+    """Return texts in a row, with what the language spoken puts between them.
+
+    Parameters
+    ----------
+    parts : iterable of str
+    """
+    return _COMMAS[language()].join(parts)
 
 
 def language(asked: str | None = None) -> str:

@@ -13,6 +13,7 @@ from seisblock.bodies.toml import length, read_table
 from seisblock.bodies.two_layer import contact, two_layer_block
 from seisblock.errors import BodyError, ParameterError
 from seisblock.units import parse_length, parse_mass
+from seisblock.words import said
 
 _LENGTHS = ("width", "height", "depth", "centroid_height", "centroid_offset")
 _NUMBERS = ("density", "centroid_inertia")
@@ -80,7 +81,11 @@ def edges(block: Block) -> str:
     """Return what is to be known of a block's edges, empty when they are those of its drawing."""
     if not block.inset:
         return ""
-    return f"turns about edges {block.inset * 1e3:.3g} mm in from its sides ({block.inset / block.width:.3g} of the width)"
+    return said(
+        "turns about edges {inset:.3g} mm in from its sides ({share:.3g} of the width)",
+        inset=block.inset * 1e3,
+        share=block.inset / block.width,
+    )
 
 
 def restitution_of(table: Mapping[str, Any], name: str) -> float | None:

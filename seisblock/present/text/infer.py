@@ -6,9 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from rich.text import Text
-
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, table
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, record_line, table
 from seisblock.records import Record
 from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.estimate import Interval, ShakingEstimate
@@ -27,7 +25,7 @@ def estimate_tables(
     level = assumptions.level
     for each in joint[:1]:
         low, high = (acceleration(end, gal=gal) for end in each.pga_interval_m_s2)
-        yield Text(
+        yield line(
             tell(
                 "{names} together: PGA {pga} {unit} ({low} to {high}).",
                 names=list(each.names),
@@ -38,10 +36,17 @@ def estimate_tables(
             )
         )
     speed, unit = (KINE, "kine") if gal else (1.0, "m/s")
-    head = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal)})", "", f"PGV ({unit})", "", "H/B", "JMA intensity")
+    head = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal)})", "", f"PGV ({unit})", "", "H/B", tell("JMA intensity"))
+    caption = tell("median and {level:g} % interval; H/B: stones more slender than this fell", level=100 * level)
     for stones in dict.fromkeys(each.stones for each in estimates):
         group = [each for each in estimates if each.stones == stones]
-        title = f"{name}, stones {stones}: {group[0].fallen} of {group[0].fallen + group[0].standing} fell"
+        title = tell(
+            "{cemetery}, stones {stones}: {fallen} of {all} fell",
+            cemetery=name,
+            stones=tell(stones),
+            fallen=group[0].fallen,
+            all=group[0].fallen + group[0].standing,
+        )
         rows = [
             (
                 "0.5-3" if each.frequency_hz is None else f"{each.frequency_hz:.3g}",
@@ -54,15 +59,15 @@ def estimate_tables(
             )
             for each in group
         ]
-        yield table(title, head, rows, caption=f"median and {100 * level:g} % interval; H/B: stones more slender than this fell")
+        yield table(title, head, rows, caption=caption)
     if assumptions.bias:
-        yield Text(
+        yield line(
             tell(
                 "Records need {factor:.2f} times the PGA that the criterion, fitted to sines, says: measured with rigid blocks, and taken "
                 "into account here (--bias 0 leaves it out).",
                 factor=math.exp(assumptions.bias),
             ),
-            style="dim",
+            "dim",
         )
 
 
@@ -78,8 +83,8 @@ def _intensity(each: ShakingEstimate) -> str:
     """Return the classes of the JMA intensity's interval and its middle."""
     low, high = each.jma_classes
     if low is None or high is None:
-        return f"at most {high}" if high else f"at least {low}"
-    classes = low if low == high else f"{low} to {high}"
+        return tell("at most {name}", name=tell(high)) if high else tell("at least {name}", name=tell(low or ""))
+    classes = tell(low) if low == high else tell("{low} to {high}", low=tell(low), high=tell(high))
     return f"{classes} ({each.jma_intensity:.1f})"
 
 
@@ -102,13 +107,13 @@ def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, mo
         if id(record) not in shown:
             shown.add(id(record))
             yield record_line(record)
-        yield Text(_needs(each, moved, gal=gal))
+        yield line(_needs(each, moved, gal=gal))
         if each.scale_factors:
             rows = [
-                (f"{f.scale:.4f}", acceleration(f.pga_m_s2, gal=gal), number(f.displacement_m), "leaps across" if f.leaps else "")
+                (f"{f.scale:.4f}", acceleration(f.pga_m_s2, gal=gal), number(f.displacement_m), tell("leaps across") if f.leaps else "")
                 for f in each.scale_factors
             ]
-            yield table("", ("factor", f"PGA ({acceleration_unit(gal=gal)})", "moved (m)", ""), rows)
+            yield table("", (tell("factor"), f"PGA ({acceleration_unit(gal=gal)})", tell("moved (m)"), ""), rows)
 
 
 def _needs(each: ScaleFactors, moved: str, *, gal: bool) -> str:

@@ -6,9 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from rich.text import Text
-
-from seisblock.present.text.tables import acceleration, acceleration_unit, record_line, seconds, table
+from seisblock.present.text.tables import acceleration, acceleration_unit, line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.solvers.jump.solve import JumpOutcome
@@ -51,7 +49,7 @@ def tables(responses: Jumps, *, gal: bool, tenon: float | None) -> Iterator[Any]
             seen.add(id(record))
             yield record_line(record)
         outcome = response.outcome
-        yield Text(verdict(response))
+        yield line(verdict(response))
         shown = _shown(outcome.chains)
         if shown:
             title = tell(
@@ -62,8 +60,8 @@ def tables(responses: Jumps, *, gal: bool, tenon: float | None) -> Iterator[Any]
             )
             yield table(title, [tell("chain"), *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown]))
         for sentence in sentences(response, tenon):
-            yield Text(sentence)
-        yield Text()
+            yield line(sentence)
+        yield line()
 
 
 def _shown(chains: Sequence[Chain]) -> list[int]:

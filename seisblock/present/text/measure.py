@@ -10,10 +10,11 @@ from rich.text import Text
 
 from seisblock.measures import FilterRange, RecordMeasures, ground_history
 from seisblock.present.files import of_records
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, seconds, table
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, record_line, seconds, table
 from seisblock.records import Record
 from seisblock.records.process import pick
 from seisblock.units import KINE
+from seisblock.words import tell
 
 
 def measures_report(record: Record, answer: RecordMeasures, *, gal: bool) -> Iterator[Group | Text]:
@@ -28,7 +29,7 @@ def measures_report(record: Record, answer: RecordMeasures, *, gal: bool) -> Ite
     yield record_line(record)
     yield _peaks(answer, gal=gal)
     yield _frequencies_and_durations(answer, gal=gal)
-    yield Text("\n".join(_sentences(answer, gal=gal)))
+    yield line("\n".join(_sentences(answer, gal=gal)))
 
 
 def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
@@ -37,8 +38,8 @@ def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
     v, d, speed, length = ("kine", "cm", KINE, 0.01) if gal else ("m/s", "m", 1.0, 1.0)
     corner = answer.conventions.velocity_highpass_hz
     return table(
-        "Peaks and energy",
-        ("", f"PGA ({a})", "at (s)", f"PGV ({v})", f"PGD ({d})", "Arias (m/s)", "5-95 % (s)"),
+        tell("Peaks and energy"),
+        ("", f"PGA ({a})", tell("at (s)"), f"PGV ({v})", f"PGD ({d})", tell("Arias (m/s)"), "5-95 % (s)"),
         [
             (
                 m.component,
@@ -51,7 +52,9 @@ def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
             )
             for m in answer.components
         ],
-        caption=f"PGV, PGD: {f'high-pass {corner:g} Hz, ' if corner else 'no high-pass, '}mean velocity removed",
+        caption=tell("PGV, PGD: high-pass {corner:g} Hz, mean velocity removed", corner=corner)
+        if corner
+        else tell("PGV, PGD: no high-pass, mean velocity removed"),
     )
 
 
@@ -60,8 +63,8 @@ def _frequencies_and_durations(answer: RecordMeasures, *, gal: bool) -> Group:
     side = {"both": "|a|", "positive": "a", "negative": "-a"}[answer.conventions.threshold_side]
     level = acceleration(answer.components[0].duration.threshold_m_s2, gal=gal) if answer.components else NOTHING
     return table(
-        f"Equivalent frequency (Hz), and time with {side} above {level} {acceleration_unit(gal=gal)}",
-        ("", "PGA/2πPGV", "Fourier", "pulse", "total (s)", "longest (s)", "times"),
+        tell("Equivalent frequency (Hz), and time with {side} above {level}", side=side, level=f"{level} {acceleration_unit(gal=gal)}"),
+        ("", "PGA/2πPGV", "Fourier", tell("pulse"), tell("total (s)"), tell("longest (s)"), tell("times")),
         [
             (
                 m.component,
@@ -74,21 +77,23 @@ def _frequencies_and_durations(answer: RecordMeasures, *, gal: bool) -> Group:
             )
             for m in answer.components
         ],
-        caption=f"Fourier: Parzen window {answer.conventions.fourier_smoothing_hz:g} Hz; pulse: the one with the PGA",
+        caption=tell("Fourier: Parzen window {width:g} Hz; pulse: the one with the PGA", width=answer.conventions.fourier_smoothing_hz),
     )
 
 
 def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
     """Yield the intensity and the worst direction in words."""
     if answer.jma_intensity is None:
-        yield "JMA intensity: none (it needs two horizontals and the vertical)"
+        yield tell("JMA intensity: none (it needs two horizontals and the vertical)")
     else:
-        yield f"JMA intensity {answer.jma_intensity:.2f}, class {answer.jma_class}"
+        yield tell("JMA intensity {value:.2f}, class {name}", value=answer.jma_intensity, name=tell(answer.jma_class or ""))
     worst = answer.horizontal
     if worst is not None:
-        towards = "" if worst.azimuth_deg is None else f" towards {worst.azimuth_deg:.0f}° (clockwise from north)"
         size = f"{acceleration(worst.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)}"
-        yield f"Largest horizontal vector {size} at {seconds(worst.time_s)} s{towards}"
+        told = tell("Largest horizontal vector {size} at {time:.3f} s", size=size, time=worst.time_s)
+        if worst.azimuth_deg is not None:
+            told += tell(" towards {azimuth:.0f}° (clockwise from north)", azimuth=worst.azimuth_deg)
+        yield told
     for m in answer.components:
         if m.usual_highpass is not None:
             yield f"{m.component}: {usual_filters(m.usual_highpass, gal=gal)}"
@@ -99,8 +104,15 @@ def usual_filters(found: FilterRange, *, gal: bool) -> str:
     unit, speed = ("kine", KINE) if gal else ("m/s", 1.0)
     low, high = (number(v / speed, 3) for v in found.pgv_m_s)
     slow, fast = (number(f, 3) for f in found.pga_pgv_hz)
-    corners = " or ".join(f"{hz:g}" for hz in found.highpass_hz)
-    return f"PGV {low} to {high} {unit} and f {slow} to {fast} Hz with the usual high-passes ({corners} Hz, with or without delay)"
+    return tell(
+        "PGV {low} to {high} {unit} and f {slow} to {fast} Hz with the usual high-passes ({corners} Hz, with or without delay)",
+        low=low,
+        high=high,
+        unit=unit,
+        slow=slow,
+        fast=fast,
+        corners=[f"{hz:g}" for hz in found.highpass_hz],
+    )
 
 
 def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) -> tuple[list[str], Iterator[list[Any]]]:

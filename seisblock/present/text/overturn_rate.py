@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from rich.text import Text
-
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.present.text.measure import usual_filters
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, number, record_line, table
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, record_line, table
 from seisblock.records import Record
 from seisblock.studies.cemetery.judgement import CemeteryRate
 from seisblock.studies.cemetery.rate import CurvePoint
+from seisblock.words import noted, tell
 
-CAPTION = "least H/B: of a stone that falls; %: interval of the rate that so few stones leave open (Clopper-Pearson)"
+CAPTION = noted("least H/B: of a stone that falls; %: interval of the rate that so few stones leave open (Clopper-Pearson)")
 
 SHOWN_EVERY = 1.0
 """Step of the curve's rows in the table, m/s^2; the whole curve is in --json and --csv."""
@@ -41,12 +40,13 @@ def tables(
         Level of the intervals.
     """
     dowelled = int(cemetery.reinforced.sum())
-    title = f"{cemetery.name}: {cemetery.size} stones" + (f", {dowelled} reinforced" if dowelled else "")
+    title = tell("{name}: {stones} stones", name=cemetery.name, stones=cemetery.size)
+    title += tell(", {stones} reinforced", stones=dowelled) if dowelled else ""
     for record, results in groups:
         if record is not None:
             yield record_line(record)
         yield _rates(title, results, gal=gal, confidence=confidence)
-        yield from (Text(sentence) for sentence in (*_filters(results, gal=gal), *_dowels(results)))
+        yield from (line(sentence) for sentence in (*_filters(results, gal=gal), *_dowels(results)))
     if not groups:
         yield _curve(title, curve, gal=gal)
 
@@ -54,25 +54,25 @@ def tables(
 def _rates(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence: float) -> Any:
     """Return the table of rates, one row per shaking."""
     unit = acceleration_unit(gal=gal)
-    head = ("", f"PGA ({unit})", "f (Hz)", "least H/B", "fallen", "rate", f"{100 * confidence:g} %")
+    head = ("", f"PGA ({unit})", "f (Hz)", tell("least H/B"), tell("fallen"), tell("rate"), f"{100 * confidence:g} %")
     rows = [
         (
             _name(each),
             acceleration(each.pga_m_s2, gal=gal),
             number(each.equivalent_frequency_hz, 3),
             _ratio(each),
-            f"{each.fallen} of {each.stones}",
+            tell("{fallen} of {stones}", fallen=each.fallen, stones=each.stones),
             f"{each.rate:.2f}",
             "{:.2f}-{:.2f}".format(*each.rate_interval),
         )
         for each in results
     ]
-    return table(title, head, rows, caption=CAPTION)
+    return table(title, head, rows, caption=tell(CAPTION))
 
 
 def _name(each: CemeteryRate) -> str:
     """Return what a row is called."""
-    return f"{each.component} ({each.of})" if each.of else each.component or ""
+    return f"{each.component} ({tell(each.of)})" if each.of else each.component or ""
 
 
 def _ratio(each: CemeteryRate) -> str:
@@ -86,7 +86,7 @@ def _filters(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
     for each in results:
         if each.usual_highpass is not None and each.rate_range is not None and not each.of:
             low, high = each.rate_range
-            rate = f"rate {low:.2f}" if low == high else f"rate {low:.2f} to {high:.2f}"
+            rate = tell("rate {low:.2f}", low=low) if low == high else tell("rate {low:.2f} to {high:.2f}", low=low, high=high)
             yield f"{each.component}: {usual_filters(each.usual_highpass, gal=gal)}; {rate}"
 
 
@@ -98,9 +98,15 @@ def _dowels(results: Sequence[CemeteryRate]) -> Iterator[str]:
             continue
         where = f"{each.component}: " if each.component else f"{number(each.equivalent_frequency_hz, 3)} Hz: "
         low, high = after.rate_interval
-        yield (
-            f"{where}with {after.reinforced_stones} stones reinforced {after.fallen} of {each.stones} fall, "
-            f"{after.stones_saved} fewer; rate {after.rate:.2f} ({low:.2f}-{high:.2f})"
+        yield where + tell(
+            "with {reinforced} stones reinforced {fallen} of {stones} fall, {saved} fewer; rate {rate:.2f} ({low:.2f}-{high:.2f})",
+            reinforced=after.reinforced_stones,
+            fallen=after.fallen,
+            stones=each.stones,
+            saved=after.stones_saved,
+            rate=after.rate,
+            low=low,
+            high=high,
         )
 
 
@@ -110,7 +116,9 @@ def _curve(title: str, curve: Sequence[CurvePoint], *, gal: bool) -> Any:
     rate = {(point.pga_m_s2, point.frequency_hz): point.rate for point in curve}
     levels = [pga for pga in dict.fromkeys(point.pga_m_s2 for point in curve) if abs(pga / SHOWN_EVERY - round(pga / SHOWN_EVERY)) < 1e-9]
     rows = [(acceleration(pga, gal=gal), *(f"{rate[pga, f]:.2f}" for f in frequencies)) for pga in levels]
-    return table(title, (f"PGA ({acceleration_unit(gal=gal)})", *(f"{f:g} Hz" for f in frequencies)), rows, caption="overturning rate")
+    return table(
+        title, (f"PGA ({acceleration_unit(gal=gal)})", *(f"{f:g} Hz" for f in frequencies)), rows, caption=tell("overturning rate")
+    )
 
 
 def curve_columns(curve: Sequence[CurvePoint], reinforced: Sequence[CurvePoint] | None) -> tuple[list[str], list[list[float]]]:

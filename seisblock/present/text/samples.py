@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from rich.padding import Padding
-from rich.text import Text
 
 from seisblock.errors import OutputError, RecordNotFoundError
 from seisblock.present.files import replacing
+from seisblock.present.text.tables import line
 from seisblock.samples import Sample, list_samples, sample_directory
+from seisblock.words import tell
 
 NOTICE, NOTICE_OF_COPIES = "NOTICE", "seisblock-samples-NOTICE.txt"
 """The file that holds the terms of what was written by others, and its name beside copies, with which it travels."""
@@ -42,12 +43,12 @@ def listing(samples: Sequence[Sample]) -> Iterator[Any]:
     told = ""
     for sample in samples:
         peaks = ", ".join(f"{code} {value:.0f}" for code, value in sample.pga_gal.items())
-        line = Text(sample.name, style="bold").append(f"  {sample.kind}", style="not bold dim")
-        yield line.append(f"  PGA {peaks} gal" if peaks else "", style="not bold")
-        origin = "origin: as above" if sample.origin == told else f"origin: {sample.origin}"
+        head = line(sample.name, "bold").append(f"  {tell(sample.kind)}", style="not bold dim")
+        yield head.append(f"  PGA {peaks} gal" if peaks else "", style="not bold")
+        origin = tell("origin: as above") if sample.origin == told else tell("origin: {origin}", origin=sample.origin)
         told = sample.origin
-        yield Padding(Text(sample.description), (0, 0, 0, 2))
-        yield Padding(Text(f"licence: {sample.licence}\n{origin}", style="dim"), (0, 0, 1, 2))
+        yield Padding(line(tell(sample.description)), (0, 0, 0, 2))
+        yield Padding(line(f"{tell('licence: {licence}', licence=sample.licence)}\n{origin}", "dim"), (0, 0, 1, 2))
 
 
 def copy_samples(samples: Sequence[Sample], directory: Path, *, overwrite: bool = False) -> list[Path]:

@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from rich.text import Text
-
-from seisblock.present.text.tables import NOTHING, record_line, seconds, table
+from seisblock.present.text.tables import NOTHING, line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
 from seisblock.studies.sliding import SlidePoint
+from seisblock.words import listed, noted, tell
 
 Slides = Sequence[Response[SlideOutcome]]
 
 
-COLUMNS = ("", "slips", "from (s)", "to (s)", "max (mm)", "residual (mm)", "final (mm)")
+COLUMNS = ("", *map(noted, ("slips", "from (s)", "to (s)", "max (mm)", "residual (mm)", "final (mm)")))
+
+RESIDUAL = noted("residual: at the record's last sample, final: once at rest on still ground")
+"""What two of the columns are."""
 
 
 def millimetres(value: float | None) -> str:
@@ -32,50 +34,57 @@ def tables(responses: Slides, sweep: Sequence[SlidePoint] = ()) -> Iterator[Any]
             yield record_line(record)
         mine = [response for response in responses if response.motion.record is record]
         yield table(
-            f"Sliding, {setting(mine[0])}",
-            COLUMNS,
+            tell("Sliding, {setting}", setting=setting(mine[0])),
+            [tell(heading) for heading in COLUMNS],
             [_row(response) for response in mine],
-            caption=f"relative to the base, + in the component's positive direction{', downhill' if _slopes(mine[0]) else ''}; "
-            "residual: at the record's last sample, final: once at rest on still ground",
+            caption=f"{_axis(mine[0])}; {tell(RESIDUAL)}",
         )
         for response in mine:
-            yield Text(sentence(response))
+            yield line(sentence(response))
     if sweep:
-        yield Text()
+        yield line()
         rows = [[point.component, millimetres(point.max_slip_m), millimetres(point.residual_slip_m)] for point in sweep]
-        yield table("All azimuths", ("azimuth (deg)", "max (mm)", "residual (mm)"), rows)
+        yield table(tell("All azimuths"), (tell("azimuth (deg)"), tell("max (mm)"), tell("residual (mm)")), rows)
 
 
 def setting(response: Response[SlideOutcome]) -> str:
     """Say which base an object slid on."""
     base, options = response.body, response.options
-    told = f"mu {base.mu:g}, kinetic {base.kinetic:g}"
-    if base.slope_deg:
-        told += f", slope {base.slope_deg:g} deg"
-        told += f" for {base.slope_length:g} m, then level" if base.slope_length else ""
+    parts = [tell("mu {mu:g}, kinetic {kinetic:g}", mu=base.mu, kinetic=base.kinetic)]
+    if base.slope_deg and base.slope_length:
+        parts.append(tell("slope {slope:g} deg for {length:g} m, then level", slope=base.slope_deg, length=base.slope_length))
+    elif base.slope_deg:
+        parts.append(tell("slope {slope:g} deg", slope=base.slope_deg))
     if base.one_way:
-        told += ", one way"
+        parts.append(tell("one way"))
     if options["vertical"]:
-        told += f", vertical motion x {options['vertical']:g}"
-    return told
+        parts.append(tell("vertical motion x {factor:g}", factor=options["vertical"]))
+    return listed(parts)
 
 
 def sentence(response: Response[SlideOutcome]) -> str:
     """Say what happened."""
     outcome, name = response.outcome, response.motion.name
     if not outcome.slips:
-        return f"{name}: static friction holds throughout."
-    told = f"{name}: slides up to {millimetres(outcome.max_slip_m)} mm along a path of {millimetres(outcome.path_m)} mm"
+        return tell("{name}: static friction holds throughout.", name=name)
+    told = tell(
+        "{name}: slides up to {most} mm along a path of {path} mm",
+        name=name,
+        most=millimetres(outcome.max_slip_m),
+        path=millimetres(outcome.path_m),
+    )
     if outcome.fell_off_slope:
-        told += ", past the foot of the slope"
+        told += tell(", past the foot of the slope")
     if outcome.lifted_off:
-        told += "; it loses contact with the base on the way"
-    return told + "."
+        told += tell("; it loses contact with the base on the way")
+    return told + tell(".")
 
 
-def _slopes(response: Response[SlideOutcome]) -> bool:
-    """Whether the base slopes down towards the component's positive direction."""
-    return bool(response.body.slope_deg > 0.0)
+def _axis(response: Response[SlideOutcome]) -> str:
+    """Return what the sign of a displacement means."""
+    if response.body.slope_deg > 0.0:
+        return tell("relative to the base, + in the component's positive direction, downhill")
+    return tell("relative to the base, + in the component's positive direction")
 
 
 def _row(response: Response[SlideOutcome]) -> list[Any]:

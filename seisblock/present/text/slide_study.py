@@ -14,11 +14,12 @@ from seisblock.present.text.slide import millimetres
 from seisblock.present.text.tables import NOTHING, record_line, table
 from seisblock.records import Record
 from seisblock.studies.sliding import SlidePoint
+from seisblock.words import noted, tell
 
 Points = Sequence[SlidePoint]
 
 
-SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": "μ kinetic", "slope_deg": "θ (deg)", "vertical": "γ"}
+SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": noted("μ kinetic"), "slope_deg": "θ (deg)", "vertical": "γ"}
 
 
 MOST_ROWS, MOST_COLUMNS = 60, 8
@@ -43,7 +44,7 @@ class Arrangement:
 
     def name(self, point: SlidePoint) -> str:
         """Return the name of the curve on which a point lies."""
-        return ", ".join(f"{SYMBOLS[key].split(' (')[0]} {getattr(point, key):g}" for key in self.curves)
+        return ", ".join(f"{tell(SYMBOLS[key]).split(' (')[0]} {getattr(point, key):g}" for key in self.curves)
 
 
 def study_columns(records: Sequence[Record], studies: Sequence[Points]) -> tuple[list[str], Iterator[list[Any]]]:
@@ -58,10 +59,10 @@ def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any
         yield record_line(record)
         arrangement = Arrangement.of(points)
         for title, part in panels_of(points, arrangement):
-            yield _pivot(f"{title}: largest slip (mm)", part, arrangement, lambda point: millimetres(point.max_slip_m))
+            yield _pivot(tell("{name}: largest slip (mm)", name=title), part, arrangement, lambda point: millimetres(point.max_slip_m))
             if any(point.beta is not None for point in part):
                 yield _pivot(
-                    f"{title}: beta, largest slip with vertical motion over that without",
+                    tell("{name}: beta, largest slip with vertical motion over that without", name=title),
                     part,
                     arrangement,
                     lambda point: NOTHING if point.beta is None else f"{point.beta:.3f}",
@@ -73,7 +74,7 @@ def panels_of(points: Points, arrangement: Arrangement) -> list[tuple[str, Point
     names = list(dict.fromkeys(point.component for point in points))
     per_direction = len({tuple(getattr(p, key) for key in (arrangement.x, *arrangement.curves)) for p in points})
     if len(points) == per_direction and len(names) > 1:
-        return [("worst direction", points)]
+        return [(tell("worst direction"), points)]
     return [(name, [point for point in points if point.component == name]) for name in names]
 
 
@@ -86,9 +87,17 @@ def _pivot(title: str, points: Points, arrangement: Arrangement, cell: Callable[
     left_out = len(rows) < len(xs) or len(columns) < len(names)
     return table(
         title,
-        (SYMBOLS[arrangement.x], *(name or "slip" for name in columns)),
+        (tell(SYMBOLS[arrangement.x]), *(name or tell("slip") for name in columns)),
         [[f"{x:g}", *(values.get((x, name), NOTHING) for name in columns)] for x in rows],
-        caption=f"{len(rows)} of {len(xs)} rows, {len(columns)} of {len(names)} columns; --csv and --json hold all" if left_out else "",
+        caption=tell(
+            "{rows} of {all_rows} rows, {columns} of {all_columns} columns; --csv and --json hold all",
+            rows=len(rows),
+            all_rows=len(xs),
+            columns=len(columns),
+            all_columns=len(names),
+        )
+        if left_out
+        else "",
     )
 
 

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.text import Text
 
 from seisblock.present.files import write_table
-from seisblock.present.text.tables import number, record_line, table
+from seisblock.present.text.tables import line, number, record_line, table
 from seisblock.records import Motion
 from seisblock.studies.sliding import SlidePoint
+from seisblock.words import tell
 
 Curves = Sequence[tuple[Motion, Sequence[SlidePoint]]]
 
@@ -32,8 +32,9 @@ def tables(curves: Curves) -> Iterator[Any]:
             [f"{points[i].mu:.4g}", number(_millimetres(points[i].max_slip_m)), number(_millimetres(points[i].residual_slip_m))]
             for i in chosen
         ]
-        yield table(f"{motion.name}: sliding against friction", ["mu", "largest slip (mm)", "residual slip (mm)"], rows)
-        yield Text()
+        title = tell("{name}: sliding against friction", name=motion.name)
+        yield table(title, ["μ", tell("largest slip (mm)"), tell("residual slip (mm)")], rows)
+        yield line()
 
 
 def _millimetres(value: float | None) -> float | None:

@@ -8,19 +8,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.text import Text
 
 from seisblock.present.files import write_table
-from seisblock.present.text.tables import record_line, table
+from seisblock.present.text.tables import line, record_line, table
 from seisblock.records import Motion
 from seisblock.studies.rocking.spectra import RockingSpectrum
 from seisblock.typing import IntArray
+from seisblock.words import noted, tell
 
 Spectra = Sequence[tuple[Motion, RockingSpectrum]]
 
 
 MOST_ROWS, MOST_COLUMNS = 12, 9
-FALLS = "falls"
+FALLS = noted("falls")
 
 
 def tables(spectra: Spectra, kind: str, worn: str = "") -> Iterator[Any]:
@@ -31,19 +31,20 @@ def tables(spectra: Spectra, kind: str, worn: str = "") -> Iterator[Any]:
             last = motion.record
             yield record_line(motion.record)
         rows, columns = _thin(found.size_m.size, MOST_ROWS), _thin(found.slenderness_rad.size, MOST_COLUMNS)
-        what = "overturning" if kind == "overturning" else "largest lean over alpha"
+        what = tell("overturning") if kind == "overturning" else tell("largest lean over alpha")
         heads = [f"{1 / math.tan(found.slenderness_rad[j]):.2f}" for j in columns]
         cells = [[f"{found.size_m[i]:.3g}", *(_cell(found, i, j, kind) for j in columns)] for i in rows]
-        yield table(f"{motion.name}: {what}; down 2R (m), across H/B{worn}", ["2R \\ H/B", *heads], cells)
-        total = found.overturned.size
-        yield Text(f"{motion.name}: {int(found.overturned.sum())} of {total} blocks overturn.")
-        yield Text()
+        title = tell("{name}: {what}; down 2R (m), across H/B", name=motion.name, what=what) + tell(worn)
+        yield table(title, ["2R \\ H/B", *heads], cells)
+        falls, every = int(found.overturned.sum()), found.overturned.size
+        yield line(tell("{name}: {falls} of {all} blocks overturn.", name=motion.name, falls=falls, all=every))
+        yield line()
 
 
 def _cell(found: RockingSpectrum, i: int, j: int, kind: str) -> str:
     """Return one cell of the table."""
     if found.overturned[i, j]:
-        return FALLS
+        return tell(FALLS)
     ratio = found.max_rotation_ratio[i, j]
     return "-" if ratio == 0.0 or kind == "overturning" else f"{ratio:.3f}"
 

@@ -6,12 +6,11 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from rich.text import Text
-
 from seisblock.bodies.pile.stone import GROUND
-from seisblock.present.text.tables import record_line, seconds, table
+from seisblock.present.text.tables import line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
+from seisblock.words import tell
 
 NOTICEABLE_TILT, NOTICEABLE_SLIP = 2e-3, 2e-4
 """What shows in a figure, rad and m."""
@@ -28,18 +27,18 @@ def tables(responses: Stacks) -> Iterator[Any]:
         if record is not None and id(record) not in seen:
             seen.add(id(record))
             yield record_line(record)
-        columns = ["stone", "state", "fell at (s)", "max tilt (deg)", "slip (mm)", "turn (deg)"]
-        title = f"+x = {response.motion.name}: {response.body.name}"
+        columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), tell("slip (mm)"), tell("turn (deg)")]
+        title = f"+x = {response.motion.name}: {tell(response.body.name)}"
         yield table(title, columns, (_row(stone) for stone in reversed(response.outcome.stones)))
-        yield Text(sentence(response))
-        yield Text()
+        yield line(sentence(response))
+        yield line()
 
 
 def _row(stone: StoneFate) -> list[str]:
     """Return what became of one stone."""
     return [
-        stone.name,
-        stone.state,
+        tell(stone.name),
+        tell(stone.state),
         seconds(stone.fell_at_s),
         f"{math.degrees(stone.max_tilt_rad):.2f}",
         f"{stone.residual_slip_m * 1e3:.1f}",
@@ -47,11 +46,14 @@ def _row(stone: StoneFate) -> list[str]:
     ]
 
 
-def _onto(stone: StoneFate) -> str:
+def _fall(stone: StoneFate) -> str:
     """Return in words where a fallen stone came to lie."""
+    where = {"stone": tell(stone.name), "side": towards(stone.fell_towards_deg or 0.0)}
     if stone.fell_onto is None:
-        return "and is still in the air"
-    return f"onto {'the ground' if stone.fell_onto == GROUND else stone.fell_onto}"
+        return tell("{stone} fell to {side}, and is still in the air.", **where)
+    if stone.fell_onto == GROUND:
+        return tell("{stone} fell to {side}, onto the ground.", **where)
+    return tell("{stone} fell to {side}, onto {other}.", **where, other=tell(stone.fell_onto))
 
 
 def towards(degrees: float) -> str:
@@ -65,11 +67,14 @@ def sentence(response: Response[StackOutcome]) -> str:
     outcome = response.outcome
     if outcome.overturned_any and outcome.time_s is not None:
         falls = sorted((stone for stone in outcome.stones if stone.state == "fallen"), key=lambda stone: stone.fell_at_s or 0.0)
-        told = " ".join(f"{stone.name} fell to {towards(stone.fell_towards_deg or 0.0)}, {_onto(stone)}." for stone in falls)
+        told = " ".join(map(_fall, falls))
+    elif moved := [tell(stone.name) for stone in outcome.stones if stone.state != "standing"]:
+        told = tell("Every stone stands; moved: {stones}.", stones=moved)
     else:
-        moved = [stone.name for stone in outcome.stones if stone.state != "standing"]
-        told = "Every stone stands" + (f"; moved: {', '.join(moved)}." if moved else " where it was.")
-    return (
-        f"{told} The shaking did {outcome.ground_work_j:.0f} J of work, friction and dashpots took {outcome.lost_j:.0f} J; "
-        f"energy created by the steps: {outcome.created_j:.2g} J."
+        told = tell("Every stone stands where it was.")
+    return f"{told} " + tell(
+        "The shaking did {work:.0f} J of work, friction and dashpots took {lost:.0f} J; energy created by the steps: {created:.2g} J.",
+        work=outcome.ground_work_j,
+        lost=outcome.lost_j,
+        created=outcome.created_j,
     )

@@ -6,13 +6,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from rich.text import Text
-
 from seisblock.criteria.gravestones import GravestoneFit, overturning_level, overturning_ratio, published
 from seisblock.present.files import write_table
-from seisblock.present.text.tables import NOTHING, number, table
+from seisblock.present.text.tables import NOTHING, line, number, table
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, frequencies_of
 from seisblock.units import GAL
+from seisblock.words import tell
 
 Scaled = dict[str, tuple[Threshold, ...]]
 """Thresholds of scaled records, by their names."""
@@ -25,26 +24,30 @@ def tables(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, 
     found = {(t.frequency_hz, t.pga_m_s2): t.ratio for t in study.thresholds}
     pgas = sorted({t.pga_m_s2 for t in study.thresholds})
     rows = ([f"{a / GAL:.0f}", *(number(found.get((f, a)), 4) for f in frequencies)] for a in pgas)
-    yield table("H/B of the most squat top stone that falls", ["PGA (gal)", *(f"{f:g} Hz" for f in frequencies)], rows)
+    yield table(tell("H/B of the most squat top stone that falls"), ["PGA (gal)", *(f"{f:g} Hz" for f in frequencies)], rows)
     for name, thresholds in scaled.items():
-        title = f"{name}, scaled; equivalent frequency {thresholds[0].frequency_hz:.2f} Hz"
+        title = tell("{name}, scaled; equivalent frequency {f:.2f} Hz", name=name, f=thresholds[0].frequency_hz)
         beside = ((t, float(overturning_ratio(t.pga_m_s2, t.frequency_hz, fit))) for t in thresholds)
         lines = ([f"{t.pga_m_s2 / GAL:.0f}", number(t.ratio, 4), number(ratio, 4)] for t, ratio in beside)
-        yield table(title, ["PGA (gal)", "H/B that falls", f"published, eq. {equation}"], lines)
+        yield table(title, ["PGA (gal)", tell("H/B that falls"), tell("published, eq. {equation}", equation=equation)], lines)
     of_each = ((f, (study.levels.get(f), rigid.get(f), float(overturning_level(f, fit)))) for f in frequencies)
     levels = ([f"{f:g}", *(NOTHING if a is None else f"{a / GAL:.0f}" for a in row)] for f, row in of_each)
-    yield table(
-        "a(f) = PGA H/B (gal)", ["f (Hz)", "pile, eq. (7)", "rigid block on the outermost points", f"published, eq. {equation}"], levels
-    )
-    yield Text(_sentence(study, fit, equation))
+    heads = [
+        "f (Hz)",
+        tell("pile, eq. (7)"),
+        tell("rigid block on the outermost points"),
+        tell("published, eq. {equation}", equation=equation),
+    ]
+    yield table("a(f) = PGA H/B (gal)", heads, levels)
+    yield line(_sentence(study, fit, equation))
 
 
 def _sentence(study: CriterionStudy, fit: GravestoneFit, equation: str) -> str:
     """Return the fit in words."""
     if study.fit is None:
-        return "Too few frequencies at which anything fell: no fit of eq. (8)."
+        return tell("Too few frequencies at which anything fell: no fit of eq. (8).")
     ours, others = (f"p = {f.p_m_s2 / GAL:.1f} gal, q = {f.q_hz:.2f} Hz, r = {f.r:.2f}" for f in (study.fit, fit))
-    return f"Least squares of eq. (8): {ours}; published {equation}: {others}."
+    return tell("Least squares of eq. (8): {ours}; published {equation}: {others}.", ours=ours, equation=equation, others=others)
 
 
 def write(study: CriterionStudy, path: Path) -> None:

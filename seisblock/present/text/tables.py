@@ -13,6 +13,7 @@ from rich.text import Text
 
 from seisblock.records import Record
 from seisblock.units import GAL
+from seisblock.words import plain_text, tell
 
 NOTHING = "-"
 """What stands where there is no number."""
@@ -20,7 +21,7 @@ NOTHING = "-"
 
 def console(*, stderr: bool = False) -> Console:
     """Return a console on the present stdout or stderr; colours obey NO_COLOR and pipes."""
-    return _Screen(stderr=stderr, highlight=False, soft_wrap=False)
+    return _Screen(stderr=stderr, highlight=False, markup=False, emoji=False, soft_wrap=False)
 
 
 class _Screen(Console):
@@ -46,11 +47,16 @@ def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, 
     # title and caption stand outside the table: rich would wrap them to its width
     made = Table(box=SIMPLE_HEAD, pad_edge=False)
     for index, heading in enumerate(columns):
-        made.add_column(heading, justify="left" if index == 0 else "right", overflow="fold")
+        made.add_column(plain_text(heading), justify="left" if index == 0 else "right", overflow="fold")
     for row in rows:
-        made.add_row(*(cell if isinstance(cell, (str, Text)) else number(cell) for cell in row))
-    around = [Text(title, style="italic")] if title else []
-    return Group(*around, made, *([Text(caption, style="dim")] if caption else []))
+        made.add_row(*(cell if isinstance(cell, Text) else line(cell if isinstance(cell, str) else number(cell)) for cell in row))
+    around = [line(title, "italic")] if title else []
+    return Group(*around, made, *([line(caption, "dim")] if caption else []))
+
+
+def line(text: str = "", style: str = "") -> Text:
+    """Return a text for the console; what a file wrote into it neither commands the terminal nor marks anything up."""
+    return Text(plain_text(text), style)
 
 
 def number(value: Any, digits: int = 4) -> str:
@@ -58,7 +64,7 @@ def number(value: Any, digits: int = 4) -> str:
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return NOTHING
     if isinstance(value, bool):
-        return "yes" if value else "no"
+        return tell("yes") if value else tell("no")
     if isinstance(value, int):
         return str(value)
     size = abs(float(value))
@@ -85,8 +91,19 @@ def acceleration_unit(*, gal: bool) -> str:
 
 def record_line(record: Record) -> Text:
     """Return one line that says which record an answer is about."""
-    start = record.start.strftime("%Y-%m-%d %H:%M:%S UTC") if record.start else "start unknown"
-    name = record.station or record.source or "record"
-    line = Text(f"{name}  {start}  {record.samples} samples, {1 / record.dt:g} Hz, {record.format}", style="bold")
-    done = "; ".join(record.history) or "as read"
-    return line.append(f"\n{done}", style="dim not bold")
+    start = record.start.strftime("%Y-%m-%d %H:%M:%S UTC") if record.start else tell("start unknown")
+    name = record.station or record.source or tell("record")
+    told = tell(
+        "{name}  {start}  {samples} samples, {rate:g} Hz, {format}",
+        name=name,
+        start=start,
+        samples=record.samples,
+        rate=1 / record.dt,
+        format=record.format,
+    )
+    return line(told, "bold").append(f"\n{plain_text(history(record))}", style="dim not bold")
+
+
+def history(record: Record) -> str:
+    """Return what was done to a record since it was read."""
+    return "; ".join(map(tell, record.history)) or tell("as read")

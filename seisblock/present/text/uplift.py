@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from rich.text import Text
-
-from seisblock.present.text.tables import record_line, seconds, table
+from seisblock.present.text.tables import line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.uplift.solve import UpliftOutcome
+from seisblock.words import tell
 
 Uplifts = Sequence[Response[UpliftOutcome]]
 
@@ -26,37 +25,52 @@ def tables(responses: Uplifts, *, gal: bool) -> Iterator[Any]:
             seen.add(id(record))
             yield record_line(record)
         outcome = response.outcome
-        frequencies = ", ".join(f"{f:.3g}" for f in outcome.natural_frequencies_hz)
-        yield table(f"+x = {response.motion.name}", ["corner", *PLACES], _rows(response))
-        yield Text(f"Natural frequencies {frequencies} Hz; at rest it sinks by {outcome.static_settlement_m * 1e3:.2f} mm.")
-        yield Text(sentence(response))
-        yield Text()
+        yield table(f"+x = {response.motion.name}", [tell("corner"), *PLACES], _rows(response))
+        yield line(
+            tell(
+                "Natural frequencies {frequencies} Hz; at rest it sinks by {settlement:.2f} mm.",
+                frequencies=[f"{f:.3g}" for f in outcome.natural_frequencies_hz],
+                settlement=outcome.static_settlement_m * 1e3,
+            )
+        )
+        yield line(sentence(response))
+        yield line()
 
 
 def _rows(response: Response[UpliftOutcome]) -> Iterator[list[str]]:
     """Yield what each corner did, a column per corner."""
     corners = response.outcome.corners
     static = response.body.static_corner_force(response.options["gravity_m_s2"])
-    yield ["first uplift (s)", *(seconds(c.first_uplift_s) for c in corners)]
-    yield ["in the air (s)", *(seconds(c.uplift_duration_s) for c in corners)]
-    yield ["longest in the air (s)", *(seconds(c.longest_uplift_s) for c in corners)]
-    yield ["highest position (mm)", *(f"{c.max_uplift_m * 1e3:.2f}" for c in corners)]
-    yield ["... at (s)", *(seconds(c.max_uplift_time_s) for c in corners)]
-    yield ["largest force (kN)", *(f"{c.max_contact_force_n / 1e3:.3f}" for c in corners)]
-    yield ["... over static", *(f"{c.max_contact_force_n / static:.2f}" for c in corners)]
+    yield [tell("first uplift (s)"), *(seconds(c.first_uplift_s) for c in corners)]
+    yield [tell("in the air (s)"), *(seconds(c.uplift_duration_s) for c in corners)]
+    yield [tell("longest in the air (s)"), *(seconds(c.longest_uplift_s) for c in corners)]
+    yield [tell("highest position (mm)"), *(f"{c.max_uplift_m * 1e3:.2f}" for c in corners)]
+    yield [tell("... at (s)"), *(seconds(c.max_uplift_time_s) for c in corners)]
+    yield [tell("largest force (kN)"), *(f"{c.max_contact_force_n / 1e3:.3f}" for c in corners)]
+    yield [tell("... over static"), *(f"{c.max_contact_force_n / static:.2f}" for c in corners)]
 
 
 def sentence(response: Response[UpliftOutcome]) -> str:
     """Return what happened in words."""
-    outcome = response.outcome
+    outcome, name = response.outcome, response.motion.name
+    if not outcome.uplifts and outcome.uplift_scale is None:
+        return tell("{name}: no corner lifts.", name=name)
     if not outcome.uplifts:
-        needed = "" if outcome.uplift_scale is None else f"; the motion would have to be {outcome.uplift_scale:.3g} times as strong"
-        return f"{response.motion.name}: no corner lifts{needed}."
-    shares = ", ".join(f"{share:.1%} on {n}" for n, share in outcome.share_on_corners.items() if share > 0.0)
-    several = len(outcome.first_corners) > 1
-    first = f"corner{'s' if several else ''} {' and '.join(map(str, outcome.first_corners))} lift{'' if several else 's'} first"
-    return (
-        f"{response.motion.name}: {first}, at {outcome.first_uplift_s:.3f} s; the highest uplift is "
-        f"{outcome.max_uplift_m * 1e3:.2f} mm. Corners are in the air for {outcome.uplift_duration_s:.3f} s in "
-        f"{outcome.contact_changes} changes of contact ({shares} corners). {outcome.uplift_scale:.3g} times this motion just lifts one."
+        needed = outcome.uplift_scale
+        return tell("{name}: no corner lifts; the motion would have to be {factor:.3g} times as strong.", name=name, factor=needed)
+    corners = outcome.first_corners
+    if len(corners) > 1:
+        numbers = tell(" and ").join(map(str, corners))
+        first = tell("{name}: corners {corners} lift first, at {time:.3f} s", name=name, corners=numbers, time=outcome.first_uplift_s)
+    else:
+        first = tell("{name}: corner {corner} lifts first, at {time:.3f} s", name=name, corner=corners[0], time=outcome.first_uplift_s)
+    shares = [tell("{share:.1%} on {corners}", share=share, corners=n) for n, share in outcome.share_on_corners.items() if share > 0.0]
+    return first + tell(
+        "; the highest uplift is {most:.2f} mm. Corners are in the air for {air:.3f} s in {changes} changes of contact ({shares} corners). "
+        "{factor:.3g} times this motion just lifts one.",
+        most=outcome.max_uplift_m * 1e3,
+        air=outcome.uplift_duration_s,
+        changes=outcome.contact_changes,
+        shares=shares,
+        factor=outcome.uplift_scale,
     )

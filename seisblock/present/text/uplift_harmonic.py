@@ -7,15 +7,15 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from rich.text import Text
-
 from seisblock.present.documents.uplift import RATIOS
 from seisblock.present.files import write_table
-from seisblock.present.text.tables import table
+from seisblock.present.text.tables import line, table
 from seisblock.studies.uplift_regions import UpliftRegion
+from seisblock.words import noted, tell
 
 SYMBOLS = {"alpha": "α", "gamma": "γ", "beta": "β", "damping": "h", "phi": "φ", "rho": "ρ"}
 UNITS = {"phi": "°", "rho": "°"}
+END = noted("end of the range")
 MOST_ROWS = 24
 """Rows of a curve that a terminal shows unless the frequencies were asked for."""
 
@@ -33,27 +33,30 @@ def varied_names(regions: Sequence[UpliftRegion]) -> list[str]:
 def tables(regions: Sequence[UpliftRegion], *, every: bool) -> Iterator[Any]:
     """Yield the modes, the minima and the curve of each region."""
     for region in regions:
-        yield Text(title(region), style="bold")
+        yield line(title(region), "bold")
         wv, w1 = region.body.omega[2], region.modes.omega_1
         yield table(
-            "natural modes",
-            ["mode", "f (Hz)", "ω/ω_V", "ω/ω_1"],
-            [[name, w / (2 * math.pi), w / wv, w / w1] for name, w in zip(region.modes.names, region.modes.omega.tolist(), strict=True)],
+            tell("natural modes"),
+            [tell("mode"), "f (Hz)", "ω/ω_V", "ω/ω_1"],
+            [
+                [tell(name), w / (2 * math.pi), w / wv, w / w1]
+                for name, w in zip(region.modes.names, region.modes.omega.tolist(), strict=True)
+            ],
         )
         yield table(
-            "least A/g that lifts a corner",
-            ["near the mode", "θ/ω_1", "A/g", "corner"],
-            [[m.mode or "end of the range", m.frequency_ratio, m.acceleration_ratio, _corners(m.corners)] for m in region.minima]
-            or [["end of the range", region.minimum.frequency_ratio, region.minimum.acceleration_ratio, _corners(region.minimum.corners)]],
+            tell("least A/g that lifts a corner"),
+            [tell("near the mode"), "θ/ω_1", "A/g", tell("corner")],
+            [[tell(m.mode or END), m.frequency_ratio, m.acceleration_ratio, _corners(m.corners)] for m in region.minima]
+            or [[tell(END), region.minimum.frequency_ratio, region.minimum.acceleration_ratio, _corners(region.minimum.corners)]],
         )
         n = region.frequency_ratio.size
         step = 1 if every or n <= MOST_ROWS else n // MOST_ROWS
         shown = range(step - 1, n, step)
         yield table(
-            "uplift curve",
+            tell("uplift curve"),
             ["θ/ω_1", "A/g"],
             [[f"{region.frequency_ratio[i]:.4g}", _finite(float(region.acceleration_ratio[i]))] for i in shown],
-            caption="" if step == 1 else f"every {step}th of {n}; all with --csv or --json",
+            caption="" if step == 1 else tell("one of {step} of {all} rows; all with --csv or --json", step=step, all=n),
         )
 
 
@@ -64,7 +67,7 @@ def _finite(value: float) -> Any:
 
 def _corners(corners: Sequence[int]) -> str:
     """Return corners as text."""
-    return "any" if len(corners) == 4 else " ".join(str(corner) for corner in corners)
+    return tell("any") if len(corners) == 4 else " ".join(str(corner) for corner in corners)
 
 
 def write(path: Path, regions: Sequence[UpliftRegion]) -> None:
