@@ -37,15 +37,20 @@ def texts_of(stream, keywords, comment_tags, options) -> Iterator[tuple[int, str
             name = getattr(node.func, "attr", getattr(node.func, "id", ""))
             if name in SAYING | CHECKS or name.endswith("Error"):
                 yield from ((node.lineno, "", text, []) for text in _constants(node.args[0]))
+            elif name == "map" and getattr(node.args[0], "id", "") in SAYING:
+                yield from ((node.lineno, "", text, []) for text in _constants(node.args[1]))
 
 
 def _constants(node: ast.expr) -> Iterator[str]:
-    """Yield the texts that an argument may be: one, or either branch of a choice."""
+    """Yield the texts that an argument may be: one, either branch of a choice, or the members of a row."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         yield node.value
     elif isinstance(node, ast.IfExp):
         yield from _constants(node.body)
         yield from _constants(node.orelse)
+    elif isinstance(node, ast.Tuple):
+        for part in node.elts:
+            yield from _constants(part)
 
 
 def said_in_source() -> dict[str, str]:
