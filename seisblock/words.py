@@ -30,6 +30,9 @@ LOCALE_VARIABLES = ("LC_ALL", "LC_MESSAGES", "LANG")
 _COMMAS = {"en": ", ", "ja": "、"}
 """What stands between the members of a list."""
 
+_BLANKS = {"en": " ", "ja": ""}
+"""What stands between two sentences."""
+
 _asked: ContextVar[str | None] = ContextVar("language asked for", default=None)
 
 
@@ -99,6 +102,16 @@ def listed(parts: Iterable[str]) -> str:
     parts : iterable of str
     """
     return _COMMAS[language()].join(parts)
+
+
+def strung(sentences: Iterable[str]) -> str:
+    """Return sentences one after the other, with a blank between them where the language spoken has one.
+
+    Parameters
+    ----------
+    sentences : iterable of str
+    """
+    return _BLANKS[language()].join(sentences)
 
 
 def language(asked: str | None = None) -> str:

@@ -2,43 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 
 import click
 
+from seisblock.present.wrap import is_wide, wrapped
 from seisblock.words import tell
-
-_WIDE = r"\u1100-\u115f\u2e80-\ua4cf\uac00-\ud7a3\uf900-\ufaff\ufe30-\ufe6f\uff00-\uff60\uffe0-\uffe6"
-"""Letters that take two columns."""
-
-_ATOM = re.compile(rf"\s*[（「『]*(?:[^\s{_WIDE}]+|[{_WIDE}])[、。，．）」』：；！？ー・々ぁぃぅぇぉゃゅょっァィゥェォャュョッ]*")
-"""What is not broken: a word, or a wide letter with the marks that may not begin a line."""
-
-_MARKS = re.compile(rf"[{_WIDE}]")
-
-
-def columns(text: str) -> int:
-    """Return how many columns of a terminal a text takes."""
-    return len(text) + len(_MARKS.findall(text))
-
-
-def wrapped(text: str, width: int) -> list[str]:
-    """Return a text in lines of at most so many columns, broken between words and between wide letters.
-
-    Parameters
-    ----------
-    text : str
-    width : int
-    """
-    lines = [""]
-    for atom in _ATOM.findall(text):
-        joined = lines[-1] + (atom if lines[-1] else atom.lstrip())
-        if columns(joined) <= width or not lines[-1]:
-            lines[-1] = joined
-        else:
-            lines.append(atom.lstrip())
-    return lines
 
 
 def paragraphs(text: str) -> list[str]:
@@ -59,7 +28,7 @@ class Formatter(click.HelpFormatter):
         for index, part in enumerate(map(tell, paragraphs(text))):
             if index:
                 self.write("\n")
-            if _MARKS.search(part):
+            if is_wide(part):
                 self.write("".join(f"{indent}{line}\n" for line in wrapped(part, self.width - self.current_indent)))
             else:
                 super().write_text(part)
@@ -67,7 +36,7 @@ class Formatter(click.HelpFormatter):
     def write_dl(self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2) -> None:
         """Write terms and what they mean."""
         listed = list(rows)
-        if not any(_MARKS.search(meaning) for _, meaning in listed):
+        if not any(is_wide(meaning) for _, meaning in listed):
             super().write_dl(listed, col_max, col_spacing)
             return
         first = min(max(len(term) for term, _ in listed), col_max) + col_spacing

@@ -11,7 +11,7 @@ from seisblock.results import Response
 from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.solvers.jump.solve import JumpOutcome
 from seisblock.solvers.jump.tale import exceeds
-from seisblock.words import noted, tell
+from seisblock.words import noted, strung, tell
 
 Jumps = Sequence[Response[JumpOutcome]]
 
@@ -109,7 +109,7 @@ def verdict(response: Response[JumpOutcome]) -> str:
         text = noted("{name}: jumped {jumps} times in {count} chains of motion, and in the end stands {moved} from where it stood.")
     moved = _signed(outcome.final_displacement_m)
     told = tell(text, name=name, outcome=tell(outcome.outcome), moved=moved, count=len(outcome.chains), jumps=jumps)
-    return " ".join([told, *_held(response)])
+    return strung([told, *_held(response)])
 
 
 def _signed(length: float) -> str:

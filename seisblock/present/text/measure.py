@@ -96,7 +96,7 @@ def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
         yield told
     for m in answer.components:
         if m.usual_highpass is not None:
-            yield f"{m.component}: {usual_filters(m.usual_highpass, gal=gal)}"
+            yield tell("{name}: {what}", name=m.component, what=usual_filters(m.usual_highpass, gal=gal))
 
 
 def usual_filters(found: FilterRange, *, gal: bool) -> str:

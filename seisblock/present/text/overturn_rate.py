@@ -87,7 +87,7 @@ def _filters(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
         if each.usual_highpass is not None and each.rate_range is not None and not each.of:
             low, high = each.rate_range
             rate = tell("rate {low:.2f}", low=low) if low == high else tell("rate {low:.2f} to {high:.2f}", low=low, high=high)
-            yield f"{each.component}: {usual_filters(each.usual_highpass, gal=gal)}; {rate}"
+            yield tell("{name}: {what}; {rate}", name=each.component, what=usual_filters(each.usual_highpass, gal=gal), rate=rate)
 
 
 def _dowels(results: Sequence[CemeteryRate]) -> Iterator[str]:

@@ -63,7 +63,7 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
 def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iterator[str]:
     """Yield the verdict, its fragility, its margins and its probability."""
     outcome, name = response.outcome, response.motion.name or "x"
-    yield f"{name}: {verdict(outcome)}."
+    yield tell("{name}: {verdict}.", name=name, verdict=verdict(outcome))
     if "margin" in extra:
         yield from (f"  {told}" for told in _margin_lines(extra["margin"]))
     if "perturbation" in extra:

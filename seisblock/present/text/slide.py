@@ -37,7 +37,7 @@ def tables(responses: Slides, sweep: Sequence[SlidePoint] = ()) -> Iterator[Any]
             tell("Sliding, {setting}", setting=setting(mine[0])),
             [tell(heading) for heading in COLUMNS],
             [_row(response) for response in mine],
-            caption=f"{_axis(mine[0])}; {tell(RESIDUAL)}",
+            caption=tell("{first}; {second}", first=_axis(mine[0]), second=tell(RESIDUAL)),
         )
         for response in mine:
             yield line(sentence(response))
@@ -77,7 +77,7 @@ def sentence(response: Response[SlideOutcome]) -> str:
         told += tell(", past the foot of the slope")
     if outcome.lifted_off:
         told += tell("; it loses contact with the base on the way")
-    return told + tell(".")
+    return tell("{sentence}.", sentence=told)
 
 
 def _axis(response: Response[SlideOutcome]) -> str:

@@ -10,7 +10,7 @@ from seisblock.bodies.pile.stone import GROUND
 from seisblock.present.text.tables import line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
-from seisblock.words import tell
+from seisblock.words import strung, tell
 
 NOTICEABLE_TILT, NOTICEABLE_SLIP = 2e-3, 2e-4
 """What shows in a figure, rad and m."""
@@ -67,14 +67,15 @@ def sentence(response: Response[StackOutcome]) -> str:
     outcome = response.outcome
     if outcome.overturned_any and outcome.time_s is not None:
         falls = sorted((stone for stone in outcome.stones if stone.state == "fallen"), key=lambda stone: stone.fell_at_s or 0.0)
-        told = " ".join(map(_fall, falls))
+        told = strung(map(_fall, falls))
     elif moved := [tell(stone.name) for stone in outcome.stones if stone.state != "standing"]:
         told = tell("Every stone stands; moved: {stones}.", stones=moved)
     else:
         told = tell("Every stone stands where it was.")
-    return f"{told} " + tell(
+    books = tell(
         "The shaking did {work:.0f} J of work, friction and dashpots took {lost:.0f} J; energy created by the steps: {created:.2g} J.",
         work=outcome.ground_work_j,
         lost=outcome.lost_j,
         created=outcome.created_j,
     )
+    return strung([told, books])

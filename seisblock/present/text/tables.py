@@ -8,9 +8,11 @@ from typing import Any
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console, Group
+from rich.containers import Lines
 from rich.table import Table
 from rich.text import Text
 
+from seisblock.present.wrap import breaks, is_wide
 from seisblock.records import Record
 from seisblock.units import GAL
 from seisblock.words import plain_text, tell
@@ -26,6 +28,10 @@ def console(*, stderr: bool = False) -> Console:
 
 class _Screen(Console):
     """A console that lets the command line decide what to do when its reader has gone."""
+
+    def print(self, *objects: Any, **options: Any) -> None:
+        """Print; a text goes in a group, for rich would join bare ones into a text of its own, broken at blanks only."""
+        super().print(*(Group(each) if isinstance(each, Text) else each for each in objects), **options)
 
     def on_broken_pipe(self) -> None:
         """Raise, instead of leaving the process."""
@@ -56,7 +62,21 @@ def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, 
 
 def line(text: str = "", style: str = "") -> Text:
     """Return a text for the console; what a file wrote into it neither commands the terminal nor marks anything up."""
-    return Text(plain_text(text), style)
+    return _Line(plain_text(text), style)
+
+
+class _Line(Text):
+    """A text that is broken between wide letters too: rich breaks at blanks, of which Japanese has few."""
+
+    def wrap(self, console: Console, width: int, **options: Any) -> Lines:  # type: ignore[override]
+        """Return the lines of the text."""
+        if not is_wide(self.plain):
+            return super().wrap(console, width, **options)
+        parts = self.split("\n", allow_blank=True)
+        lines = Lines(piece for part in parts for piece in part.divide(breaks(part.plain, width)))
+        for piece in lines:
+            piece.rstrip()
+        return lines
 
 
 def number(value: Any, digits: int = 4) -> str:
