@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 _WIDE = r"\u1100-\u115f\u2e80-\ua4cf\uac00-\ud7a3\uf900-\ufaff\ufe30-\ufe6f\uff00-\uff60\uffe0-\uffe6"
 """Letters that take two columns."""
@@ -49,4 +50,4 @@ def breaks(text: str, width: int) -> list[int]:
 def wrapped(text: str, width: int) -> list[str]:
     """Return a text in lines of at most so many columns."""
     ends = [0, *breaks(text, width), len(text)]
-    return [text[first:last].strip() for first, last in zip(ends, ends[1:], strict=False)]
+    return [text[first:last].strip() for first, last in pairwise(ends)]

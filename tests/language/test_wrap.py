@@ -1,0 +1,59 @@
+"""Lines of Japanese end between letters, never before a closing mark, and never beyond the terminal."""
+
+import io
+import unicodedata
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from rich.cells import cell_len
+
+from seisblock.present.text.tables import console, line, table
+from seisblock.present.wrap import _CLOSING, breaks, columns, is_wide, wrapped
+
+TEXT = "記録の終了後に、北へ 12.5 cm 移動した（最大 14.0 cm）。計測震度は 6.57、最大加速度は 934 gal であった。"
+
+
+@given(st.text(alphabet="ab1 .漢字かなー、。（）「」", max_size=60), st.integers(8, 40))
+def test_no_line_is_wider_than_asked(text, width):
+    """Nothing is lost but blanks at the ends of lines, and a line is wider only where a single word is."""
+    lines = wrapped(text, width)
+    assert "".join("".join(lines).split()) == "".join(text.split())
+    for found in lines:
+        assert columns(found) <= width or not breaks(found.strip(), width)
+
+
+@pytest.mark.parametrize("width", range(12, 60))
+def test_no_line_begins_with_a_closing_mark(width):
+    """Kinsoku: commas, full stops and closing brackets stay with what they close."""
+    assert all(found[0] not in _CLOSING for found in wrapped(TEXT, width))
+
+
+def test_columns_are_those_of_the_terminal_library():
+    """The table of wide letters agrees with rich's for everything that a catalogue may hold; it holds no combining marks."""
+    for start, end in ((0x20, 0x250), (0x370, 0x400), (0x2000, 0x2070), (0x3000, 0xA000), (0xFF01, 0xFF60)):
+        letters = [chr(code) for code in range(start, end) if chr(code).isprintable() and not unicodedata.combining(chr(code))]
+        assert [hex(ord(letter)) for letter in letters if columns(letter) != cell_len(letter)] == []
+    assert not is_wide("θ/α ² – ×")
+
+
+def shown(*parts, width=80):
+    """Return what the console prints."""
+    screen = console()
+    screen.file, screen.width = io.StringIO(), width
+    for part in parts:
+        screen.print(part)
+    return screen.file.getvalue()
+
+
+def test_the_console_breaks_japanese_between_letters():
+    """A sentence fills its lines, alone or with others."""
+    lines = shown(line(TEXT * 2), width=40).splitlines()
+    assert all(36 <= cell_len(found) <= 40 for found in lines[:-1]), lines
+
+
+def test_data_neither_marks_up_nor_commands():
+    """R15: square brackets of a station are printed as they are, emoji codes too; escapes are spelt out, in titles, headings, cells."""
+    hostile = "[red]A[/red] :warning: \x1b[31m"
+    told = shown(table(hostile, [hostile, "x"], [[hostile, 1.0]], caption=hostile), line(hostile), width=120)
+    assert told.count("[red]A[/red] :warning: \\x1b[31m") == 5 and "\x1b" not in told
