@@ -31,7 +31,7 @@ def test_no_line_begins_with_a_closing_mark(width):
 
 def test_columns_are_those_of_the_terminal_library():
     """The table of wide letters agrees with rich's for everything that a catalogue may hold; it holds no combining marks."""
-    for start, end in ((0x20, 0x250), (0x370, 0x400), (0x2000, 0x2070), (0x3000, 0xA000), (0xFF01, 0xFF60)):
+    for start, end in ((0x20, 0x250), (0x370, 0x400), (0x2000, 0x2070), (0x3000, 0x3100), (0x3200, 0xA000), (0xFF01, 0xFF60)):
         letters = [chr(code) for code in range(start, end) if chr(code).isprintable() and not unicodedata.combining(chr(code))]
         assert [hex(ord(letter)) for letter in letters if columns(letter) != cell_len(letter)] == []
     assert not is_wide("θ/α ² – ×")
