@@ -19,7 +19,7 @@ from seisblock.present.documents.write import to_json
 from seisblock.present.faces import figure_of, film_of
 from seisblock.present.files import refuse_collisions
 from seisblock.results import Response
-from seisblock.words import language
+from seisblock.words import language, speaking
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -82,7 +82,7 @@ def emit(
         _animate(animation, output)
         say(f"wrote {output.animate}")
     if output.plot is not None and figure is not None:
-        _draw(figure, output.plot, language())
+        _draw(figure, output.plot)
         if output.plot == STDOUT:
             return
         say(f"wrote {output.plot}")
@@ -118,32 +118,32 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
             shutil.copyfileobj(stream, sys.stdout)
 
 
-def _draw(figure: Callable[[], Figure], target: Path, lang: str) -> None:
+def _draw(figure: Callable[[], Figure], target: Path) -> None:
     """Write a figure to a file, or its .png to stdout."""
     from seisblock.present.figures.canvas import save, save_png
-    from seisblock.present.figures.fonts import MISSING, speak
+    from seisblock.present.figures.fonts import MISSING, drawable, drawn
 
     if target == STDOUT and sys.stdout.isatty():
         raise OutputError("--plot - writes a .png to stdout, which is a terminal: send it to a file or a viewer, or give a file name")
-    drawn = figure()
-    if not speak(drawn, lang):
+    if drawable() != language():
         say(MISSING)
+    made = drawn(figure)
     if target == STDOUT:
-        save_png(drawn, sys.stdout.buffer)
+        save_png(made, sys.stdout.buffer)
     else:
-        save(drawn, target)
+        save(made, target)
 
 
 def _animate(animation: Callable[[Path, Filming], None], output: Output) -> None:
     """Write an animation, with a bar while its pictures are drawn."""
     from seisblock.cli.progress import progress
-    from seisblock.present.figures.fonts import MISSING, japanese_font
+    from seisblock.present.figures.fonts import MISSING, drawable
     from seisblock.present.films.animation import Filming
 
     assert output.animate is not None
-    lang = language()
-    if lang != "en" and japanese_font() is None and output.animate.suffix.lower() != ".html":
+    spoken = language()
+    if output.animate.suffix.lower() != ".html" and spoken != drawable():
         say(MISSING)
-        lang = "en"
-    with progress("drawing") as tell:
-        animation(output.animate, Filming(output.slow, lang, tell))
+        spoken = drawable()
+    with progress("drawing") as advance, speaking(spoken):
+        animation(output.animate, Filming(output.slow, advance))

@@ -12,9 +12,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from seisblock.errors import OutputError
+from seisblock.present.figures.fonts import set_letters
 from seisblock.present.files import replacing
 from seisblock.results import Phase
 from seisblock.typing import FloatArray
+from seisblock.words import language, tell
 
 INPUT = "0.45"
 ACCENT = "#c0392b"
@@ -29,12 +31,25 @@ MOST_POINTS = 4000
 SUFFIXES = (".png", ".svg", ".pdf")
 
 
+class Sheet(Figure):
+    """A figure in one language, whose letters are settled whenever it is drawn, whoever draws it."""
+
+    def __init__(self, width: float, height: float, *, dpi: float = 110) -> None:
+        super().__init__(figsize=(width, height), dpi=dpi, layout="constrained")
+        FigureCanvasAgg(self)
+        self.spoken = language()
+
+    def draw(self, renderer: Any) -> None:
+        """Draw, in fonts that hold the letters."""
+        set_letters(self, self.spoken)
+        super().draw(renderer)
+
+
 def new_figure(
     rows: int, *, width: float = 8.0, height: float | None = None, title: str = "", columns: int = 1, **layout: Any
 ) -> tuple[Figure, list[Axes]]:
     """Return a figure with stacked panels that share the time axis unless told otherwise."""
-    figure = Figure(figsize=(width, height or 1.2 + 1.75 * rows), dpi=110, layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = Sheet(width, height or 1.2 + 1.75 * rows)
     share = layout.pop("sharex", columns == 1)
     axes = figure.subplots(rows, columns, sharex=share, squeeze=False, **layout)
     flat = [axis for row in axes for axis in row]
@@ -93,7 +108,7 @@ def shade(axis: Axes, phases: Iterable[Phase], colours: dict[str, str], *, names
     named: set[str] = set()
     for phase in phases:
         if phase.name in colours:
-            text = phase.name if names and phase.name not in named else None
+            text = tell(phase.name) if names and phase.name not in named else None
             named.add(phase.name)
             axis.axvspan(phase.start_s, phase.end_s, color=colours[phase.name], linewidth=0, alpha=0.8, label=text)
 

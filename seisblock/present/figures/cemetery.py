@@ -16,6 +16,7 @@ from seisblock.studies.cemetery.judgement import LARGER, CemeteryRate, Reinforce
 from seisblock.studies.cemetery.rate import FREQUENCIES, CurvePoint, overturning_rate, rate_curve
 from seisblock.units import GAL
 from seisblock.validation.furukawa_surveys import SURVEYS, SurveyedRate
+from seisblock.words import tell
 
 LINES = (
     ("#08214a", "-"),
@@ -40,15 +41,15 @@ def proportions(axis: Axes, cemetery: Cemetery, threshold: float | None = None) 
     ratios = np.sort(cemetery.ratios)
     edges = np.arange(np.floor(ratios[0] / BIN) * BIN, ratios[-1] + BIN, BIN).tolist()
     share = np.full(ratios.size, 1.0 / ratios.size)
-    axis.hist(ratios, bins=edges, weights=share, color="0.78", edgecolor="white", label=f"share per {BIN:g}")
+    axis.hist(ratios, bins=edges, weights=share, color="0.78", edgecolor="white", label=tell("share per {width:g}", width=BIN))
     if threshold is not None:
         beyond = ratios > threshold
-        axis.hist(ratios[beyond], bins=edges, weights=share[beyond], color=ACCENT, alpha=0.55, edgecolor="white", label="falls")
+        axis.hist(ratios[beyond], bins=edges, weights=share[beyond], color=ACCENT, alpha=0.55, edgecolor="white", label=tell("falls"))
         axis.axvline(threshold, color=ACCENT, linewidth=0.9, linestyle=(0, (4, 2)))
     above = 1.0 - np.arange(ratios.size + 1) / ratios.size
-    axis.step(np.concatenate([ratios, ratios[-1:]]), above, where="pre", color="0.15", linewidth=1.1, label="share above")
+    axis.step(np.concatenate([ratios, ratios[-1:]]), above, where="pre", color="0.15", linewidth=1.1, label=tell("share above"))
     axis.set_ylim(0.0, 1.02)
-    label(axis, x="H/B", y="share of stones")
+    label(axis, x=tell("H/B"), y=tell("share of stones"))
     legend(axis, loc="upper right", bbox_to_anchor=(1.0, 1.0), ncols=1)
 
 
@@ -62,7 +63,7 @@ def rates(axis: Axes, curve: Iterable[CurvePoint], *, frequencies: Sequence[floa
         colour, dashes = LINES[index % len(LINES)]
         axis.plot(pga, rate, label=f"{frequency:.3g} Hz", linewidth=1.1, color=colour, linestyle=dashes)
     axis.set_ylim(-0.02, 1.02)
-    label(axis, x="PGA (gal)", y="overturning rate")
+    label(axis, x=tell("PGA (gal)"), y=tell("overturning rate"))
 
 
 def _key(axis: Axes) -> None:
@@ -87,14 +88,16 @@ def overturn_rate_figure(
     governing = max((each for _, each in shown), key=lambda each: each.rate, default=None)
     compared = governing is not None and governing.reinforced is not None
     columns = 3 if compared else 2
-    figure, axes = new_figure(1, columns=columns, width=4.2 * columns + 1.2, height=3.9, title=f"{cemetery.name}: {cemetery.size} stones")
+    title = tell("{name}: {stones} stones", name=cemetery.name, stones=cemetery.size)
+    figure, axes = new_figure(1, columns=columns, width=4.2 * columns + 1.2, height=3.9, title=title)
     proportions(axes[0], cemetery, governing.threshold_ratio if governing else None)
     _panel(axes[1], [(name, each, each) for name, each in shown], governing, curve)
     if governing is not None and governing.reinforced is not None:
         after = [(name, each, each.reinforced) for name, each in shown if each.reinforced is not None]
         _panel(axes[2], after, governing.reinforced, curve)
-        axes[1].set_title("as surveyed", fontsize=9, loc="left")
-        axes[2].set_title(f"{governing.reinforced.reinforced_stones} of {cemetery.size} stones reinforced", fontsize=9, loc="left")
+        axes[1].set_title(tell("as surveyed"), fontsize=9, loc="left")
+        held = tell("{stones} of {all} stones reinforced", stones=governing.reinforced.reinforced_stones, all=cemetery.size)
+        axes[2].set_title(held, fontsize=9, loc="left")
     _key(axes[-1])
     return figure
 
@@ -138,7 +141,8 @@ def _panel(
 
 def figure_14(cemetery: Cemetery) -> Figure:
     """Return the histogram and the cumulative distribution of H/B ([Furukawa2009]_ figs. 14, 15)."""
-    figure, (axis,) = new_figure(1, width=6.0, height=3.8, title=f"{cemetery.name}: height over width of {cemetery.size} stones")
+    title = tell("{name}: height over width of {stones} stones", name=cemetery.name, stones=cemetery.size)
+    figure, (axis,) = new_figure(1, width=6.0, height=3.8, title=title)
     proportions(axis, cemetery)
     return figure
 
@@ -154,7 +158,7 @@ def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence
     surveys : sequence of SurveyedRate
         Points to draw; :data:`seisblock.validation.furukawa_surveys.SURVEYS` for figs. 18 and 19.
     """
-    kind = "reinforced" if reinforced else "not reinforced"
+    kind = tell("reinforced") if reinforced else tell("not reinforced")
     figure, (axis,) = new_figure(1, width=7.2, height=4.4, title=f"{cemetery.name}, {kind}")
     rates(axis, rate_curve(cemetery.dowelled() if reinforced else cemetery, FINE_PGA))
     for index, survey in enumerate(surveys):
@@ -167,7 +171,8 @@ def figure_16(cemetery: Cemetery, *, reinforced: bool = False, surveys: Sequence
 
 def figure_20(cemetery: Cemetery, surveys: Sequence[SurveyedRate] = SURVEYS) -> Figure:
     """Return surveyed rates against those of the curves, without a dowel and with one ([Furukawa2009]_ fig. 20)."""
-    figure, (axis,) = new_figure(1, width=4.8, height=4.6, title=f"rates: curves of {cemetery.name}, and surveys")
+    title = tell("rates: curves of {name}, and surveys", name=cemetery.name)
+    figure, (axis,) = new_figure(1, width=4.8, height=4.6, title=title)
     axis.plot([0, 1], [0, 1], color=INPUT, linewidth=0.9)
     for index, survey in enumerate(surveys):
         plain = overturning_rate(cemetery, survey.pga, survey.frequency).rate
@@ -177,6 +182,6 @@ def figure_20(cemetery: Cemetery, surveys: Sequence[SurveyedRate] = SURVEYS) -> 
         axis.scatter([plain], [survey.rate], marker=marker, color=ACCENT, s=30, zorder=3, label=survey.name)
         axis.scatter([dowelled], [survey.rate], marker=marker, facecolor="white", edgecolor="0.4", s=26, zorder=2)
     axis.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), aspect="equal")
-    label(axis, x="rate by the curves (hollow: reinforced)", y="surveyed rate")
+    label(axis, x=tell("rate by the curves (hollow: reinforced)"), y=tell("surveyed rate"))
     _key(axis)
     return figure

@@ -9,22 +9,19 @@ from html import escape
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from seisblock.present.figures.fonts import speak
-
 LARGEST_DRAWING = 200_000
 """A drawing of more bytes is put in as a picture."""
 
 PICTURE_DPI = 170
 
 
-def picture(figure: Figure, lang: str, caption: str, *, width: float = 6.0) -> str:
+def picture(figure: Figure, caption: str, *, width: float = 6.0) -> str:
     """Return an HTML figure.
 
     Parameters
     ----------
     figure : Figure
         Narrowed to `width`, so that its letters stay readable where the page is small.
-    lang : "en" or "ja"
     caption : str
         Plain text, also what is read aloud.
     width : float, inch
@@ -34,7 +31,6 @@ def picture(figure: Figure, lang: str, caption: str, *, width: float = 6.0) -> s
         figure.set_size_inches(width, height * (0.75 + 0.25 * width / have))
     for axis in figure.axes:
         _part(axis)
-    speak(figure, lang)
     held = io.BytesIO()
     figure.savefig(held, format="svg")
     kind = "svg+xml"

@@ -1,16 +1,21 @@
-"""Which font holds Japanese, and a figure told in Japanese with it."""
+"""Which font holds Japanese, and which letters a figure can therefore be written in."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 from matplotlib.axis import Axis
 from matplotlib.category import StrCategoryFormatter
 from matplotlib.figure import Figure
-from matplotlib.font_manager import FontManager, fontManager
+from matplotlib.font_manager import FontManager, fontManager, weight_dict
 from matplotlib.text import Text
+from matplotlib.ticker import FixedFormatter
 
-from seisblock.present.words import translate
+from seisblock.present.wrap import is_wide
+from seisblock.words import language, noted, speaking
 
 FAMILIES = (
     "Noto Sans CJK JP",
@@ -39,51 +44,96 @@ FAMILIES = (
 )
 """Families that hold Japanese, the most readable on a figure first."""
 
-MISSING = "no font with Japanese letters was found: the figure is in English; install one, for example fonts-noto-cjk or fonts-ipafont"
+REGULAR = 400
+LATIN = "DejaVu Sans"
+"""The family that comes with matplotlib; it holds what mathematics a label needs."""
+
+MISSING = noted("no font with Japanese letters was found: the figure is in English; install one, say fonts-noto-cjk or fonts-ipafont")
 """What to say when there is none."""
 
 
+@dataclass(frozen=True)
+class Face:
+    """A family that holds Japanese, and the weights in which it is there: asking for another one makes matplotlib complain."""
+
+    family: str
+    weights: tuple[int, ...]
+
+    def nearest(self, weight: Any) -> int:
+        """Return the weight that is there and comes nearest to one asked for."""
+        return min(self.weights, key=lambda there: abs(there - _number(weight)))
+
+
+def _number(weight: Any) -> int:
+    """Return a weight as a number: matplotlib knows them by name, too."""
+    return int(weight_dict.get(weight, weight))
+
+
 @cache
-def japanese_font() -> str | None:
-    """Return the name of an installed family that holds Japanese, or None."""
-    installed = {entry.name for entry in fontManager.ttflist}
-    found = next((name for name in FAMILIES if name in installed), None)
+def japanese_font() -> Face | None:
+    """Return an installed family that holds Japanese, one of regular weight before one that is only bold; None when there is none."""
+    found = _face(fontManager)
     if found is None:
         # matplotlib keeps a list of the fonts it once saw; one installed since is found by looking again
-        again = {entry.name: entry for entry in FontManager().ttflist}
-        found = next((name for name in FAMILIES if name in again), None)
+        again = FontManager()
+        found = _face(again)
         if found is not None:
-            fontManager.ttflist.append(again[found])
+            fontManager.ttflist += [entry for entry in again.ttflist if entry.name == found.family]
     return found
 
 
-def speak(figure: Figure, lang: str) -> bool:
-    """Translate every text of a figure; return whether that was possible.
+def _face(manager: FontManager) -> Face | None:
+    """Return the first of the families that a list of fonts holds."""
+    weights: dict[str, set[int]] = {}
+    for entry in manager.ttflist:
+        if entry.name in FAMILIES and entry.style == "normal":
+            weights.setdefault(entry.name, set()).add(_number(entry.weight))
+    there = sorted(weights, key=lambda name: (REGULAR not in weights[name], FAMILIES.index(name)))
+    return Face(there[0], tuple(sorted(weights[there[0]]))) if there else None
+
+
+def drawable() -> str:
+    """Return the language of figures: the one spoken, or English where no font holds its letters."""
+    return "en" if language() != "en" and japanese_font() is None else language()
+
+
+def drawn(build: Callable[[], Figure]) -> Figure:
+    """Return a figure, built in the language in which it can be drawn.
+
+    Parameters
+    ----------
+    build : callable
+        Returns the figure.
+    """
+    with speaking(drawable()):
+        return build()
+
+
+def set_letters(figure: Figure, spoken: str) -> None:
+    """Give every text of a figure a font that holds it, and take names for what they are: a dollar sign begins no formula.
 
     Parameters
     ----------
     figure : Figure
-        Changed in place, once.
-    lang : "en" or "ja"
+        Changed in place.
+    spoken : "en" or "ja"
+        In Japanese all letters are of one family; in English a Japanese name gets its own.
     """
-    if lang == "en":
-        return True
-    family = japanese_font()
-    if family is None:
-        return False
-    for axes in figure.axes:
-        _name_categories(axes.xaxis, lang)
-        _name_categories(axes.yaxis, lang)
+    numbers = _numbers(figure)
     for text in figure.findobj(Text):
         assert isinstance(text, Text)
-        words = text.get_text()
-        text.set_text(translate(words, lang))
-        text.set_fontfamily([family, "DejaVu Sans"])
-    return True
+        if id(text) not in numbers:
+            text.set_parse_math(False)
+        if spoken != "en" or is_wide(text.get_text()):
+            face = japanese_font()
+            if face is not None:
+                text.set_fontfamily([face.family, LATIN])
+                text.set_fontweight(face.nearest(text.get_fontweight()))
 
 
-def _name_categories(axis: Axis, lang: str) -> None:
-    """Translate the names along an axis of categories, which are written anew whenever it is drawn."""
-    if isinstance(axis.get_major_formatter(), StrCategoryFormatter):
-        names = [label.get_text() for label in axis.get_ticklabels()]
-        axis.set_ticks(axis.get_ticklocs(), labels=[translate(name, lang) for name in names])
+def _numbers(figure: Figure) -> set[int]:
+    """Return which texts are the numbers along an axis: matplotlib writes powers of ten as formulas; names along an axis are none."""
+    axes: list[Axis] = [axis for panel in figure.findobj(Axis) if isinstance(axis := panel, Axis)]
+    marks = [axis for axis in axes if not isinstance(axis.get_major_formatter(), (StrCategoryFormatter, FixedFormatter))]
+    ticks = [tick for axis in marks for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks())]
+    return {id(label) for tick in ticks for label in (tick.label1, tick.label2)} | {id(axis.get_offset_text()) for axis in marks}

@@ -18,6 +18,7 @@ from seisblock.studies.inverse.estimate import ShakingEstimate, contour
 from seisblock.studies.inverse.survey import Survey, likelihood
 from seisblock.typing import FloatArray
 from seisblock.units import GAL
+from seisblock.words import tell
 
 if TYPE_CHECKING:
     from seisblock.studies.inverse.factors import ScaleFactors
@@ -42,7 +43,7 @@ def estimate_figure(name: str, survey: Survey, assumptions: Assumptions, estimat
     estimates : sequence of ShakingEstimate
         Those with a frequency are drawn as points with their intervals.
     """
-    title = f"{name}: {survey.fell} of {survey.judged} stones fell"
+    title = tell("{name}: {fallen} of {all} stones fell", name=name, fallen=survey.fell, all=survey.judged)
     figure, (left, right) = new_figure(1, columns=2, width=9.6, height=4.2, title=title)
     _trade_off(left, survey, assumptions)
     chosen = [each for each in estimates if each.stones == estimates[-1].stones and each.frequency_hz is not None]
@@ -63,7 +64,7 @@ def _trade_off(axis: Axes, survey: Survey, assumptions: Assumptions) -> None:
         low, high = ([math.nan if e.pga_interval_m_s2[i] is None else e.pga_interval_m_s2[i] for e in line] for i in (0, 1))
         _band(axis, np.array(low, dtype=np.float64) / GAL, np.array(high, dtype=np.float64) / GAL, shade, f"{100 * level:g} %")
         if level == max(LEVELS) and line[0].pga_m_s2 is not None:
-            axis.plot(FINE, [(e.pga_m_s2 or math.nan) / GAL for e in line], color="0.15", linewidth=1.2, label="median")
+            axis.plot(FINE, [(e.pga_m_s2 or math.nan) / GAL for e in line], color="0.15", linewidth=1.2, label=tell("median"))
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.set_xticks([0.5, 1.0, 2.0, 3.0], ["0.5", "1", "2", "3"])
@@ -71,18 +72,17 @@ def _trade_off(axis: Axes, survey: Survey, assumptions: Assumptions) -> None:
     axis.set_yticks([100, 200, 500, 1000, 2000], ["100", "200", "500", "1000", "2000"])
     axis.set_xlim(FINE[0], FINE[-1])
     axis.set_ylim(*SHOWN_PGA)
-    label(axis, x="equivalent frequency (Hz)", y="PGA (gal)")
+    label(axis, x=tell("equivalent frequency (Hz)"), y=tell("PGA (gal)"))
     legend(axis)
 
 
 def _band(axis: Axes, low: FloatArray, high: FloatArray, shade: str, name: str) -> None:
     """Draw a band, or the side of a bound on which the shaking lies."""
     if np.isnan(low).all():
-        axis.fill_between(FINE, np.full(len(FINE), SHOWN_PGA[0]), high, color=shade, linewidth=0, label=f"{name}, upper bound")
+        low, name = np.full(len(FINE), SHOWN_PGA[0]), tell("{level}, upper bound", level=name)
     elif np.isnan(high).all():
-        axis.fill_between(FINE, low, np.full(len(FINE), SHOWN_PGA[1]), color=shade, linewidth=0, label=f"{name}, lower bound")
-    else:
-        axis.fill_between(FINE, low, high, color=shade, linewidth=0, label=name)
+        high, name = np.full(len(FINE), SHOWN_PGA[1]), tell("{level}, lower bound", level=name)
+    axis.fill_between(FINE, low, high, color=shade, linewidth=0, label=name)
 
 
 def _likelihoods(axis: Axes, survey: Survey, assumptions: Assumptions, chosen: Sequence[ShakingEstimate]) -> None:
@@ -99,7 +99,7 @@ def _likelihoods(axis: Axes, survey: Survey, assumptions: Assumptions, chosen: S
     axis.set_xlim(*SHOWN_PGA)
     axis.set_xticks([100, 200, 500, 1000, 2000], ["100", "200", "500", "1000", "2000"])
     axis.minorticks_off()
-    label(axis, x="PGA (gal)", y="likelihood (over its largest)")
+    label(axis, x=tell("PGA (gal)"), y=tell("likelihood (over its largest)"))
     legend(axis, ncols=6)
 
 
@@ -109,14 +109,14 @@ def factor_figure(found: Sequence[tuple[Record, ScaleFactors]]) -> Figure:
     for axis, (record, each) in zip(axes, found, strict=True):
         scales, values = each.curve
         axis.plot(scales, np.array(values) * 100.0, color=SECOND, linewidth=1.0)
-        threshold(axis, [each.observed_m * 100.0], "observed")
-        for marker, leaps, name in (("o", False, "solution"), ("x", True, "leaps across")):
+        threshold(axis, [each.observed_m * 100.0], tell("observed"))
+        for marker, leaps, name in (("o", False, tell("solution")), ("x", True, tell("leaps across"))):
             points = [f.scale for f in each.scale_factors if f.leaps == leaps]
             if points:
                 axis.plot(points, [each.observed_m * 100.0] * len(points), marker, color=ACCENT, markersize=5, label=name)
         axis.axvline(1.0, color=INPUT, linewidth=0.8, linestyle=(0, (1, 2)))
         axis.set_title(f"{record.station or record.source} {each.component}", fontsize=9, loc="left")
-        label(axis, y="displacement (cm)")
+        label(axis, y=tell("displacement (cm)"))
         legend(axis)
-    label(axes[-1], x="factor on the record")
+    label(axes[-1], x=tell("factor on the record"))
     return figure

@@ -12,6 +12,7 @@ from seisblock.present.text.jump import Jumps
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import FLIGHT, LANDED, ROCKING
 from seisblock.solvers.jump.solve import JumpOutcome
+from seisblock.words import tell
 
 COLOURS = {ROCKING: "#f4d9c6", FLIGHT: "#cfe3d4", LANDED: "#d5dcef"}
 
@@ -40,10 +41,10 @@ def _column(panels: Sequence[Any], response: Response[JumpOutcome]) -> None:
     for panel in panels:
         canvas.shade(panel, response.phases, COLOURS, names=panel is panels[0])
     canvas.legend(panels[0])
-    panels[0].set_title(f"{motion.name}: {response.body.name}", fontsize=9, loc="left")
-    for panel, text in zip(panels, ("z'' (m/s²)", "θ (deg)", "rise of G (mm)", "x of G (mm)"), strict=True):
+    panels[0].set_title(f"{motion.name}: {tell(response.body.name)}", fontsize=9, loc="left")
+    for panel, text in zip(panels, map(tell, ("z'' (m/s²)", "θ (deg)", "rise of G (mm)", "x of G (mm)")), strict=True):
         canvas.label(panel, y=text)
-    canvas.label(panels[3], x="t (s)")
+    canvas.label(panels[3], x=tell("t (s)"))
     if outcome.chains:
         first = outcome.chains[0].rocking_start_s
         last = max(phase.end_s for phase in response.phases if phase.name in COLOURS)

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from seisblock.measures import RecordMeasures, fourier_amplitude, ground_history, response_spectrum
 from seisblock.measures.spectra import DAMPING
-from seisblock.present.figures.canvas import ACCENT, INPUT, curve, dress, label, legend, thin, threshold
+from seisblock.present.figures.canvas import ACCENT, INPUT, Sheet, curve, dress, label, legend, thin, threshold
 from seisblock.records import Component, Record
 from seisblock.records.process import pick
 from seisblock.typing import FloatArray
 from seisblock.units import GAL, KINE
+from seisblock.words import tell
 
 LINES = (("0.1", "-"), ("#1f5a8c", (0, (5, 1.5))), ("#b5651d", (0, (1.2, 1.2))), ("0.55", "-"))
 """Colour and dashes of the components' spectra: told apart in grey too."""
@@ -31,8 +31,7 @@ def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) 
     """
     parts = [pick(record, m.component) for m in answer.components]
     n = len(parts)
-    figure = Figure(figsize=(8.5, 1.1 + 2.2 * n + 3.0), dpi=110, layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = Sheet(8.5, 1.1 + 2.2 * n + 3.0)
     figure.suptitle(_title(record, answer), fontsize=10, x=0.01, ha="left")
     above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=(2.2 * n + 0.4, 3.0))[:, 0]
     histories = above.subplots(2 * n, 1, sharex=True, squeeze=False)[:, 0]
@@ -41,7 +40,7 @@ def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) 
         dress(axis)
     _draw_accelerations(histories[:n], record, parts, answer, gal=gal)
     _draw_velocities(histories[n:], record, parts, answer, gal=gal)
-    label(histories[-1], x="t (s)")
+    label(histories[-1], x=tell("t (s)"))
     histories[-1].set_xlim(record.time[0], record.time[-1])
     _draw_fourier(left, record, parts, answer.conventions.fourier_smoothing_hz, gal=gal)
     _draw_response(right, record, parts, gal=gal)
@@ -51,8 +50,12 @@ def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) 
 def _title(record: Record, answer: RecordMeasures) -> str:
     """Return station, start and intensity in one line."""
     start = record.start.strftime("%Y-%m-%d %H:%M:%S UTC") if record.start else ""
-    intensity = "" if answer.jma_intensity is None else f"JMA intensity {answer.jma_intensity:.2f} ({answer.jma_class})"
-    return "   ".join(text for text in (record.station or "record", start, intensity) if text)
+    intensity = (
+        ""
+        if answer.jma_intensity is None
+        else tell("JMA intensity {value:.2f} ({name})", value=answer.jma_intensity, name=tell(answer.jma_class or ""))
+    )
+    return "   ".join(text for text in (record.station or tell("record"), start, intensity) if text)
 
 
 def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component], answer: RecordMeasures, *, gal: bool) -> None:
@@ -87,7 +90,7 @@ def _draw_velocities(axes: list[Axes], record: Record, parts: list[Component], a
         curve(axis, record.time, history.velocity / unit, color="0.2", linewidth=0.7)
         axis.set_ylim(-reach, reach)
         _note(axis, f"{part.code}   PGV {m.pgv_m_s / unit:.4g} {name}")
-    label(axes[len(axes) // 2], y=f"v ({name})")
+    label(axes[len(axes) // 2], y=tell("v ({unit})", unit=name))
 
 
 def _draw_fourier(axis: Axes, record: Record, parts: list[Component], smoothing_hz: float, *, gal: bool) -> None:
@@ -98,8 +101,8 @@ def _draw_fourier(axis: Axes, record: Record, parts: list[Component], smoothing_
         shown = (frequency >= 0.1) & (frequency <= min(0.5 / record.dt, 30.0))
         axis.plot(frequency[shown], amplitude[shown] / unit, color=colour, linestyle=dashes, linewidth=1.0, label=part.code)
     _logarithmic(axis)
-    label(axis, x="f (Hz)", y=f"|A| ({name})")
-    axis.set_title(f"Fourier amplitude, Parzen {smoothing_hz:g} Hz", fontsize=8, loc="left")
+    label(axis, x=tell("f (Hz)"), y=f"|A| ({name})")
+    axis.set_title(tell("Fourier amplitude, Parzen {width:g} Hz", width=smoothing_hz), fontsize=8, loc="left")
     legend(axis, loc="lower center")
 
 
@@ -110,8 +113,8 @@ def _draw_response(axis: Axes, record: Record, parts: list[Component], *, gal: b
         spectrum = response_spectrum(part.acceleration, record.dt)
         axis.plot(spectrum.period_s, spectrum.sa_m_s2 / unit, color=colour, linestyle=dashes, linewidth=1.0, label=part.code)
     _logarithmic(axis)
-    label(axis, x="T (s)", y=f"$S_A$ ({name})")
-    axis.set_title(f"Response spectrum, damping {100 * DAMPING:g} %", fontsize=8, loc="left")
+    label(axis, x=tell("T (s)"), y=f"Sₐ ({name})")
+    axis.set_title(tell("Response spectrum, damping {damping:g} %", damping=100 * DAMPING), fontsize=8, loc="left")
     legend(axis, loc="lower center")
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
@@ -13,6 +12,7 @@ from seisblock.present.text.rock import Rockings
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.units import GAL
+from seisblock.words import tell
 
 COLOURS = {"rocks to +x": "#f4d9c6", "rocks to -x": "#d5dcef", "beyond +alpha": "#e6b39a", "beyond -alpha": "#a9b6dd"}
 
@@ -20,8 +20,7 @@ COLOURS = {"rocks to +x": "#f4d9c6", "rocks to -x": "#d5dcef", "beyond +alpha": 
 def figure(responses: Rockings, *, gal: bool = True) -> Figure:
     """Return the figure: per component acceleration with its band, lean over alpha with impacts and phases, and the phase plane."""
     n = len(responses)
-    made = Figure(figsize=(10.5, 0.5 + 3.4 * n), dpi=110, layout="constrained")
-    FigureCanvasAgg(made)
+    made = canvas.Sheet(10.5, 0.5 + 3.4 * n)
     grid = made.add_gridspec(2 * n, 2, width_ratios=(2.6, 1.0))
     for index, response in enumerate(responses):
         above = made.add_subplot(grid[2 * index, 0])
@@ -57,15 +56,22 @@ def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> Non
         for arm, alpha in zip(response.body.arms, response.body.slendernesses, strict=True)
     )
     g = options["gravity_m_s2"] / unit
-    band = f"rests within ± {'(g + a_v)' if options['vertical'] else 'g'} tan α"
+    band = tell("rests within ± {g} tan α", g="(g + a_v)" if options["vertical"] else "g")
     axis.fill_between(response.time, -g * right * weight, g * left * weight, color="0.92", linewidth=0, label=band)
     if not options["vertical"]:
         canvas.threshold(axis, [-g * right, g * left])
     canvas.curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
-    canvas.label(axis, y=f"a ({name})")
+    canvas.label(axis, y=tell("a ({unit})", unit=name))
     canvas.legend(axis)
-    e = f"e {outcome.restitution:.3f}" + ("; a 2 % change flips the verdict" if outcome.verdict_flips_within_2_percent else "")
-    axis.set_title(f"{response.motion.name}  {response.body.name}: α {outcome.slenderness_rad:.3f} rad, {e}", fontsize=9, loc="left")
+    title = tell(
+        "{name}  {body}: α {alpha:.3f} rad, e {restitution:.3f}",
+        name=response.motion.name,
+        body=tell(response.body.name),
+        alpha=outcome.slenderness_rad,
+        restitution=outcome.restitution,
+    )
+    title += tell("; a 2 % change flips the verdict") if outcome.verdict_flips_within_2_percent else ""
+    axis.set_title(title, fontsize=9, loc="left")
 
 
 def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
@@ -79,12 +85,12 @@ def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     limit = max(limit, 1.15 * min(reach, 1.4))
     axis.set_ylim(-limit, limit)
     impacts = [event.time_s for event in response.events if event.name == "impact"]
-    axis.plot(impacts, np.full(len(impacts), -0.95 * limit), "|", color="0.2", markersize=5, markeredgewidth=0.6, label="impacts")
+    axis.plot(impacts, np.full(len(impacts), -0.95 * limit), "|", color="0.2", markersize=5, markeredgewidth=0.6, label=tell("impacts"))
     if response.outcome.overturned:
         when = response.outcome.alpha_passed_s
         if when is not None and when <= response.time[-1]:
-            axis.axvline(when, color=canvas.ACCENT, linewidth=0.8, linestyle=":", label="α passed for good")
-    canvas.label(axis, "t (s)", "θ/α")
+            axis.axvline(when, color=canvas.ACCENT, linewidth=0.8, linestyle=":", label=tell("α passed for good"))
+    canvas.label(axis, tell("t (s)"), tell("θ/α"))
     canvas.legend(axis)
 
 
@@ -103,12 +109,12 @@ def _draw_plane(axis: Any, response: Response[RockOutcome]) -> None:
     edge = np.abs(1 - u) if response.options["linear"] else 2 * np.abs(np.sin(alpha * (1 - u) / 2)) / alpha
     for sign in (1, -1):
         inward = np.where(u < 1, edge, -edge)
-        label = "edge of falling, unshaken" if sign > 0 else None
+        label = tell("edge of falling, unshaken") if sign > 0 else None
         axis.plot(sign * u, sign * inward, color="0.3", linewidth=0.8, linestyle=(0, (4, 2)), label=label)
     axis.plot(lean, rate, color=canvas.ACCENT, linewidth=0.7)
     reach = min(max(float(np.abs(lean).max()) * 1.1, 0.2), 1.8)
     high = max(float(np.abs(rate[np.abs(lean) <= reach]).max()) * 1.1, 0.2)
     axis.set_xlim(-reach, reach)
     axis.set_ylim(-high, high)
-    canvas.label(axis, "θ/α", "θ'/(p α)")
+    canvas.label(axis, tell("θ/α"), tell("θ'/(p α)"))
     canvas.legend(axis)

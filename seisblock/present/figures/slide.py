@@ -13,6 +13,7 @@ from seisblock.present.text.slide import Slides, setting
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SLIDING, SlideOutcome
 from seisblock.typing import FloatArray
+from seisblock.words import tell
 
 COLOURS = {SLIDING[0]: "#f4d9c6", SLIDING[1]: "#d5dcef", "flight": "#cfe3d4"}
 
@@ -33,19 +34,19 @@ def _column(panels: Sequence[Any], response: Response[SlideOutcome]) -> None:
     lower, upper = response["lower_limit"], response["upper_limit"]
     canvas.curve(top, time, response["ground_acceleration"], color=canvas.INPUT)
     for index, limit in enumerate((lower, upper)):
-        name = None if index else "limits of static friction"
+        name = None if index else tell("limits of static friction")
         canvas.curve(top, time, limit, color=canvas.THRESHOLD, linestyle=(0, (6, 2, 1, 2)), label=name)
     block = response["ground_velocity"] + response["velocity"]
-    canvas.curve(middle, time, response["ground_velocity"], color=canvas.INPUT, label="base")
-    canvas.curve(middle, time, block, color=canvas.ACCENT, label="object")
+    canvas.curve(middle, time, response["ground_velocity"], color=canvas.INPUT, label=tell("base"))
+    canvas.curve(middle, time, block, color=canvas.ACCENT, label=tell("object"))
     canvas.curve(bottom, time, response["displacement"] * 1e3, color=canvas.ACCENT)
     canvas.shade(middle, phases, COLOURS, names=True)
     canvas.shade(bottom, phases, COLOURS)
     bottom.axhline(0.0, color=canvas.INPUT, linewidth=0.6)
-    for panel, text in zip(panels, ("z'' (m/s²)", "velocity (m/s)", "x − z (mm)"), strict=True):
+    for panel, text in zip(panels, map(tell, ("z'' (m/s²)", "velocity (m/s)", "x − z (mm)")), strict=True):
         canvas.label(panel, y=text)
         canvas.legend(panel)
-    canvas.label(bottom, x="t (s)")
+    canvas.label(bottom, x=tell("t (s)"))
     top.set_title(f"{response.motion.name}: {setting(response)}", fontsize=9, loc="left")
     moving = _moving(time, phases)
     if moving is not None:

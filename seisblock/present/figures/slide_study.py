@@ -14,8 +14,9 @@ from seisblock.criteria.sliding import friction_that_holds, friction_that_stops
 from seisblock.present.figures import canvas
 from seisblock.present.text.slide_study import PLANE, SYMBOLS, Arrangement, Points, panels_of, value_of
 from seisblock.records import Record, motion_of
+from seisblock.words import noted, tell
 
-SLIP_LABEL = "largest slip (m)"
+SLIP_LABEL = noted("largest slip (m)")
 LEAST_SHADE = 1e-4
 """Slip, m, below which the plane stays white."""
 
@@ -38,7 +39,7 @@ def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length
         else:
             _curves(axis, part, slope_length)
         axis.set_title(title, fontsize=9, loc="left")
-    if axes[0].get_ylabel() == SLIP_LABEL:
+    if axes[0].get_ylabel() == tell(SLIP_LABEL):
         axes[0].set_ylim(bottom=0.0)
     return made
 
@@ -61,8 +62,8 @@ def _curves(axis: Any, points: Points, slope_length: float | None) -> None:
     if ratio:
         axis.axhline(1.0, color=canvas.INPUT, linewidth=0.7)
     if slope_length is not None and not ratio:
-        axis.axhline(slope_length, color=canvas.THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label="foot of the slope")
-    canvas.label(axis, x=SYMBOLS[arrangement.x], y="β (1)" if ratio else SLIP_LABEL)
+        axis.axhline(slope_length, color=canvas.THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label=tell("foot of the slope"))
+    canvas.label(axis, x=tell(SYMBOLS[arrangement.x]), y="β (1)" if ratio else tell(SLIP_LABEL))
     canvas.legend(axis, loc="best", bbox_to_anchor=None, borderaxespad=0.5, ncols=1 if len(names) < 6 else 2)
 
 
@@ -82,7 +83,7 @@ def _plane(axis: Any, points: Points) -> None:
     norm = LogNorm(LEAST_SHADE, max(float(np.nanmax(slip)), 100.0 * LEAST_SHADE))
     mesh = axis.pcolormesh(slopes, frictions, slip, norm=norm, cmap="Greys", shading="nearest")
     bar = axis.figure.colorbar(mesh, ax=axis, pad=0.02)
-    bar.set_label(SLIP_LABEL, fontsize=9)
+    bar.set_label(tell(SLIP_LABEL), fontsize=9)
     bar.ax.tick_params(labelsize=8)
 
 
@@ -91,14 +92,16 @@ def _criteria(axis: Any, points: Points, record: Record, gravity: float) -> None
     angles = np.array([point.slope_deg for point in points])
     frictions = [point.mu for point in points]
     dense = np.linspace(angles.min(), angles.max(), 100)
-    axis.plot(dense, np.tan(np.radians(np.abs(dense))), color=canvas.INPUT, linewidth=0.9, label="holds at rest: tan θ")
+    axis.plot(dense, np.tan(np.radians(np.abs(dense))), color=canvas.INPUT, linewidth=0.9, label=tell("holds at rest: tan θ"))
     for kappa in sorted({point.kappa for point in points if point.kappa > 0.0})[:3]:
         stops = [friction_that_stops(abs(angle), kappa) for angle in dense]
         axis.plot(dense, stops, color=canvas.ACCENT, linewidth=1.1, label=f"(14): tan θ / κ, κ {kappa:g}")
     motion = motion_of(record, points[0].component)
     for scale, style in zip(list(dict.fromkeys(point.vertical for point in points))[:2], ("-", "--"), strict=False):
         starts = [friction_that_holds(angle, motion.horizontal / gravity, scale * motion.vertical / gravity).max() for angle in dense]
-        axis.plot(dense, starts, style, color=canvas.SECOND, linewidth=1.1, label="(15): this record" + (f", γ {scale:g}" if scale else ""))
+        axis.plot(
+            dense, starts, style, color=canvas.SECOND, linewidth=1.1, label=tell("(15): this record") + (f", γ {scale:g}" if scale else "")
+        )
     axis.set_ylim(min(frictions), max(frictions))
     canvas.label(axis, x=SYMBOLS["slope_deg"], y=SYMBOLS["mu"])
     canvas.legend(axis, ncols=3)

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
 from seisblock.present.text.sliding_spectrum import Curves
+from seisblock.words import tell
 
 
 def figure(curves: Curves) -> Figure:
@@ -17,6 +18,6 @@ def figure(curves: Curves) -> Figure:
         slips = [p.max_slip_m or np.nan for p in points]
         axis.plot([p.mu for p in points], slips, color=style[0], linestyle=style[1], linewidth=1.2, label=motion.name or "x")
     axis.set_yscale("log")
-    canvas.label(axis, "μ", "largest slip (m)")
+    canvas.label(axis, "μ", tell("largest slip (m)"))
     canvas.legend(axis)
     return made

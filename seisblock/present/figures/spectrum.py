@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from seisblock.present.figures import canvas
 from seisblock.present.text.spectrum import Spectra
 from seisblock.typing import FloatArray
+from seisblock.words import tell
 
 
 def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
@@ -34,16 +35,16 @@ def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
         if x.min() < still < x.max():
             axis.axvline(still, color=canvas.THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label="PGA = g tan α")
             canvas.legend(axis, loc="lower right", bbox_to_anchor=(1.0, 0.0))
-        axis.set_title(f"{motion.name}: red overturns", fontsize=9, loc="left")
+        axis.set_title(tell("{name}: red overturns", name=motion.name), fontsize=9, loc="left")
         axis.grid(False)
-        canvas.label(axis, "α (degrees)", "2R (m)" if axis is axes[0] else "")
+        canvas.label(axis, tell("α (degrees)"), "2R (m)" if axis is axes[0] else "")
         top = axis.secondary_xaxis("top", functions=(_height_over_width, _degrees))
         top.set_xlabel("H/B", fontsize=8)
         top.set_xticks([k for k in (1.5, 2, 3, 4, 6, 10) if _degrees(k) >= x.min() and _degrees(k) <= x.max()])
         top.tick_params(labelsize=7)
     if shaded is not None:
         bar = made.colorbar(shaded, ax=axes, shrink=0.85, pad=0.02)
-        bar.set_label("largest lean over α (white: stands still)", fontsize=8)
+        bar.set_label(tell("largest lean over α (white: stands still)"), fontsize=8)
         bar.ax.tick_params(labelsize=7)
     return made
 

@@ -12,6 +12,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.text.stack import NOTICEABLE_SLIP, NOTICEABLE_TILT, Stacks
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome
+from seisblock.words import tell
 
 SHADES = ("#c0392b", "#1f5a8c", "#7d7d7d", "#b8860b", "#4f7f4f", "#7a4f8c", "#111111")
 DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1, 2)), (0, (1, 1)), (0, (8, 2, 2, 2)), "-")
@@ -32,14 +33,14 @@ def _column(panels: Sequence[Any], response: Response[StackOutcome]) -> None:
     import numpy as np
 
     motion = response.motion
-    rows = (("up", 2, "0.75"), ("across", 1, "0.6"), (motion.name or "along", 0, canvas.INPUT))
+    rows = ((tell("up"), 2, "0.75"), (tell("across"), 1, "0.6"), (motion.name or tell("along +x"), 0, canvas.INPUT))
     for name, row, grey in rows:
         values = motion.acceleration[row]
         acts = row == 0 or (row == 1 and response.options["across"]) or (row == 2 and response.options["vertical"])
         if acts and values.any():
             canvas.curve(panels[0], motion.time, values, color=grey, label=name)
     for index, name in enumerate(reversed(response.body.names)):
-        style = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": name}
+        style: dict[str, Any] = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": tell(name)}
         canvas.curve(panels[1], response.time, np.degrees(response[f"{name}_tilt"]), **style)
         canvas.curve(panels[2], response.time, response[f"{name}_slip"] * 1e3, **style)
     for panel, quantity, factor in ((panels[1], "tilt", math.degrees(1.0)), (panels[2], "slip", 1e3)):
@@ -49,14 +50,14 @@ def _column(panels: Sequence[Any], response: Response[StackOutcome]) -> None:
             panel.axvline(event.time_s, color="0.3", linewidth=0.8, linestyle=(0, (2, 2)))
     panels[2].set_xlim(*stretch(response, margin=1.0))
     if response.events:
-        falls = ", ".join(f"{event.name.removesuffix(' falls')} {event.time_s:.2f} s" for event in response.events)
-        panels[1].text(0.01, 0.95, f"falls: {falls}", transform=panels[1].transAxes, fontsize=7, va="top")
+        falls = [f"{tell(event.name.removesuffix(' falls'))} {event.time_s:.2f} s" for event in response.events]
+        panels[1].text(0.01, 0.95, tell("falls: {stones}", stones=falls), transform=panels[1].transAxes, fontsize=7, va="top")
     canvas.legend(panels[0])
     canvas.legend(panels[1])
-    panels[0].set_title(f"+x = {motion.name}: {response.body.name}", fontsize=9, loc="left")
-    for panel, text in zip(panels, ("ground acceleration (m/s²)", "tilt θ (deg)", "slip s (mm)"), strict=True):
+    panels[0].set_title(f"+x = {motion.name}: {tell(response.body.name)}", fontsize=9, loc="left")
+    for panel, text in zip(panels, map(tell, ("ground acceleration (m/s²)", "tilt θ (deg)", "slip s (mm)")), strict=True):
         canvas.label(panel, y=text)
-    canvas.label(panels[2], x="t (s)")
+    canvas.label(panels[2], x=tell("t (s)"))
 
 
 def _largest(response: Response[StackOutcome], quantity: str) -> float:

@@ -9,6 +9,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.text.stack_criterion import Scaled
 from seisblock.studies.gravestone_criterion import CriterionStudy, frequencies_of
 from seisblock.units import GAL
+from seisblock.words import tell
 
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
@@ -33,16 +34,26 @@ def figure(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, 
             text = f"{name}, {thresholds[0].frequency_hz:.1f} Hz"
             left.plot(*zip(*part, strict=True), "-", color=(canvas.ACCENT, canvas.SECOND)[index % 2], linewidth=1.2, label=text)
     left.set_ylim(0.0, 6.8)
-    left.set_title("most squat stone that falls, and eq. (7)", fontsize=9, loc="left")
+    left.set_title(tell("most squat stone that falls, and eq. (7)"), fontsize=9, loc="left")
     canvas.label(left, "PGA (gal)", "H/B (1)")
     curve = np.linspace(0.3, 3.2, 200)
-    right.plot(curve, overturning_level(curve, fit) / GAL, color=canvas.INPUT, linewidth=1.2, label=f"published {equation}")
+    right.plot(
+        curve,
+        overturning_level(curve, fit) / GAL,
+        color=canvas.INPUT,
+        linewidth=1.2,
+        label=tell("published, eq. {equation}", equation=equation),
+    )
     if study.fit is not None:
-        right.plot(curve, overturning_level(curve, study.fit) / GAL, color=canvas.ACCENT, linewidth=1.0, label="this study, eq. (8)")
-    right.plot(list(study.levels), [a / GAL for a in study.levels.values()], "o", color=canvas.ACCENT, markersize=5, label="this study")
-    right.plot(list(rigid), [a / GAL for a in rigid.values()], "x", color="0.1", markersize=5, label="rigid block, outermost points")
+        right.plot(curve, overturning_level(curve, study.fit) / GAL, color=canvas.ACCENT, linewidth=1.0, label=tell("this study, eq. (8)"))
+    right.plot(
+        list(study.levels), [a / GAL for a in study.levels.values()], "o", color=canvas.ACCENT, markersize=5, label=tell("this study")
+    )
+    right.plot(
+        list(rigid), [a / GAL for a in rigid.values()], "x", color="0.1", markersize=5, label=tell("rigid block on the outermost points")
+    )
     right.set_ylim(bottom=0.0)
-    right.set_title("level", fontsize=9, loc="left")
+    right.set_title(tell("level"), fontsize=9, loc="left")
     canvas.label(right, "f (Hz)", "a(f) (gal)")
     for axis, columns in ((left, 2), (right, 1)):
         axis.legend(fontsize=7, frameon=False, ncols=columns, loc="upper right" if axis is left else "upper left")

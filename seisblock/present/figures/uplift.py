@@ -13,12 +13,14 @@ from matplotlib.patches import Rectangle
 from seisblock.bodies.spring_block import CORNERS
 from seisblock.present.figures import canvas
 from seisblock.results import Phase, Response
+from seisblock.words import tell
 
 if TYPE_CHECKING:
     from seisblock.solvers.uplift.solve import UpliftOutcome
 
 COLOURS = (canvas.ACCENT, canvas.SECOND, "#2e7d4f", "#8a6d1f", "#6b4c8a", "0.25")
 LIFTED = canvas.BANDS[0]
+SUBSCRIPTS = "₁₂₃₄"
 
 
 def record_figure(responses: Sequence[Response[UpliftOutcome]]) -> Figure:
@@ -36,7 +38,7 @@ def record_figure(responses: Sequence[Response[UpliftOutcome]]) -> Figure:
             _corner(panel, response, i)
         for panel in panels[:4]:
             panel.tick_params(labelbottom=False)
-        canvas.label(panels[4], x="t (s)")
+        canvas.label(panels[4], x=tell("t (s)"))
         start, end = _span(response)
         panels[0].set_xlim(start, end)
         _plan(panels[5], response, start, end)
@@ -56,18 +58,21 @@ def _span(response: Response[UpliftOutcome]) -> tuple[float, float]:
 def _motion(panel: Axes, response: Response[UpliftOutcome]) -> None:
     """Draw the three components of the ground motion."""
     motion = response.motion
-    for values, name, style in zip(motion.acceleration, ("along +x", "across", "up"), ("0.2", "0.55", canvas.SECOND), strict=True):
+    for values, name, style in zip(
+        motion.acceleration, map(tell, ("along +x", "across", "up")), ("0.2", "0.55", canvas.SECOND), strict=True
+    ):
         if np.any(values):
             canvas.curve(panel, motion.time, values, color=style, label=name, linewidth=0.7)
-    canvas.label(panel, y="a (m/s²)")
+    canvas.label(panel, y=tell("a ({unit})", unit="m/s²"))
     canvas.legend(panel)
-    panel.set_title(f"+x = {motion.name or 'along'}: {_size(response)}", fontsize=9, loc="left")
+    panel.set_title(f"+x = {motion.name or 'x'}: {_size(response)}", fontsize=9, loc="left")
 
 
 def _size(response: Response[UpliftOutcome]) -> str:
     """Return the block in words."""
     body = response.body
-    return f"{body.width:g} × {body.depth:g} × {body.height:g} m, {body.omega[2] / 2 / np.pi:.3g} Hz vertical"
+    size = f"{body.width:g} × {body.depth:g} × {body.height:g} m"
+    return tell("{size}, {f:.3g} Hz vertical", size=size, f=body.omega[2] / 2 / np.pi)
 
 
 def _corner(panel: Axes, response: Response[UpliftOutcome], i: int) -> None:
@@ -76,10 +81,14 @@ def _corner(panel: Axes, response: Response[UpliftOutcome], i: int) -> None:
     canvas.curve(panel, response.time, response[f"uplift_{i + 1}"] * 1e3, color=canvas.ACCENT)
     panel.axhline(0.0, color=canvas.THRESHOLD, linewidth=0.6)
     canvas.shade(panel, _in_air(response, i), {"in the air": LIFTED})
-    canvas.label(panel, y=f"$u_{i + 1}$ (mm)")
+    canvas.label(panel, y=f"u{SUBSCRIPTS[i]} (mm)")
     sx, sy = ("+" if sign > 0 else "−" for sign in CORNERS[i])
-    told = f"first at {corner.first_uplift_s:.3f} s, highest {corner.max_uplift_m * 1e3:.3g} mm" if corner.uplifts else "never lifts"
-    panel.set_title(f"corner {i + 1} ({sx}x, {sy}y): {told}", fontsize=8, loc="left", pad=2)
+    if corner.uplifts:
+        told = tell("first at {time:.3f} s, highest {most:.3g} mm", time=corner.first_uplift_s, most=corner.max_uplift_m * 1e3)
+    else:
+        told = tell("never lifts")
+    title = tell("corner {number} ({place}): {told}", number=i + 1, place=f"{sx}x, {sy}y", told=told)
+    panel.set_title(title, fontsize=8, loc="left", pad=2)
 
 
 def _in_air(response: Response[UpliftOutcome], i: int) -> list[Phase]:
@@ -132,12 +141,12 @@ def _plan(panel: Axes, response: Response[UpliftOutcome], start: float, end: flo
                     linewidth=0,
                 )
             )
-        told = f"{corner.uplift_duration_s:.2f} s in the air" if corner.uplifts else "never lifts"
-        panel.annotate(told + (", the first" if first else ""), (left, y + tall), fontsize=7, va="bottom")
+        told = tell("{time:.2f} s in the air", time=corner.uplift_duration_s) if corner.uplifts else tell("never lifts")
+        panel.annotate(told + (tell(", the first") if first else ""), (left, y + tall), fontsize=7, va="bottom")
     reach = half_a + 1.3 * body.width
     panel.set_xlim(-reach, reach)
     panel.set_ylim(-half_b - 0.35 * body.depth, half_b + 0.35 * body.depth)
-    panel.set_title(f"plan: when each corner was in the air, {start:.4g} to {end:.4g} s", fontsize=8, loc="left")
+    panel.set_title(tell("plan: when each corner was in the air, {start:.4g} to {end:.4g} s", start=start, end=end), fontsize=8, loc="left")
     canvas.label(panel, x="x (m)", y="y (m)")
 
 

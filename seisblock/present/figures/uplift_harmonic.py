@@ -12,9 +12,13 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.uplift import COLOURS, LIFTED
 from seisblock.present.text.uplift_harmonic import SYMBOLS, title, varied_names
 from seisblock.studies.uplift_regions import UpliftRegion, frequencies_against
+from seisblock.words import noted, tell
 
 STYLES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (6, 1.5, 1.5, 1.5)), (0, (3, 1, 1, 1, 1, 1)), (0, (8, 3)))
 """Lines that stay apart in grey."""
+
+GROUPS = (noted("first rocking"), noted("second rocking"), noted("vertical"), noted("torsion"))
+"""How the names of modes begin."""
 
 
 def harmonic_figure(regions: Sequence[UpliftRegion], figure: int | None = None) -> Figure:
@@ -22,12 +26,12 @@ def harmonic_figure(regions: Sequence[UpliftRegion], figure: int | None = None) 
     if figure in (3, 4):
         made, (panel,) = canvas.new_figure(1, width=6.5, height=5.0)
         _frequencies(panel, regions, "beta" if figure == 3 else "alpha")
-        panel.set_title(f"as fig. {figure}", fontsize=9, loc="left")
+        panel.set_title(tell("as fig. {number}", number=figure), fontsize=9, loc="left")
         return made
     if figure is not None:
         made, (panel,) = canvas.new_figure(1, width=7.5, height=5.0)
         _regions(panel, regions)
-        panel.set_title(f"as fig. {figure}: {panel.get_title(loc='left')}", fontsize=9, loc="left")
+        panel.set_title(tell("as fig. {number}: {what}", number=figure, what=panel.get_title(loc="left")), fontsize=9, loc="left")
         return made
     made, panels = canvas.new_figure(1, columns=3, width=15.0, height=4.8, sharex=False, gridspec_kw={"width_ratios": [1.7, 1, 1]})
     _regions(panels[0], regions)
@@ -54,12 +58,12 @@ def _regions(panel: Axes, regions: Sequence[UpliftRegion]) -> None:
     if len(regions) == 1:
         only = regions[0]
         panel.fill_between(only.frequency_ratio, np.minimum(only.acceleration_ratio, 10.0), 10.0, color=LIFTED, alpha=0.6, linewidth=0)
-        panel.text(only.minimum.frequency_ratio, 0.8, "a corner lifts", ha="center", fontsize=8)
+        panel.text(only.minimum.frequency_ratio, 0.8, tell("a corner lifts"), ha="center", fontsize=8)
     panel.set_ylim(0.0, 1.0)
     panel.set_xlim(*_reach(regions))
-    canvas.label(panel, x=r"$\theta/\omega_1$", y="A/g")
+    canvas.label(panel, x="θ/ω₁", y="A/g")
     fixed = [name for name in SYMBOLS if name not in names]
-    rule = "least of four corners" if regions[0].corner is None else f"corner {regions[0].corner}"
+    rule = tell("least of four corners") if regions[0].corner is None else tell("corner {number}", number=regions[0].corner)
     panel.set_title(f"{title(regions[0], fixed)}; {rule}", fontsize=9, loc="left")
     canvas.legend(panel, ncols=1, loc="best", bbox_to_anchor=None, borderaxespad=0.5)
 
@@ -76,7 +80,7 @@ def _frequencies(panel: Axes, regions: Sequence[UpliftRegion], against: str) -> 
     other = "alpha" if against == "beta" else "beta"
     gamma = regions[0].ratios["gamma"]
     values = np.linspace(0.01, 3.0, 150)
-    groups = {"first rocking": canvas.ACCENT, "second rocking": canvas.SECOND, "vertical": "0.35", "torsion": "#2e7d4f"}
+    groups = dict(zip(GROUPS, (canvas.ACCENT, canvas.SECOND, "0.35", "#2e7d4f"), strict=True))
     chosen = sorted({region.ratios[other] for region in regions})
     for index, fixed in enumerate(chosen):
         curves = frequencies_against(against, values, **{against: 1.0, other: fixed}, gamma=gamma)
@@ -87,10 +91,10 @@ def _frequencies(panel: Axes, regions: Sequence[UpliftRegion], against: str) -> 
                 continue
             panel.plot(values, curve, color=groups[group], linewidth=1.1, linestyle=STYLES[index % len(STYLES)])
     for group, colour in groups.items():
-        panel.plot([], [], color=colour, label=group)
+        panel.plot([], [], color=colour, label=tell(group))
     for index, fixed in enumerate(chosen):
         panel.plot([], [], color="0.2", linestyle=STYLES[index % len(STYLES)], label=f"{SYMBOLS[other]} = {fixed:.4g}")
     panel.set_xlim(0.0, 3.0)
     panel.set_ylim(0.0, 5.0)
-    canvas.label(panel, x=SYMBOLS[against], y=r"$\omega_i/\omega_V$")
+    canvas.label(panel, x=SYMBOLS[against], y="ωᵢ/ωᵥ")
     canvas.legend(panel, ncols=2, loc="upper left", bbox_to_anchor=None, borderaxespad=0.5)

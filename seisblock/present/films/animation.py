@@ -35,17 +35,15 @@ class Filming:
     ----------
     slow : float
         How many times slower than life it plays.
-    lang : "en" or "ja"
     progress : callable
     """
 
     slow: float = 1.0
-    lang: str = "en"
     progress: Progress | None = None
 
 
 REAL_TIME = Filming()
-"""As fast as life, in English."""
+"""As fast as life."""
 
 SUFFIXES = (".gif", ".mp4", ".html")
 

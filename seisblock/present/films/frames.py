@@ -7,15 +7,13 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from PIL import Image
 
 from seisblock.present.figures import canvas
-from seisblock.present.figures.fonts import speak
 from seisblock.present.films.animation import Filming, stage
 from seisblock.present.films.film import Film
-from seisblock.present.words import translate
+from seisblock.words import tell
 
 FLOOR, EDGE = "#c9ccd0", "0.2"
 
@@ -30,9 +28,9 @@ def film_frames(film: Film, speed: float, filming: Filming) -> Iterator[Image.Im
     speed : float
         How many times faster than life it plays.
     filming : Filming
-        Language and progress.
+        Progress.
     """
-    figure = Figure(figsize=(8.0, 4.2 + 1.15 * len(film.strips)), dpi=100, layout="constrained")
+    figure = canvas.Sheet(8.0, 4.2 + 1.15 * len(film.strips), dpi=100)
     figure.suptitle(film.title, fontsize=10, x=0.01, ha="left")
     grid = figure.add_gridspec(1 + len(film.strips), 2, height_ratios=(3.6, *([1.0] * len(film.strips))), width_ratios=(1.35, 1.0))
     scene = figure.add_subplot(grid[0, 0] if film.close else grid[0, :])
@@ -46,14 +44,13 @@ def film_frames(film: Film, speed: float, filming: Filming) -> Iterator[Image.Im
         canvas.label(panels[-1], y=strip.label)
     clock = scene.text(0.01, 0.985, " ", transform=scene.transAxes, va="top", fontsize=9)
     cursors = [panel.axvline(film.time[0], color="0.1", linewidth=1.0) for panel in panels]
-    speak(figure, filming.lang)
-    told = translate(pace(speed), filming.lang)
+    told = pace(speed)
 
     def draw(index: int) -> None:
         now = float(film.time[index])
         for actor in actors:
             actor.place(index)
-        clock.set_text(f"{now:.3f} s   {translate(film.phase_at(now), filming.lang)}\n{told}")
+        clock.set_text(f"{now:.3f} s   {tell(film.phase_at(now))}\n{told}")
         for cursor in cursors:
             cursor.set_xdata([now, now])
         if filming.progress is not None:
@@ -66,8 +63,8 @@ def film_frames(film: Film, speed: float, filming: Filming) -> Iterator[Image.Im
 def pace(speed: float) -> str:
     """Say how fast a film plays."""
     if abs(speed - 1.0) < 1e-9:
-        return "real time"
-    return f"{speed:g} x real time" if speed > 1.0 else f"{1 / speed:g} x slower"
+        return tell("real time")
+    return tell("{times:g} x real time", times=speed) if speed > 1.0 else tell("{times:g} x slower", times=1 / speed)
 
 
 class _Scene:
@@ -84,7 +81,7 @@ class _Scene:
         else:
             canvas.dress(axis)
             canvas.label(axis, "x (m)", "z (m)")
-            axis.set_title("enlarged, seen from the ground", fontsize=8, loc="left")
+            axis.set_title(tell("enlarged, seen from the ground"), fontsize=8, loc="left")
         self.floors = [Polygon(floor, facecolor=FLOOR, edgecolor="none") for floor in film.floors]
         self.ticks = axis.plot([], [], "|", color="0.45", markersize=6, clip_on=True)[0] if moving else None
         self.marks = _marks(left, right)
@@ -141,4 +138,4 @@ def _strip(axis: Axes, film: Film, index: int, *, last: bool) -> None:
     axis.set_ylim(low - margin, high + margin)
     axis.tick_params(labelbottom=last)
     if last:
-        canvas.label(axis, "t (s)")
+        canvas.label(axis, tell("t (s)"))

@@ -14,6 +14,7 @@ from seisblock.present.films.projector import animate_film
 from seisblock.results import Response
 from seisblock.solvers.jump.solve import JumpOutcome
 from seisblock.typing import FloatArray
+from seisblock.words import tell
 
 PEDESTAL = 0.06
 """Half width of the stone under each foot, a share of the block's width."""
@@ -33,20 +34,22 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray) -> Film:
     body = Body(_pieces(block), x, z, turn)
     half, below = block.width / 2, -block.centroid_height
     feet = [body.path(np.array([side * half, below])) for side in (-1.0, 1.0)]
-    trails = tuple(Trail(name, *foot, colour) for name, foot, colour in zip(("left foot", "right foot"), feet, FEET, strict=True))
+    trails = tuple(
+        Trail(name, *foot, colour) for name, foot, colour in zip(map(tell, ("left foot", "right foot")), feet, FEET, strict=True)
+    )
     rise = (response["height"] - block.centroid_height) * 1e3
     level = response.outcome.rocking_threshold_m_s2 * 100.0
     return Film(
-        title=f"{motion.name}  {block.name}: {response.outcome.outcome}",
+        title=f"{motion.name}  {tell(block.name)}: {tell(response.outcome.outcome)}",
         time=times,
         shift=ground_shift(motion, times),
         bodies=(body,),
         floors=tuple(_floors(block, drop, float(np.abs(x).max()))),
         trails=trails,
         strips=(
-            Strip("a (gal)", motion.time, motion.horizontal * 100.0, (-level, level), "#737373"),
-            Strip("θ (deg)", response.time, np.degrees(response["rotation"])),
-            Strip("rise of G (mm)", response.time, rise),
+            Strip(tell("a ({unit})", unit="gal"), motion.time, motion.horizontal * 100.0, (-level, level), "#737373"),
+            Strip(tell("θ (deg)"), response.time, np.degrees(response["rotation"])),
+            Strip(tell("rise of G (mm)"), response.time, rise),
         ),
         phases=response.phases,
         colours=COLOURS,

@@ -13,8 +13,8 @@ from seisblock.present.figures.canvas import thin
 from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Film, Strip
 from seisblock.present.page import page
-from seisblock.present.words import translate
 from seisblock.typing import FloatArray
+from seisblock.words import language, tell
 
 STYLE = """
 canvas { display: block; width: 100%; } .scenes { display: grid; grid-template-columns: 1fr; gap: .6rem; }
@@ -40,41 +40,36 @@ def film_page(film: Film, filming: Filming) -> str:
     film : Film
         For as many moments as slow motion needs.
     filming : Filming
-        Speed at the start, and language.
+        Speed at the start.
     """
-    lang = filming.lang
     text = json.dumps(_data(film, filming), ensure_ascii=False, separators=(",", ":")).replace("</", "<\\/")
     script = Path(__file__).with_name("film.js").read_text(encoding="utf-8")
     close = ""
     if film.close:
-        named = ((trail.colour, escape(translate(trail.name, lang))) for trail in film.trails)
+        named = ((trail.colour, escape(trail.name)) for trail in film.trails)
         key = "".join(f'<span class="trail"><i style="background:{colour}"></i>{name}</span>' for colour, name in named)
-        close = (
-            f"<figure><figcaption>{translate('enlarged, seen from the ground', lang)} {key}</figcaption>"
-            '<canvas id="close"></canvas></figure>'
-        )
+        close = f'<figure><figcaption>{tell("enlarged, seen from the ground")} {key}</figcaption><canvas id="close"></canvas></figure>'
     body = [
         f'<div class="scenes{" both" if film.close else ""}"><figure><figcaption><span class="clock" id="clock"></span> '
         f'<span id="phase"></span></figcaption><canvas id="scene"></canvas></figure>{close}</div>',
         '<div class="panel"><button id="play"></button><input id="at" type="range" min="0" max="1000" value="0" aria-label="time">'
-        f'<select id="pace" aria-label="speed">{_paces(1.0 / filming.slow, lang)}</select></div>',
+        f'<select id="pace" aria-label="speed">{_paces(1.0 / filming.slow)}</select></div>',
         *(f'<canvas id="strip{index}"></canvas>' for index in range(len(film.strips))),
         f'<script type="application/json" id="film">{text}</script>',
         f"<script>{script}</script>",
     ]
-    return page(translate(film.title, lang), body, lang=lang, style=STYLE)
+    return page(film.title, body, lang=language(), style=STYLE)
 
 
-def _paces(chosen: float, lang: str) -> str:
+def _paces(chosen: float) -> str:
     """Return the choices of speed, the chosen one among them."""
     options = sorted({*PACES, chosen})
-    told = {value: f"× {value:g}" + (f" ({translate('real time', lang)})" if value == 1.0 else "") for value in options}
+    told = {value: f"× {value:g}" + (f" ({tell('real time')})" if value == 1.0 else "") for value in options}
     return "".join(f'<option value="{value!r}"{" selected" if value == chosen else ""}>{told[value]}</option>' for value in options)
 
 
 def _data(film: Film, filming: Filming) -> dict[str, Any]:
     """Return everything the script draws."""
-    lang = filming.lang
     return {
         "first": float(film.time[0]),
         "last": float(film.time[-1]),
@@ -93,21 +88,21 @@ def _data(film: Film, filming: Filming) -> dict[str, Any]:
             for body in film.bodies
         ],
         "trails": [{"x": _numbers(t.x, METRES), "z": _numbers(t.z, METRES), "colour": t.colour} for t in film.trails],
-        "strips": [_strip(film, strip, lang) for strip in film.strips],
+        "strips": [_strip(film, strip) for strip in film.strips],
         "phases": [[phase.start_s, phase.end_s, film.colours[phase.name]] for phase in film.seen if phase.name in film.colours],
-        "names": [[phase.start_s, phase.end_s, translate(phase.name, lang)] for phase in film.seen],
-        "words": {"play": "再生" if lang == "ja" else "play", "pause": "停止" if lang == "ja" else "pause"},
+        "names": [[phase.start_s, phase.end_s, tell(phase.name)] for phase in film.seen],
+        "words": {"play": tell("play"), "pause": tell("pause")},
     }
 
 
-def _strip(film: Film, strip: Strip, lang: str) -> dict[str, Any]:
+def _strip(film: Film, strip: Strip) -> dict[str, Any]:
     """Return one curve over the time shown, with the range of its axis."""
     inside = (strip.time >= film.time[0]) & (strip.time <= film.time[-1])
     time, values = thin(strip.time[inside], strip.values[inside], 3000)
     low, high = float(np.min(values, initial=0.0)), float(np.max(values, initial=0.0))
     margin = 0.08 * (high - low) or 1.0
     return {
-        "label": translate(strip.label, lang),
+        "label": strip.label,
         "time": _numbers(time, SECONDS),
         "values": [float(f"{v:.5g}") for v in values],
         "levels": strip.levels,

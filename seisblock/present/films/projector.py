@@ -30,7 +30,7 @@ def animate_film(build: Build, span: tuple[float, float], path: Path | str, film
     path : path
         ``.gif``, ``.mp4`` (needs ffmpeg), or ``.html`` (one page that draws the film itself, at any size and speed).
     filming : Filming
-        Speed, language, progress.
+        Speed and progress.
 
     Raises
     ------

@@ -17,6 +17,7 @@ from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.typing import FloatArray
+from seisblock.words import tell
 
 
 def animate_rocking(response: Response[RockOutcome], path: Path | str, filming: Filming = REAL_TIME) -> None:
@@ -29,7 +30,7 @@ def animate_rocking(response: Response[RockOutcome], path: Path | str, filming: 
     path : path
         ``.gif``, ``.mp4`` or ``.html``.
     filming : Filming
-        Speed, language, progress.
+        Speed and progress.
     """
     animate_film(lambda times: rocking_film(response, times), stretch(response), path, filming)
 
@@ -45,14 +46,14 @@ def rocking_film(response: Response[RockOutcome], times: FloatArray) -> Film:
     alpha = math.degrees(outcome.slenderness_rad)
     wide = 4.0 * math.hypot(block.width, block.height)
     return Film(
-        title=f"{motion.name}  {block.name}: {'overturns' if outcome.overturned else 'stands'}",
+        title=f"{motion.name}  {tell(block.name)}: {tell('overturns') if outcome.overturned else tell('stands')}",
         time=times,
         shift=ground_shift(motion, times),
         bodies=(Body((Piece(outline - outline[0]),), origins[:, 0], origins[:, 1], lean),),
         floors=(rectangle(-wide, wide, -block.height, 0.0),),
         strips=(
-            Strip("a (gal)", motion.time, motion.horizontal * 100.0, (-level, level), "#737373"),
-            Strip("θ (deg)", response.time, np.degrees(response["rotation"]), (-alpha, alpha)),
+            Strip(tell("a ({unit})", unit="gal"), motion.time, motion.horizontal * 100.0, (-level, level), "#737373"),
+            Strip(tell("θ (deg)"), response.time, np.degrees(response["rotation"]), (-alpha, alpha)),
         ),
         phases=response.phases,
         colours=COLOURS,

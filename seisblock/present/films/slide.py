@@ -16,6 +16,7 @@ from seisblock.present.text.slide import setting
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
 from seisblock.typing import FloatArray
+from seisblock.words import tell
 
 SMALLEST = 0.05
 """Least width at which the object is drawn, m: the model gives it none, so it is drawn half as wide as it slides far."""
@@ -44,10 +45,10 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray) -> Film:
         shift=ground_shift(motion, times),
         bodies=(Body((block,), x, z, turn),),
         floors=(_floor(base, float(np.abs(slip).max()) + 4.0 * size),),
-        trails=(Trail("object", x, z),),
+        trails=(Trail(tell("object"), x, z),),
         strips=(
-            Strip("a (gal)", motion.time, gal, (-limit, limit) if level else (), "#737373"),
-            Strip("x − z (mm)", response.time, response["displacement"] * 1e3),
+            Strip(tell("a ({unit})", unit="gal"), motion.time, gal, (-limit, limit) if level else (), "#737373"),
+            Strip(tell("x − z (mm)"), response.time, response["displacement"] * 1e3),
         ),
         phases=response.phases,
         colours=COLOURS,

@@ -10,20 +10,18 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
-from matplotlib.figure import Figure
 from PIL import Image
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.measures import ground_history
 from seisblock.present.figures import canvas
-from seisblock.present.figures.fonts import speak
 from seisblock.present.figures.stack import DASHES, SHADES, stretch
 from seisblock.present.films.animation import REAL_TIME, Filming, animate, frame_times, stage
 from seisblock.present.films.frames import pace
-from seisblock.present.words import translate
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome, rotated
 from seisblock.typing import FloatArray
+from seisblock.words import tell
 
 AZIMUTH, ELEVATION = math.radians(-60.0), math.radians(16.0)
 """Where the viewer stands: from +x towards +y, and above the ground."""
@@ -58,7 +56,7 @@ def animate_stack(response: Response[StackOutcome], path: Path | str, filming: F
     path : path
         ``.gif``, ``.mp4`` (needs ffmpeg) or ``.html``.
     filming : Filming
-        Speed, language, progress.
+        Speed and progress.
     """
     first, last = stretch(response, margin=1.5)
     times, speed = frame_times(first, last, slow=filming.slow)
@@ -68,14 +66,14 @@ def animate_stack(response: Response[StackOutcome], path: Path | str, filming: F
 def _pictures(response: Response[StackOutcome], times: FloatArray, speed: float, filming: Filming) -> Iterator[Image.Image]:
     """Yield the pictures at these times."""
     body: Pile = response.body
-    figure = Figure(figsize=(7.0, 7.6), dpi=100, layout="constrained")
+    figure = canvas.Sheet(7.0, 7.6, dpi=100)
     grid = figure.add_gridspec(2, 1, height_ratios=(3.6, 1.0))
     scene, below = figure.add_subplot(grid[0]), figure.add_subplot(grid[1])
     canvas.dress(below)
     for index, name in enumerate(reversed(body.names)):
-        style: dict[str, Any] = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": name}
+        style: dict[str, Any] = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": tell(name)}
         canvas.curve(below, response.time, np.degrees(response[f"{name}_tilt"]), **style)
-    canvas.label(below, "t (s)", "θ (deg)")
+    canvas.label(below, tell("t (s)"), tell("θ (deg)"))
     canvas.legend(below, ncols=7)
     below.set_xlim(times[0], times[-1])
     centres, quaternions = _on_frames(response, times)
@@ -89,8 +87,7 @@ def _pictures(response: Response[StackOutcome], times: FloatArray, speed: float,
     scene.add_collection(stones)
     clock = scene.text(0.02, 0.98, " ", transform=scene.transAxes, va="top", fontsize=9)
     line = below.axvline(times[0], color="0.1", linewidth=1.0)
-    speak(figure, filming.lang)
-    told = translate(pace(speed), filming.lang)
+    told = pace(speed)
     fallen = {stone.name: stone.fell_at_s for stone in response.outcome.stones}
 
     def draw(index: int) -> None:

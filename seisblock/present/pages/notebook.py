@@ -11,9 +11,9 @@ from seisblock.present.documents.units import unit_of
 from seisblock.present.documents.write import plain
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.embed import picture
+from seisblock.present.figures.fonts import drawn
 from seisblock.present.text.tables import number
 from seisblock.results import Response
-from seisblock.words import language
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,10 +33,7 @@ def plot(response: Response[Any]) -> Figure:
     ParameterError
         If the model has no figure.
     """
-    from seisblock.present.figures.fonts import speak
-
-    figure = figure_of([response])
-    speak(figure, language())
+    figure = drawn(lambda: figure_of([response]))
     # a notebook asks what it shows for its picture; pyplot, which would teach it Figures, is not used here
     vars(figure)["_repr_png_"] = lambda: _png(figure)
     return figure
@@ -54,7 +51,7 @@ def html(response: Response[Any]) -> str:
     title = " · ".join(part for part in (response.model, response.motion.name, str(getattr(response.body, "name", ""))) if part)
     parts = [f"<b>{escape(title)}</b>", *_tables(plain(response.outcome))]
     parts += [f'<p style="border-left:4px solid #c0392b;padding-left:.6em">{escape(text)}</p>' for text in response.warnings]
-    parts.append(picture(figure_of([response]), language(), title))
+    parts.append(picture(drawn(lambda: figure_of([response])), title))
     return f'<div style="max-width:60em">{"".join(parts)}</div>'
 
 

@@ -8,14 +8,15 @@ from html import escape
 
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.embed import picture
+from seisblock.present.figures.fonts import drawn
 from seisblock.present.page import facts, html_table, note, page
 from seisblock.present.pages import report_words as said
 from seisblock.present.text.tables import NOTHING, number, seconds
-from seisblock.present.words import translate
 from seisblock.references import REFERENCES
 from seisblock.studies.assessment import Assessment, BodyAssessment, Effect
 from seisblock.studies.criteria_card import Card
 from seisblock.units import GAL, KINE
+from seisblock.words import speaking, tell
 
 ORDER = ("rock", "slide", "jump", "uplift")
 """Sections of a body, in this order."""
@@ -36,7 +37,9 @@ def report(found: Assessment, *, lang: str = "en", command: str = "") -> str:
     name = record.station or record.source or "record"
     title = said.told("What {name} does to what stands there", lang, name=name)
     subtitle = "  ".join(part for part in (start, f"{record.samples} × {record.dt:g} s", record.format) if part)
-    return page(title, _parts(found, lang, command), lang=lang, subtitle=subtitle, foot=", ".join(found.citations))
+    with speaking(lang):
+        parts = list(_parts(found, lang, command))
+    return page(title, parts, lang=lang, subtitle=subtitle, foot=", ".join(found.citations))
 
 
 def _parts(found: Assessment, lang: str, command: str) -> Iterator[str]:
@@ -60,7 +63,7 @@ def _tile(body: BodyAssessment, kind: str, lang: str) -> str:
     level = said.severity(worst)
     colour = "bad" if level >= said.BAD else "mild" if level > 0 else ""
     words = said.verdict(worst, lang)
-    head = f"{translate(body.subject.name, lang)}: {said.told(said.KINDS[kind], lang)}"
+    head = f"{tell(body.subject.name)}: {said.told(said.KINDS[kind], lang)}"
     return f'<div class="{colour}"><b>{escape(head)}</b><span>{escape(words)}</span></div>'
 
 
@@ -94,14 +97,16 @@ def _record(found: Assessment, lang: str) -> Iterator[str]:
         for m in measures.components
     ]
     yield html_table(headings, rows)
-    yield picture(measure_figure(found.record, measures), lang, said.told("Acceleration, velocity and spectra of the record.", lang))
+    yield picture(
+        drawn(lambda: measure_figure(found.record, measures)), said.told("Acceleration, velocity and spectra of the record.", lang)
+    )
     yield from (note(text) for text in measures.warnings)
 
 
 def _body(found: Assessment, body: BodyAssessment, lang: str) -> Iterator[str]:
     """Yield one body: what it is, then a section for each kind of motion."""
     block = body.subject.block
-    yield f"<h2>{escape(translate(body.subject.name, lang))}</h2>"
+    yield f"<h2>{escape(tell(body.subject.name))}</h2>"
     alpha = math.degrees(block.slenderness)
     size = f"{block.width:.3g} × {block.height:.3g} m, H/B {block.height / block.width:.3g}, α {alpha:.2f}°"
     friction = "" if body.subject.mu is None else f", μ {body.subject.mu:g} / {body.subject.mu_kinetic:g}"
@@ -124,7 +129,7 @@ def _body(found: Assessment, body: BodyAssessment, lang: str) -> Iterator[str]:
 def _figure(effect: Effect, lang: str) -> str:
     """Return the figure of one effect."""
     caption = f"{effect.response.motion.name}: {said.told(said.KINDS[effect.kind], lang)}"
-    return picture(figure_of([effect.response]), lang, caption)
+    return picture(drawn(lambda: figure_of([effect.response])), caption)
 
 
 def _cards(found: Assessment, body: BodyAssessment, lang: str) -> Iterator[str]:
@@ -142,7 +147,7 @@ def _cards(found: Assessment, body: BodyAssessment, lang: str) -> Iterator[str]:
         right = sum(row.overturns == card.outcome.overturned for row in card.rows)
         text = "{name}: {right} of {all} criteria agree with the simulation."
         yield f"<p>{escape(said.told(text, lang, name=card.component, right=right, all=len(card.rows)))}</p>"
-    yield picture(figure(cards), lang, said.told("Demand over threshold: right of 1 a criterion says that the body falls.", lang))
+    yield picture(drawn(lambda: figure(cards)), said.told("Demand over threshold: right of 1 a criterion says that the body falls.", lang))
 
 
 def _provenance(found: Assessment, lang: str, command: str) -> Iterator[str]:
