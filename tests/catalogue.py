@@ -9,6 +9,7 @@ import inspect
 import io
 import re
 import sys
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from babel.messages.pofile import read_po, write_po
 import seisblock
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.help import paragraphs
+from seisblock.samples import list_samples, sample_directory
 from seisblock.words import LANGUAGES, LOCALES
 
 PACKAGE = Path(seisblock.__file__).parent
@@ -58,7 +60,7 @@ def said_in_source() -> dict[str, str]:
     found: dict[str, str] = {}
     methods = [("**.py", texts_of), ("**/templates/**.html", "jinja2")]
     for name, _, text, _, _ in extract_from_dir(PACKAGE, methods, keywords={"tell": None}):
-        if isinstance(text, str) and re.search(r"[^\W\d_]", text):
+        if isinstance(text, str) and re.search(r"\w", text):
             found.setdefault(text, name)
     return found
 
@@ -73,6 +75,16 @@ def said_in_help() -> dict[str, str]:
         texts += [option.help for option in command.params if isinstance(option, click.Option)]
         found |= {text: f"help of seisblock {name}".strip() for text in texts if text and text not in found}
     return found
+
+
+def said_in_samples() -> dict[str, str]:
+    """Return what the bundled files call themselves and their parts, and how the list of samples describes them."""
+    found = {sample.description: sample.name for sample in list_samples()}
+    for path in sorted(sample_directory().glob("*.toml")):
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        parts = [table, *table.get("stone", ()), *table.get("stones", ())]
+        found |= {part["name"]: path.name for part in parts if "name" in part}
+    return found | dict.fromkeys((sample.kind for sample in list_samples()), "MANIFEST.toml")
 
 
 def said_by_click() -> set[str]:
@@ -102,7 +114,7 @@ def refresh(language: str) -> list[str]:
     fresh = Catalog(locale=language, project="seisblock", charset="utf-8", fuzzy=False, header_comment=held.header_comment)
     clicks = said_by_click()
     kept = [message for message in held if message.id and _key(message) in clicks]
-    for text, place in sorted((said_in_source() | said_in_help()).items(), key=lambda pair: (pair[1], pair[0])):
+    for text, place in sorted((said_in_source() | said_in_help() | said_in_samples()).items(), key=lambda pair: (pair[1], pair[0])):
         known = held.get(text)
         fresh.add(text, known.string if known else "", auto_comments=[place])
     for message in kept:

@@ -13,6 +13,7 @@ from seisblock.bodies.toml import read_table
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact, two_layer_block
 from seisblock.errors import BodyError
 from seisblock.units import parse_length
+from seisblock.words import said
 
 _SIZES = re.compile(r"^\s*([\d.]+\s*[^\W\d]*?)\s*[x×X]\s*([\d.]+\s*[^\W\d]*)\s*$")
 
@@ -74,10 +75,11 @@ def subject(
     """
     sizes = _SIZES.match(text)
     layers = own = None
+    name: str
     if sizes:
         width, height = (parse_length(part, what=f"body {text}") for part in sizes.groups())
         block, own_restitution = Block(width, height), None
-        name = f"block {width:g} x {height:g} m"
+        name = said("block {width:g} x {height:g} m", width=width, height=height)
     else:
         table = read_table(text)
         if table.get("kind") not in ("block", "two-layer"):

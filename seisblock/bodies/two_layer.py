@@ -199,7 +199,7 @@ def two_layer_block(table: Mapping[str, Any], side: str = "short") -> TwoLayerBl
             raise BodyError(f"{name}: side must be short or long, found {side!r}")
         width = length(table, side)
         depth = length(table, "long" if side == "short" else "short")
-        name = f"{name}, {side} side"
+        name = said("{name}, short side", name=said(name)) if side == "short" else said("{name}, long side", name=said(name))
     return TwoLayerBlock(width, depth, upper_height, lower_height, upper_mass, lower_mass, name)
 
 

@@ -20,6 +20,7 @@ from seisblock.criteria.overturning import (
 )
 from seisblock.criteria.pulses import half_sine_acceleration, half_sine_ratio, one_sine_ratio, rectangular_ratio
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
 
 ACCELERATION, VELOCITY = "m/s^2", "m/s"
 
@@ -86,12 +87,12 @@ def overturning_card(
     width, height = 2 * min(block.arms), 2 * block.centre
     alpha, p = block.slenderness, block.frequency_parameter(gravity)
     rows = [
-        _row("West, static", "[Furukawa2009]_ eq. (2)", ACCELERATION, static_acceleration(width, height, gravity), pga),
-        _row("Ishiyama, acceleration", "[Ishiyama1982]_", ACCELERATION, ishiyama_acceleration(width, height, gravity), pga),
-        _row("Ishiyama, velocity", "[Ishiyama1982]_", VELOCITY, ishiyama_velocity(width, height), pgv),
-        _row("Tsutsui, constant force", "[Tsutsui]_ eq. (2)", VELOCITY, tsutsui_velocity(width, height, gravity), pgv),
-        _row("Tsutsui, cosine", "[Tsutsui]_ eq. (4)", VELOCITY, tsutsui_velocity(width, height, gravity, cosine=True), pgv),
-        _row("velocity step, exact", "[Tsutsui]_ eq. (2), exact", VELOCITY, velocity_step(alpha, p, gravity), pgv),
+        _row(noted("West, static"), "[Furukawa2009]_ eq. (2)", ACCELERATION, static_acceleration(width, height, gravity), pga),
+        _row(noted("Ishiyama, acceleration"), "[Ishiyama1982]_", ACCELERATION, ishiyama_acceleration(width, height, gravity), pga),
+        _row(noted("Ishiyama, velocity"), "[Ishiyama1982]_", VELOCITY, ishiyama_velocity(width, height), pgv),
+        _row(noted("Tsutsui, constant force"), "[Tsutsui]_ eq. (2)", VELOCITY, tsutsui_velocity(width, height, gravity), pgv),
+        _row(noted("Tsutsui, cosine"), "[Tsutsui]_ eq. (4)", VELOCITY, tsutsui_velocity(width, height, gravity, cosine=True), pgv),
+        _row(noted("velocity step, exact"), "[Tsutsui]_ eq. (2), exact", VELOCITY, velocity_step(alpha, p, gravity), pgv),
     ]
     ratio = block.height / block.width
 
@@ -99,14 +100,14 @@ def overturning_card(
         return lambda f: float(overturning_pga(ratio, f, fit))
 
     by_frequency: tuple[tuple[str, str, Callable[[float], float]], ...] = (
-        ("Housner, first form", "[Furukawa2009]_ eq. (6)", lambda f: housner_acceleration(alpha, p, f, gravity)),
-        ("Housner, as printed", "[Furukawa2009]_ eq. (6)", lambda f: housner_acceleration_as_printed(width, height, f, gravity)),
-        ("half sine, linear", "[Housner1963]_", lambda f: gravity * alpha * half_sine_ratio(2 * math.pi * f / p)),
-        ("half sine, nonlinear", "[Housner1963]_", lambda f: half_sine_acceleration(alpha, p, f, gravity)),
-        ("one sine, no impact", "[Zhang2001]_", lambda f: gravity * alpha * one_sine_ratio(2 * math.pi * f / p)),
-        ("rectangular pulse", "[Housner1963]_", lambda f: gravity * alpha * rectangular_ratio(1 / (math.pi * f), p)),
-        ("gravestone", "[Furukawa2009]_ eq. (9)", gravestone(PLAIN)),
-        ("gravestone, dowelled", "[Furukawa2009]_ eq. (10)", gravestone(DOWELLED)),
+        (noted("Housner, first form"), "[Furukawa2009]_ eq. (6)", lambda f: housner_acceleration(alpha, p, f, gravity)),
+        (noted("Housner, as printed"), "[Furukawa2009]_ eq. (6)", lambda f: housner_acceleration_as_printed(width, height, f, gravity)),
+        (noted("half sine, linear"), "[Housner1963]_", lambda f: gravity * alpha * half_sine_ratio(2 * math.pi * f / p)),
+        (noted("half sine, nonlinear"), "[Housner1963]_", lambda f: half_sine_acceleration(alpha, p, f, gravity)),
+        (noted("one sine, no impact"), "[Zhang2001]_", lambda f: gravity * alpha * one_sine_ratio(2 * math.pi * f / p)),
+        (noted("rectangular pulse"), "[Housner1963]_", lambda f: gravity * alpha * rectangular_ratio(1 / (math.pi * f), p)),
+        (noted("gravestone"), "[Furukawa2009]_ eq. (9)", gravestone(PLAIN)),
+        (noted("gravestone, dowelled"), "[Furukawa2009]_ eq. (10)", gravestone(DOWELLED)),
     )
     for criterion, where, threshold in by_frequency:
         for name, f in frequencies.items():

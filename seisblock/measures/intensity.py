@@ -9,11 +9,13 @@ import numpy as np
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
 from seisblock.units import GAL, STANDARD_GRAVITY
+from seisblock.words import noted
 
 JMA_EXCEEDANCE_S = 0.3
 """Time for which the filtered vector must reach the amplitude that defines the intensity, s ([JMA1996]_)."""
 
-_CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), (5.0, "5-"), (5.5, "5+"), (6.0, "6-"), (6.5, "6+"))
+_HALVES = ((5.0, noted("5-")), (5.5, noted("5+")), (6.0, noted("6-")), (6.5, noted("6+")))
+_CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), *_HALVES)
 """Upper bounds of the classes of [JMA1996]_, beyond the last of which it is 7."""
 
 _HIGH_CUT = (1.0, 0.694, 0.241, 0.0557, 0.009664, 0.00134, 0.000155)

@@ -41,8 +41,8 @@ class Sheet(Figure):
 
     def draw(self, renderer: Any) -> None:
         """Draw, in fonts that hold the letters."""
-        set_letters(self, self.spoken)
-        super().draw(renderer)
+        with set_letters(self, self.spoken):
+            super().draw(renderer)
 
 
 def new_figure(

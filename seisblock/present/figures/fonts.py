@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -109,8 +111,11 @@ def drawn(build: Callable[[], Figure]) -> Figure:
         return build()
 
 
-def set_letters(figure: Figure, spoken: str) -> None:
+@contextmanager
+def set_letters(figure: Figure, spoken: str) -> Iterator[None]:
     """Give every text of a figure a font that holds it, and take names for what they are: a dollar sign begins no formula.
+
+    Inside the block matplotlib keeps to itself which weights a family lacks: the nearest has been chosen.
 
     Parameters
     ----------
@@ -129,6 +134,13 @@ def set_letters(figure: Figure, spoken: str) -> None:
             if face is not None:
                 text.set_fontfamily([face.family, LATIN])
                 text.set_fontweight(face.nearest(text.get_fontweight()))
+    remarks = logging.getLogger("matplotlib.font_manager")
+    before = remarks.level
+    remarks.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        remarks.setLevel(before)
 
 
 def _numbers(figure: Figure) -> set[int]:

@@ -77,8 +77,15 @@ def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component]
         peak = values[round((m.time_of_pga_s - record.offset_s) / record.dt)]
         axis.plot([m.time_of_pga_s], [peak], "o", ms=4, mfc="white", mec="black", zorder=4)
         axis.set_ylim(-reach, reach)
-        _note(axis, f"{part.code}   PGA {m.pga_m_s2 / unit:.4g} {name};  {m.duration.total_s:.3g} s beyond {level:.4g} {name}")
-    label(axes[len(axes) // 2], y=f"a ({name})")
+        told = tell(
+            "{name}   PGA {pga};  {time:.3g} s beyond {level}",
+            name=part.code,
+            pga=f"{m.pga_m_s2 / unit:.4g} {name}",
+            time=m.duration.total_s,
+            level=f"{level:.4g} {name}",
+        )
+        _note(axis, told)
+    label(axes[len(axes) // 2], y=tell("a ({unit})", unit=name))
 
 
 def _draw_velocities(axes: list[Axes], record: Record, parts: list[Component], answer: RecordMeasures, *, gal: bool) -> None:

@@ -85,7 +85,7 @@ def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     limit = max(limit, 1.15 * min(reach, 1.4))
     axis.set_ylim(-limit, limit)
     impacts = [event.time_s for event in response.events if event.name == "impact"]
-    axis.plot(impacts, np.full(len(impacts), -0.95 * limit), "|", color="0.2", markersize=5, markeredgewidth=0.6, label=tell("impacts"))
+    axis.plot(impacts, np.full(len(impacts), -0.95 * limit), "|", color="0.2", markersize=5, markeredgewidth=0.6, label=tell("impact"))
     if response.outcome.overturned:
         when = response.outcome.alpha_passed_s
         if when is not None and when <= response.time[-1]:

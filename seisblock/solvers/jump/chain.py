@@ -27,7 +27,7 @@ ENDED_ROCKING = noted("still rocking a minute after the record")
 ENDED_FLYING = noted("still in flight a minute after the record")
 ENDED_LANDED = noted("still moving a minute after the record")
 
-REST, ROCKING, FLIGHT, LANDED = "rest", "rocking", "flight", "rocking-sliding"
+REST, ROCKING, FLIGHT, LANDED = noted("rest"), noted("rocking"), noted("flight"), noted("rocking-sliding")
 """Names of the phases."""
 
 SLIPPING = (flying.BACK, flying.FORTH, flying.FLAT_BACK, flying.FLAT_FORTH)

@@ -13,8 +13,10 @@ from seisblock.results import Event, Phase, Status
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import Run
 from seisblock.solvers.respond.setting import Setting
+from seisblock.words import noted
 
-REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT, OVERTURNED = "rest", "slide", "rock", "slide-rock", "flight", "overturned"
+REST, SLIDE, ROCK = noted("rest"), noted("slide"), noted("rock")
+SLIDE_ROCK, FLIGHT, OVERTURNED = noted("slide-rock"), noted("flight"), noted("overturned")
 
 RESTS, OVERTURNS, MOVES_ON, HOPS_ON = "rests", "overturns", "moves on", "hops without end"
 """Outcomes beside those of a body that has moved and stands: slides, rocks, flies, and their combinations."""

@@ -31,6 +31,7 @@ from seisblock.bodies.block import LEFT, RIGHT, Block, Restitution, restitutions
 from seisblock.dynamics import Model
 from seisblock.dynamics.contract import CONSTANT, RESET, SERIES, SKIP
 from seisblock.typing import FloatArray
+from seisblock.words import noted
 
 REST, TO_RIGHT, TO_LEFT, BEYOND_RIGHT, BEYOND_LEFT = range(5)  # odd: about the right corner; above TO_LEFT: beyond alpha
 OVERTURNED = -1
@@ -46,7 +47,14 @@ REST_HOP = 1e-8
 SMALL, NEARLY_SMALL = 3e-17, 1e-12
 """A series ends where a term falls below the first share of the state and the term before it was below the second."""
 
-MODES = ("rest", "rocks to +x", "rocks to -x", "beyond +alpha", "beyond -alpha", "overturned")
+MODES = (
+    noted("rest"),
+    noted("rocks to +x"),
+    noted("rocks to -x"),
+    noted("beyond +alpha"),
+    noted("beyond -alpha"),
+    noted("overturned"),
+)
 
 HALF_PI = math.pi / 2
 

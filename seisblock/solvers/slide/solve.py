@@ -19,8 +19,9 @@ from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL
 from seisblock.solvers.slide.rest import slip_at_rest
 from seisblock.typing import FloatArray, IntArray
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import Said, noted, said
 
-SLIDING = ("slip forward", "slip backward")
+SLIDING = (noted("slip forward"), noted("slip backward"))
 """Names of the phases in which the object slides; forward is the component's positive direction, downhill on a positive slope."""
 
 
@@ -203,20 +204,26 @@ def _left_slope(change: Change) -> bool:
     return change.source < LEVEL <= change.target
 
 
-def _warnings(outcome: SlideOutcome, motion: Motion) -> list[str]:
+def _warnings(outcome: SlideOutcome, motion: Motion) -> list[Said]:
     """Return what a user should know before believing the numbers."""
-    name = motion.name or "motion"
-    told = []
+    name = motion.name or "x"
+    found = []
     if outcome.lifted_off:
-        told.append(f"{name}: the base falls away from the object, which flies and lands plastically; the paper is silent on this")
-    if outcome.final_slip_m is None:
-        told.append(f"{name}: kinetic friction does not hold on this slope: once in motion it slides for ever")
-    elif outcome.slides_at_end:
-        told.append(
-            f"{name}: still sliding at the record's end; max and residual slip stand for the record, "
-            f"on ground at rest it would stop at {outcome.final_slip_m:.4g} m"
+        found.append(
+            said("{name}: the base falls away from the object, which flies and lands plastically; the paper is silent on this", name=name)
         )
-    return told
+    if outcome.final_slip_m is None:
+        found.append(said("{name}: kinetic friction does not hold on this slope: once in motion it slides for ever", name=name))
+    elif outcome.slides_at_end:
+        found.append(
+            said(
+                "{name}: still sliding at the record's end; max and residual slip stand for the record, on ground at rest it would stop at "
+                "{final:.4g} m",
+                name=name,
+                final=outcome.final_slip_m,
+            )
+        )
+    return found
 
 
 def _phases(trajectory: Trajectory, motion: Motion) -> tuple[Phase, ...]:

@@ -15,6 +15,7 @@ from seisblock.solvers.stack.arrays import PileArrays
 from seisblock.solvers.stack.frames import AT, MASS, V
 from seisblock.solvers.stack.run import CREATED, FALL_TIME, FALL_X, FALL_Y, IMPULSE, LEAST_COSINE, LOST, WORK
 from seisblock.typing import FloatArray
+from seisblock.words import noted
 
 SLID = 1e-3
 """A stone that ends this far from its place, m, has slid."""
@@ -225,7 +226,9 @@ def _fate(pile: PileArrays, track: Track, i: int, kept: PileKept, start: float, 
         return StoneFate(pile.body.names[i], "standing", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None, None, None)
     fell = fates[b, FALL_TIME] >= 0.0
     distance = float(math.hypot(slip[0], slip[1]))
-    state = "fallen" if fell else "slid" if distance > SLID else "turned" if abs(turned) > TURNED else "standing"
+    state = (
+        noted("fallen") if fell else noted("slid") if distance > SLID else noted("turned") if abs(turned) > TURNED else noted("standing")
+    )
     return StoneFate(
         name=pile.body.names[i],
         state=state,

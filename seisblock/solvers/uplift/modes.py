@@ -10,8 +10,14 @@ import numpy as np
 from seisblock.bodies.spring_block import SpringBlock, mass_matrix, stiffness_matrix
 from seisblock.records.record import frozen
 from seisblock.typing import FloatArray
+from seisblock.words import noted
 
-BLOCKS = {"rocking in x-z": (0, 4), "rocking in y-z": (1, 3), "vertical": (2,), "torsion": (5,)}
+BLOCKS = {
+    (noted("first rocking in x-z"), noted("second rocking in x-z")): (0, 4),
+    (noted("first rocking in y-z"), noted("second rocking in y-z")): (1, 3),
+    (noted("vertical"),): (2,),
+    (noted("torsion"),): (5,),
+}
 """Coordinates that move together: the base is symmetric about both of its axes, so that these four do not couple."""
 
 
@@ -73,13 +79,13 @@ def natural_modes(body: SpringBlock) -> Modes:
 
     mass, stiffness = mass_matrix(body), stiffness_matrix(body)
     found: list[tuple[float, str, FloatArray]] = []
-    for name, members in BLOCKS.items():
+    for ranked, members in BLOCKS.items():
         chosen = np.ix_(members, members)
         squares, vectors = eigh(stiffness[chosen], mass[chosen])
         for rank, (square, vector) in enumerate(zip(squares, vectors.T, strict=True)):
             shape = np.zeros(6)
             shape[list(members)] = vector * np.copysign(1.0, vector[np.argmax(np.abs(vector))])
-            found.append((math.sqrt(square), name if len(members) == 1 else f"{('first', 'second')[rank]} {name}", shape))
+            found.append((math.sqrt(square), ranked[rank], shape))
     found.sort(key=lambda mode: mode[0])
     names = tuple(name for _, name, _ in found)
     first = min(index for index, name in enumerate(names) if name.startswith("first"))

@@ -18,10 +18,11 @@ from seisblock.studies.cemetery.rate import CONFIDENCE, CURVE_PGA, FREQUENCIES, 
 from seisblock.studies.cemetery.shaking import Shaking
 from seisblock.typing import BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
 
 Criterion = Literal["furukawa", "rigid", "simulate"]
 
-LARGER = "larger"
+LARGER = noted("larger")
 """Name of the result of the horizontal that overturns more stones."""
 
 

@@ -1,0 +1,117 @@
+"""Figures are drawn in fonts that hold their letters, without a word from matplotlib, and never in the language of formulas."""
+
+import logging
+import warnings
+
+import pytest
+from click.testing import CliRunner
+from matplotlib.font_manager import FontEntry, fontManager
+
+from seisblock.cli import main
+from seisblock.present.figures import canvas, fonts
+from seisblock.words import speaking
+
+SERIF = [entry for entry in fontManager.ttflist if entry.name == "DejaVu Serif" and entry.style == "normal"]
+
+
+@pytest.fixture
+def installed(monkeypatch):
+    """Pretend that only some fonts are there: entries of the list are what matplotlib knows of them."""
+    fonts.japanese_font.cache_clear()
+
+    def pretend(*entries):
+        latin = [entry for entry in fontManager.ttflist if entry.name == fonts.LATIN]
+        monkeypatch.setattr(fontManager, "ttflist", [*latin, *entries])
+        fontManager._findfont_cached.cache_clear()
+
+    yield pretend
+    fonts.japanese_font.cache_clear()
+    fontManager._findfont_cached.cache_clear()
+
+
+def entry(family, weight):
+    """Return a font of a family and weight; its file is one that is there."""
+    return FontEntry(SERIF[0].fname, 0, family, "normal", "normal", weight, "normal", "scalable")
+
+
+def test_a_family_of_regular_weight_comes_before_a_better_one_that_is_bold(installed):
+    """F5: with Noto Sans CJK in bold only, a figure is drawn in IPAGothic; with nothing else it is bold, by choice."""
+    installed(entry("Noto Sans CJK JP", 700), entry("IPAGothic", "normal"))
+    assert fonts.japanese_font() == fonts.Face("IPAGothic", (400,))
+    fonts.japanese_font.cache_clear()
+    installed(entry("Noto Sans CJK JP", "bold"))
+    assert fonts.japanese_font() == fonts.Face("Noto Sans CJK JP", (700,))
+    assert fonts.Face("x", (300, 700)).nearest("normal") == 300
+
+
+@pytest.mark.parametrize("weights", [(400,), (700,), (400, 700), (250,)])
+def test_matplotlib_has_nothing_to_say(weights, installed, caplog, tmp_path):
+    """F5: no line "findfont: failed to find font weight" and no warning, whatever weights there are and a text asks for."""
+    installed(*(entry("Noto Sans CJK JP", weight) for weight in weights))
+    with speaking("ja"), caplog.at_level(logging.INFO, "matplotlib"), warnings.catch_warnings():
+        warnings.simplefilter("error")
+        figure, (axis,) = canvas.new_figure(1, title="title")
+        axis.plot([1, 2], [3, 4], label="name")
+        axis.set_title("panel", fontweight="bold")
+        canvas.legend(axis)
+        canvas.save(figure, tmp_path / "figure.png")
+    assert [record.message for record in caplog.records if "findfont" in record.message] == []
+    assert {text.get_fontfamily()[0] for text in figure.findobj(fonts.Text)} == {"Noto Sans CJK JP"}
+
+
+def test_without_a_font_the_figure_is_english_and_one_line_says_so(tmp_path, monkeypatch):
+    """The figure is written all the same, and what is printed stays Japanese."""
+    monkeypatch.setattr(fonts, "japanese_font", lambda: None)
+    answer = CliRunner().invoke(main, ["jump", "--component", "EW", "--lang", "ja", "--plot", str(tmp_path / "jump.svg")])
+    assert answer.exit_code == 0 and (tmp_path / "jump.svg").is_file()
+    assert sum("fonts-noto-cjk" in line for line in answer.stderr.splitlines()) == 1
+    assert "ロッキング" in answer.stdout
+    with speaking("ja"):
+        assert fonts.drawable() == "en"
+        assert fonts.drawn(lambda: canvas.new_figure(1, title=fonts.language())[0]).spoken == "en"
+
+
+def test_a_japanese_name_on_an_english_figure_gets_its_font():
+    """Letters that DejaVu lacks are looked for; the others stay as they are."""
+    if fonts.japanese_font() is None:
+        pytest.skip("no Japanese font is installed")
+    figure, (axis,) = canvas.new_figure(1, title="観測点 熊本")
+    axis.set_xlabel("t (s)")
+    figure.canvas.draw()
+    assert figure._suptitle.get_fontfamily()[0] == fonts.japanese_font().family
+    assert axis.xaxis.label.get_fontfamily() == ["sans-serif"]
+
+
+NAME = r"A$B_{$\frac$C^"
+
+
+def test_a_dollar_sign_begins_no_formula(tmp_path):
+    """R15: station, file and stone names are drawn as they are: in titles, legends, notes and along an axis."""
+    figure, (axis,) = canvas.new_figure(1, title=NAME)
+    axis.barh([NAME, "b"], [1.0, 2.0], label=NAME)
+    axis.set_title(NAME)
+    axis.text(0.5, 0.5, NAME)
+    axis.set_xscale("log")
+    canvas.label(axis, NAME, NAME)
+    canvas.legend(axis)
+    canvas.save(figure, tmp_path / "figure.svg")
+    assert axis.get_yticklabels()[0].get_text() == NAME
+
+
+def test_powers_of_ten_along_an_axis_stay_formulas():
+    """What matplotlib itself writes as mathematics is drawn as mathematics."""
+    figure, (axis,) = canvas.new_figure(1)
+    axis.loglog([1, 1e6], [1, 1e6])
+    figure.canvas.draw()
+    label = axis.get_xticklabels()[0]
+    assert label.get_text().startswith("$") and label.get_parse_math()
+
+
+def test_a_file_may_be_called_anything(tmp_path):
+    """R15, from the command line: a record whose name is half a formula is measured and drawn."""
+    rows = "\n".join(f"{0.01 * i:.2f},{(-1) ** i * 12.5},{i % 7}" for i in range(400))
+    record = tmp_path / "a$b_{.csv"
+    record.write_text(f"time,NS (gal),EW (gal)\n{rows}\n", encoding="utf-8")
+    answer = CliRunner().invoke(main, ["measure", str(record), "--plot", str(tmp_path / "out.png")])
+    assert answer.exit_code == 0, answer.stderr
+    assert (tmp_path / "out.png").stat().st_size > 10_000
