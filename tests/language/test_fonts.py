@@ -37,11 +37,11 @@ def entry(family, weight):
 def test_a_family_of_regular_weight_comes_before_a_better_one_that_is_bold(installed):
     """F5: with Noto Sans CJK in bold only, a figure is drawn in IPAGothic; with nothing else it is bold, by choice."""
     installed(entry("Noto Sans CJK JP", 700), entry("IPAGothic", "normal"))
-    assert fonts.japanese_font() == fonts.Face("IPAGothic", (400,))
+    assert fonts.japanese_font() == fonts.Typeface("IPAGothic", (400,))
     fonts.japanese_font.cache_clear()
     installed(entry("Noto Sans CJK JP", "bold"))
-    assert fonts.japanese_font() == fonts.Face("Noto Sans CJK JP", (700,))
-    assert fonts.Face("x", (300, 700)).nearest("normal") == 300
+    assert fonts.japanese_font() == fonts.Typeface("Noto Sans CJK JP", (700,))
+    assert fonts.Typeface("x", (300, 700)).nearest("normal") == 300
 
 
 @pytest.mark.parametrize("weights", [(400,), (700,), (400, 700), (250,)])

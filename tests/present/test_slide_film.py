@@ -11,6 +11,7 @@ from seisblock.present.films.animation import Filming
 from seisblock.present.films.slide import animate_slide, place, slide_film
 from seisblock.records import Motion
 from seisblock.solvers.slide.solve import solve_slide
+from seisblock.words import speaking
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +53,8 @@ def test_the_object_is_where_the_answer_has_it(response):
 def test_it_is_written(response, tmp_path):
     """As a .gif and as a page."""
     animate_slide(response, tmp_path / "slide.gif", Filming())
-    animate_slide(response, tmp_path / "slide.html", Filming(lang="ja"))
+    with speaking("ja"):
+        animate_slide(response, tmp_path / "slide.html", Filming())
     with Image.open(tmp_path / "slide.gif") as image:
         assert image.n_frames > 40
     assert "相対変位" in (tmp_path / "slide.html").read_text(encoding="utf-8")

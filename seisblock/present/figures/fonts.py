@@ -55,7 +55,7 @@ MISSING = noted("no font with Japanese letters was found: the figure is in Engli
 
 
 @dataclass(frozen=True)
-class Face:
+class Typeface:
     """A family that holds Japanese, and the weights in which it is there: asking for another one makes matplotlib complain."""
 
     family: str
@@ -72,7 +72,7 @@ def _number(weight: Any) -> int:
 
 
 @cache
-def japanese_font() -> Face | None:
+def japanese_font() -> Typeface | None:
     """Return an installed family that holds Japanese, one of regular weight before one that is only bold; None when there is none."""
     found = _face(fontManager)
     if found is None:
@@ -84,14 +84,14 @@ def japanese_font() -> Face | None:
     return found
 
 
-def _face(manager: FontManager) -> Face | None:
+def _face(manager: FontManager) -> Typeface | None:
     """Return the first of the families that a list of fonts holds."""
     weights: dict[str, set[int]] = {}
     for entry in manager.ttflist:
         if entry.name in FAMILIES and entry.style == "normal":
             weights.setdefault(entry.name, set()).add(_number(entry.weight))
     there = sorted(weights, key=lambda name: (REGULAR not in weights[name], FAMILIES.index(name)))
-    return Face(there[0], tuple(sorted(weights[there[0]]))) if there else None
+    return Typeface(there[0], tuple(sorted(weights[there[0]]))) if there else None
 
 
 def drawable() -> str:
