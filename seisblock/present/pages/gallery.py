@@ -98,9 +98,10 @@ def _field_test() -> str:
     """Return the figure of the field test."""
     from seisblock.present.figures.embed import picture
     from seisblock.present.figures.field_test import figure
+    from seisblock.present.figures.fonts import drawn
 
     caption = "Rates surveyed around six stations after the western Tottori earthquake of 2000, and those of each model of a stone."
-    return picture(figure(), "en", caption)
+    return picture(drawn(figure), caption)
 
 
 def _legend() -> str:
