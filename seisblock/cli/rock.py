@@ -13,10 +13,13 @@ from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
-from seisblock.errors import ComponentError
+from seisblock.errors import ComponentError, ParameterError
 
 if TYPE_CHECKING:
     from seisblock.records import Motion
+
+VERSIONS = 200
+"""Versions of body and shaking that a margin is accompanied by, where no number is asked for."""
 
 
 @click.command(
@@ -29,7 +32,8 @@ if TYPE_CHECKING:
 @record_options
 @block_options
 @rocking_options
-@option("--margin", is_flag=True, help="Find every factor on the record at which the verdict changes.")
+@option("--mu", type=float, section="Body", help="Friction of the ground, 1: say whether rocking needs more. [default: not looked at]")
+@option("--margin", is_flag=True, help="Find from which factor on the record on it falls, and how likely it falls at 1.")
 @option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest factor of that search, 1.")
 @option("--perturb", type=click.IntRange(min=1), metavar="N", help="Repeat N times with small changes: probability of overturning.")
 @option(
@@ -37,7 +41,8 @@ if TYPE_CHECKING:
     type=float,
     default=0.05,
     show_default=True,
-    help="Half width of those changes, a share of size, slenderness, restitution and amplitude; the azimuth turns by 5 deg.",
+    help="Half width of those changes, a share of size, slenderness, restitution and amplitude; the azimuth turns by 5 deg, and the edges "
+    "are worn by up to 0.1 of the width.",
 )
 @option("--seed", type=int, default=0, show_default=True, help="Seed of those changes.")
 @gravity_option
@@ -50,6 +55,7 @@ def rock(
     linear: bool,
     vertical: bool,
     azimuth: tuple[str, ...],
+    mu: float | None,
     margin: bool,
     margin_limit: float,
     perturb: int | None,
@@ -66,7 +72,9 @@ def rock(
     from seisblock.cli.progress import progress
     from seisblock.present.documents.rock import document
     from seisblock.present.text import rock as shown
+    from seisblock.solvers.rock.outcome import friction_suffices
     from seisblock.solvers.rock.solve import solve_rock
+    from seisblock.studies.agreement import agreement
     from seisblock.studies.rocking.margin import find_margin, flagged
     from seisblock.studies.rocking.perturb import Spread
     from seisblock.studies.rocking.perturb import perturb as perturbed
@@ -75,24 +83,28 @@ def rock(
     say(f"body: {chosen.says}")
     options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
     source = along(source, azimuth)
+    if mu is not None and not 0.0 <= mu < float("inf"):
+        raise ParameterError("the friction coefficient must be zero or positive, found {value}", value=mu)
     responses, extras = [], []
     for motion in (motion for record in load(source) for motion in motions(record, source)):
         need_vertical(motion, vertical)
         responses.append(flagged(solve_rock(chosen.block, motion, **options)))
-        extra: dict[str, Any] = {}
+        extra: dict[str, Any] = {"agreement": agreement(chosen.block, motion, **options)}
+        if mu is not None:
+            extra["friction_suffices"] = friction_suffices(responses[-1].outcome, mu, gravity)
         if margin:
             with progress(f"margin {motion.name}") as tell:
                 extra["margin"] = find_margin(chosen.block, motion, limit=margin_limit, progress=tell, **options)
-        if perturb is not None:
-            widths = Spread(spread, spread, spread, spread)
+        if margin or perturb is not None:
+            widths, runs = Spread(spread, spread, spread, spread), perturb or VERSIONS
             with progress(f"perturb {motion.name}") as tell:
-                extra["perturbation"] = perturbed(chosen.block, motion, perturb, spread=widths, seed=seed, progress=tell, **options)
+                extra["perturbation"] = perturbed(chosen.block, motion, runs, spread=widths, seed=seed, progress=tell, **options)
         extras.append(extra)
     emit(
-        document(responses, chosen.block, extras, margin_limit=margin_limit if margin else None),
+        document(responses, chosen.block, extras, margin_limit=margin_limit if margin else None, mu=mu),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, extras, gal=output.gal),
+        tables=lambda: shown.tables(responses, extras, gal=output.gal, mu=mu),
     )
 
 

@@ -128,6 +128,7 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
     from seisblock.present.documents.stack import document
     from seisblock.present.text import stack as shown
     from seisblock.solvers.stack.solve import solve_stack
+    from seisblock.studies.agreement import pile_agreement
 
     responses = []
     for record in load(source):
@@ -136,11 +137,12 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
         for motion in turned if source.component else turned[:1]:
             with progress(f"{record.station} {motion.name}".strip()) as tell:
                 responses.append(solve_stack(body, motion, contact=contact, progress=tell, **asked))
+    agreements = [pile_agreement(response) for response in responses]
     emit(
-        document(responses, body, contact),
+        document(responses, body, contact, agreements),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses),
+        tables=lambda: shown.tables(responses, agreements),
     )
 
 

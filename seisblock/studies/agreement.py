@@ -15,24 +15,32 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import SHARP, WORN
-from seisblock.criteria.gravestones import FITTED_RATIO, PLAIN, GravestoneFit, overturning_pga
+from seisblock.bodies.pile.pile import Pile
+from seisblock.criteria.gravestones import DOWELLED, FITTED_RATIO, PLAIN, GravestoneFit, overturning_pga
 from seisblock.criteria.overturning import ishiyama_acceleration, ishiyama_velocity
 from seisblock.criteria.pulses import half_sine_acceleration
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
 from seisblock.measures.peaks import peak_velocity
 from seisblock.records import Motion
+from seisblock.results import Response
 from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
 from seisblock.studies.cemetery.simulated import simulated_overturns
+from seisblock.studies.gravestone_criterion import rigid_top
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted
 
 SHARP_BLOCK = noted("rigid block with sharp edges")
 WORN_BLOCK = noted("rigid block with worn edges")
 GRAVESTONES = noted("criterion of gravestones")
-PULSE = noted("half sine of the record's frequency")
+PULSE = noted("half sine of that frequency")
+PILE = noted("pile of stones")
 ISHIYAMA = noted("Ishiyama's limits of acceleration and velocity")
+
+SAO = "sao"
+"""Name of the upper stone of a grave in a pile."""
 
 STRONGEST, STRONGER = 4.0, 1.05
 """A first fall is looked for at factors up to the first, each greater than the one before by the second."""
@@ -91,7 +99,8 @@ def agreement(
     block: Block,
     motion: Motion,
     *,
-    fit: GravestoneFit = PLAIN,
+    stone: Block | None = None,
+    fit: GravestoneFit | None = PLAIN,
     others: Sequence[Opinion] = (),
     gravity: float = STANDARD_GRAVITY,
     **options: Any,
@@ -103,8 +112,10 @@ def agreement(
     block : Block
         Its own inset counts as its worn edges; 0.1 of the width where it has none.
     motion : Motion
-    fit : GravestoneFit
-        Of the criterion of gravestones, asked only about blocks of their width and proportions ([Furukawa2009]_ eqs. (9), (10)).
+    stone : Block
+        The upper stone alone, where the block is more than that: its proportions are those that the criterion of gravestones asks for.
+    fit : GravestoneFit or None
+        Of that criterion, which is asked only about stones of its width and proportions ([Furukawa2009]_ eqs. (9), (10)); None: not asked.
     others : sequence of Opinion
         Of models that were asked elsewhere.
     gravity : float, m/s^2
@@ -126,7 +137,7 @@ def agreement(
     opinions = [
         _simulated(SHARP_BLOCK, block.worn(SHARP), motion, pga, gravity, options),
         _simulated(WORN_BLOCK, worn, motion, pga, gravity, options),
-        *_by_formula(block, motion, pga, fit, gravity),
+        *_by_formula(block, stone or block, motion, pga, fit, gravity),
         *others,
     ]
     factors = [opinion.factor for opinion in opinions if opinion.factor is not None]
@@ -153,15 +164,15 @@ def _simulated(model: str, block: Block, motion: Motion, pga: float, gravity: fl
     return Opinion(model, falls(1.0), high)
 
 
-def _by_formula(block: Block, motion: Motion, pga: float, fit: GravestoneFit, gravity: float) -> list[Opinion]:
+def _by_formula(block: Block, stone: Block, motion: Motion, pga: float, fit: GravestoneFit | None, gravity: float) -> list[Opinion]:
     """Return what the closed forms say: their threshold over the motion's peak."""
     pgv = peak_velocity(ground_history(motion.horizontal, motion.dt), motion.dt)
     frequency = pga_pgv_frequency(pga, pgv)
     width, height = 2 * min(block.arms), 2 * block.centre
     found = []
-    ratio, (low, high) = block.height / block.width, FITTED_RATIO
-    like = LIKE_A_GRAVESTONE[0] <= block.width / PAPER_WIDTH <= LIKE_A_GRAVESTONE[1] and low <= ratio <= high
-    if frequency is not None and like:
+    ratio, (low, high) = stone.height / stone.width, FITTED_RATIO
+    like = LIKE_A_GRAVESTONE[0] <= stone.width / PAPER_WIDTH <= LIKE_A_GRAVESTONE[1] and low <= ratio <= high
+    if frequency is not None and fit is not None and like:
         found.append(_formula(GRAVESTONES, float(overturning_pga(ratio, frequency, fit)) / pga, made_for_it=True))
     if frequency is not None:
         level = half_sine_acceleration(block.slenderness, block.frequency_parameter(gravity), frequency, gravity)
@@ -217,3 +228,19 @@ def rates_by_model(
             falls = simulated_overturns(cemetery, motion, inset=inset, width=width, gravity=gravity)
             found.append(RateOpinion(model, float(falls.mean())))
     return tuple(found)
+
+
+def pile_agreement(response: Response[StackOutcome]) -> Agreement | None:
+    """Return what the models of a pile's top stone say beside the pile itself, None where that stone is held ([Furukawa2009]_).
+
+    The top stone, with those it is dowelled to, is taken as one block with the edges of its drawing. The criterion of gravestones is asked
+    where the top stone is a sao, and that of dowelled ones where it has a dowel.
+    """
+    pile: Pile = response.body
+    if pile.names[-1] in pile.fixed:
+        return None
+    top, dowelled = pile.stones[-1], any(pile.names[-1] in group for group in pile.dowels)
+    fit = (DOWELLED if dowelled else PLAIN) if top.name == SAO else None
+    own = Opinion(PILE, top.name in response.outcome.overturned, None)
+    block, stone = rigid_top(pile, 2), Block(top.width, top.height)
+    return agreement(block, response.motion, stone=stone, fit=fit, others=[own], gravity=response.options["gravity_m_s2"])

@@ -11,6 +11,7 @@ from seisblock.measures import ComponentMeasures, Conventions, measure
 from seisblock.records import Record, motion_of
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.solvers.rock.solve import solve_rock
+from seisblock.studies.agreement import Agreement, agreement
 from seisblock.studies.rocking.margin import flagged
 
 
@@ -30,6 +31,8 @@ class Card:
     velocity_highpass_hz : float or None
         Filter behind the PGV.
     warnings : tuple of str
+    agreement : Agreement or None
+        What a few of them, each counted once, and rocking blocks say, and how far apart they are; None where nobody asked.
     """
 
     record: Record
@@ -40,6 +43,7 @@ class Card:
     outcome: RockOutcome
     velocity_highpass_hz: float | None
     warnings: tuple[str, ...] = ()
+    agreement: Agreement | None = None
 
 
 def criteria_card(record: Record, component: str, block: Block, *, gravity: float, **options: Any) -> Card:
@@ -57,6 +61,8 @@ def criteria_card(record: Record, component: str, block: Block, *, gravity: floa
     """
     rules = Conventions(gravity_m_s2=gravity)
     measured = measure(record, (component,), conventions=rules).components[0]
-    response = flagged(solve_rock(block, motion_of(record, component), gravity=gravity, **options))
+    motion = motion_of(record, component)
+    response = flagged(solve_rock(block, motion, gravity=gravity, **options))
     rows = overturning_card(block, measured.pga_m_s2, measured.pgv_m_s, asdict(measured.equivalent_frequency_hz), gravity)
-    return Card(record, component, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings)
+    said = agreement(block, motion, gravity=gravity, **options)
+    return Card(record, component, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings, said)

@@ -50,6 +50,8 @@ def test_table_file_and_figure(run, tmp_path):
     answer = run("--block", "gravestone", "--component", "EW", "--csv", "card.csv", "--plot", "card.png", "--scale", 0.3)
     assert answer.exit_code == 0, answer.output
     assert "EW, simulated:" in answer.stdout
+    assert "of 14 criteria agree" in " ".join(answer.stdout.split())
+    assert "a factor of" in " ".join(answer.stdout.split())
     assert "half sine, nonlinear" in answer.stdout
     rows = list(csv.DictReader((tmp_path / "card.csv").open()))
     assert len(rows) == 30

@@ -67,6 +67,21 @@ def test_the_dowel_holds_the_sao(pulse):
     assert found["time_s"] is None
 
 
+def test_the_models_of_the_top_stone_are_told(pulse):
+    """Beside the pile's verdict stands what blocks and criteria say of its sao, with the criterion of its kind (N15)."""
+    (found,) = answer(pulse)["results"]
+    models = {opinion["model"]: opinion["falls"] for opinion in found["agreement"]["opinions"]}
+    assert models["pile of stones"] is True
+    assert found["agreement"]["models"] == 6
+    shown = " ".join(run(pulse).stdout.split())
+    assert "sao, NS: falls in" in shown
+    assert "pile of stones" in shown
+    dowelled = answer(pulse, "--reinforced")["results"][0]["agreement"]
+    factors = {opinion["model"]: opinion["factor"] for opinion in dowelled["opinions"]}
+    plain = {opinion["model"]: opinion["factor"] for opinion in found["agreement"]["opinions"]}
+    assert factors["criterion of gravestones"] > 1.3 * plain["criterion of gravestones"]
+
+
 def test_each_component_asked_for_is_a_run():
     """--component gives one entry for each, in the order asked."""
     found = answer("--window", "25:26", "--component", "EW,NS")["results"]

@@ -112,6 +112,19 @@ def test_what_a_person_reads(run, record):
     assert max(map(len, (told.stdout + harmonic.stdout).splitlines())) <= 80
 
 
+def test_what_is_beyond_the_model_is_no_number(run):
+    """A block that leans beyond what the model can follow has a first uplift and no height; JSON keeps both, and a flag (N16)."""
+    words = ("synthetic_jma.csv", "--width", 0.6, "--height", 1.8, "--frequency-vertical", 10, "--component", "NS")
+    shown = " ".join(run(*words).stdout.split())
+    assert "corner 1 lifts first, at 20.963 s; how far it lifts cannot be told" in shown
+    assert "mm." not in shown.partition("NS: corner")[2]
+    assert "highest position" not in shown
+    (found,) = json.loads(run(*words, "--json").stdout)["results"]
+    assert found["within_model"] is False
+    assert found["lean_ratio"] > 1.0
+    assert found["max_uplift_m"] > 0.1
+
+
 def test_a_record_too_weak_says_how_much_is_missing(run, record):
     """When nothing lifts the answer says how many times stronger the motion would have to be."""
     told = run(record, "--component", "EW", *BODY, "--scale", 0.05)

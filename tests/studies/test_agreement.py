@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.criteria.gravestones import overturning_pga
 from seisblock.measures import measure
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
+from seisblock.results import Response
 from seisblock.solvers.rock.solve import rock_verdict
-from seisblock.studies.agreement import GRAVESTONES, ISHIYAMA, PULSE, SHARP_BLOCK, WORN_BLOCK, Opinion, agreement, rates_by_model
+from seisblock.studies.agreement import (
+    GRAVESTONES,
+    ISHIYAMA,
+    PULSE,
+    SHARP_BLOCK,
+    WORN_BLOCK,
+    Opinion,
+    agreement,
+    pile_agreement,
+    rates_by_model,
+)
 
 RECORD = read("elcentro_1940_ns.csv")
 MOTION = motion_of(RECORD, "NS")
@@ -73,6 +87,13 @@ def test_further_models_are_counted():
     """What was asked elsewhere, such as a pile, has a voice, and a factor only if one is known."""
     alone, more = agreement(STONE, MOTION), agreement(STONE, MOTION, others=[Opinion("pile", True, None)])
     assert (more.falls, more.models, more.spread) == (alone.falls + 1, alone.models + 1, alone.spread)
+
+
+def test_a_stone_that_is_held_has_one_fate():
+    """Where the top stone of a pile is fixed nobody is asked what it would do."""
+    pile = load_pile("wagata")
+    held = replace(pile, fixed=(pile.names[-1],))
+    assert pile_agreement(Response("stack", None, MOTION, held, np.empty(0))) is None
 
 
 def test_no_shaking_no_disagreement():

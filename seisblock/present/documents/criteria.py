@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Annotated, Any
 
-from msgspec import Struct
+from msgspec import Meta, Struct
 
 from seisblock.bodies.block import Restitution
 from seisblock.criteria.card import Row
 from seisblock.measures.frequency import EquivalentFrequency
 from seisblock.present.documents.bodies import BlockEntry, block_entry
+from seisblock.present.documents.entry import entry_of, entry_type
 from seisblock.present.documents.kind import Document, Kind, Result
 from seisblock.solvers.rock.outcome import RockOutcome
+from seisblock.studies.agreement import Agreement
 from seisblock.studies.criteria_card import Card
 
 
@@ -39,6 +41,10 @@ class CriteriaParameters(Struct, frozen=True, kw_only=True):
     velocity_highpass_hz: float | None
 
 
+AGREEMENT = Annotated[Agreement | None, Meta(description="What other models of the same block say.")]
+Simulated: Any = entry_type("Simulated", RockOutcome, beside={"agreement": AGREEMENT})
+
+
 class CriteriaResult(Result, frozen=True, kw_only=True):
     """One direction.
 
@@ -50,7 +56,8 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
     equivalent_frequency_hz : EquivalentFrequency
     criteria : list of Row
         Threshold and demand are in the unit that the row names.
-    simulated : RockOutcome
+    simulated : Simulated
+        What ``seisblock rock`` answers.
     """
 
     component: str
@@ -58,7 +65,7 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
     pgv_m_s: float
     equivalent_frequency_hz: EquivalentFrequency
     criteria: tuple[Row, ...]
-    simulated: RockOutcome
+    simulated: Simulated
 
 
 CRITERIA = Kind("criteria", CriteriaParameters, CriteriaResult)
@@ -80,7 +87,7 @@ def document(cards: Sequence[Card], options: Mapping[str, Any], *, gravity: floa
                 pgv_m_s=card.measures.pgv_m_s,
                 equivalent_frequency_hz=card.measures.equivalent_frequency_hz,
                 criteria=card.rows,
-                simulated=card.outcome,
+                simulated=entry_of(Simulated, card.outcome, agreement=card.agreement),
             ),
         )
         for card in cards

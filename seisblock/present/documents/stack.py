@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Annotated, Any
 
-from msgspec import Struct
+from msgspec import Meta, Struct
 
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
@@ -16,6 +16,7 @@ from seisblock.present.documents.kind import Document, Kind, Result
 from seisblock.records import Record
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome
+from seisblock.studies.agreement import Agreement
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, frequencies_of
 
 
@@ -122,18 +123,21 @@ class StudyResult(Result, frozen=True, kw_only=True):
     scaled_records: tuple[ScaledEntry, ...]
 
 
-STACK_RESULT = entry_type("StackResult", StackOutcome, before=COMPONENT)
+AGREEMENT = Annotated[Agreement | None, Meta(description="What the models of the top stone say; null where it is held.")]
+STACK_RESULT = entry_type("StackResult", StackOutcome, before=COMPONENT, beside={"agreement": AGREEMENT})
 STACK = Kind("stack", StackParameters, STACK_RESULT)
 STUDY = Kind("stack", StudyParameters, StudyResult, name="criterion")
 
 
-def document(responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact) -> Document:
+def document(
+    responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact, agreements: Sequence[Agreement | None]
+) -> Document:
     """Return the document of one run per direction."""
     options: dict[str, Any] = {**responses[0].options, "contact": pile_contact_entry(contact)}
     options |= {name: bool(options[name]) for name in ("vertical", "across")}
     return STACK.document(
         StackParameters(**options, pile=pile_entry(pile)),
-        (outcome_of(STACK_RESULT, response) for response in responses),
+        (outcome_of(STACK_RESULT, response, agreement=found) for response, found in zip(responses, agreements, strict=True)),
         citations=[key for response in responses for key in response.citations],
         warnings=[text for response in responses for text in response.warnings],
     )

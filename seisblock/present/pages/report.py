@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from html import escape
 
+from seisblock.criteria.card import once_each
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.embed import picture
 from seisblock.present.figures.fonts import drawn
@@ -144,9 +145,10 @@ def _cards(found: Assessment, body: BodyAssessment, lang: str) -> Iterator[str]:
         cards.append(Card(found.record, name, body.subject.block, measured[name], body.cards[name], effect.response.outcome, highpass))
     yield f"<h3>{escape(said.told('Criteria beside the simulation', lang))}</h3>"
     for card in cards:
-        right = sum(row.overturns == card.outcome.overturned for row in card.rows)
+        counted = once_each(card.rows)
+        right = sum(row.overturns == card.outcome.overturned for row in counted)
         text = "{name}: {right} of {all} criteria agree with the simulation."
-        yield f"<p>{escape(said.told(text, lang, name=card.component, right=right, all=len(card.rows)))}</p>"
+        yield f"<p>{escape(said.told(text, lang, name=card.component, right=right, all=len(counted)))}</p>"
     yield picture(drawn(lambda: figure(cards)), said.told("Demand over threshold: right of 1 a criterion says that the body falls.", lang))
 
 

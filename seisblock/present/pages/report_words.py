@@ -69,6 +69,8 @@ def verdict(effect: Effect, lang: str) -> str:
         return told("rocks without jumping ({name})" if outcome.chains else "stands still", lang, name=name)
     if not outcome.uplifts:
         return told("no corner lifts", lang)
+    if not outcome.within_model:
+        return told("corner {corner} lifts, how far is beyond the model ({name})", lang, corner=outcome.corner, name=name)
     return told("corner {corner} lifts, up to {mm:.1f} mm ({name})", lang, corner=outcome.corner, mm=outcome.max_uplift_m * 1e3, name=name)
 
 
@@ -110,7 +112,7 @@ def _rock(effect: Effect, outcome: Any, lang: str) -> Iterator[str]:
             yield told("The verdict changes next at {factor:.3f} times this record.", lang, factor=margin.nearest_flip)
         first = next((window for window in margin.windows if window.overturned), None)
         if first is not None:
-            yield told("Below {factor:.3f} times this record it always stands.", lang, factor=first.first)
+            yield told("Of the factors looked at, all below {factor:.3f} let it stand.", lang, factor=first.first)
     if outcome.verdict_flips_within_2_percent:
         yield told("A change of the record by less than 2 % changes the verdict.", lang)
 
@@ -155,6 +157,10 @@ def _uplift(effect: Effect, outcome: Any, lang: str) -> Iterator[str]:
     """Yield uplift."""
     if not outcome.uplifts:
         yield told("No corner leaves its spring.", lang)
+        return
+    if not outcome.within_model:
+        text = "Corner {corner} lifts first, at {time:.2f} s; the block then leans so far that this model, without P-delta, does not hold."
+        yield told(text, lang, corner=outcome.corner, time=outcome.first_uplift_s)
         return
     text = (
         "Corner {corner} lifts first, at {time:.2f} s; up to {mm:.1f} mm, {total:.2f} s in the air; "

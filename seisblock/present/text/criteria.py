@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.bodies.library import edges
-from seisblock.criteria.card import ACCELERATION, Row
+from seisblock.criteria.card import ACCELERATION, Row, once_each
 from seisblock.present.files import write_table
+from seisblock.present.text.agreement import agreement_line
 from seisblock.present.text.rock import verdict
 from seisblock.present.text.tables import acceleration_unit, line, number, record_line, table
 from seisblock.records import Record
@@ -22,25 +23,28 @@ DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": 
 
 
 def tables(cards: Sequence[Card], *, gal: bool) -> Iterator[Any]:
-    """Yield the record's line, then a table per component with the simulated outcome below."""
+    """Yield the record's line, then per component the simulated outcome, the tables, and how far the models of it are apart."""
     last: Record | None = None
     for card in cards:
         if card.record is not last:
             last = card.record
             yield record_line(card.record)
-        yield from _tables(card, gal=gal)
         yield line(simulated(card))
+        yield from _tables(card, gal=gal)
+        if card.agreement is not None:
+            yield line(agreement_line(card.component, card.agreement))
         yield line()
 
 
 def simulated(card: Card) -> str:
-    """Return the simulated outcome in words."""
+    """Return the simulated outcome in words, and how many criteria say so, each counted once."""
+    counted = once_each(card.rows)
     return tell(
         "{name}, simulated: {verdict}. {right} of {all} criteria agree.",
         name=card.component,
         verdict=verdict(card.outcome),
-        right=sum(row.overturns == card.outcome.overturned for row in card.rows),
-        all=len(card.rows),
+        right=sum(row.overturns == card.outcome.overturned for row in counted),
+        all=len(counted),
     )
 
 

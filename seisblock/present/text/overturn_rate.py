@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.present.text.agreement import rates_line
 from seisblock.present.text.measure import usual_filters
 from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, record_line, table
 from seisblock.records import Record
@@ -13,7 +14,9 @@ from seisblock.studies.cemetery.judgement import CemeteryRate
 from seisblock.studies.cemetery.rate import CurvePoint
 from seisblock.words import noted, tell
 
-CAPTION = noted("least H/B: of a stone that falls; %: interval of the rate that so few stones leave open (Clopper-Pearson)")
+CAPTION = noted(
+    "least H/B: of a stone that falls; %: what so few stones leave open of the rate (Clopper-Pearson), not what shaking and criterion do"
+)
 
 SHOWN_EVERY = 1.0
 """Step of the curve's rows in the table, m/s^2; the whole curve is in --json and --csv."""
@@ -46,7 +49,7 @@ def tables(
         if record is not None:
             yield record_line(record)
         yield _rates(title, results, gal=gal, confidence=confidence)
-        yield from (line(sentence) for sentence in (*_filters(results, gal=gal), *_dowels(results)))
+        yield from (line(sentence) for sentence in (*_filters(results, gal=gal), *_models(results), *_dowels(results)))
     if not groups:
         yield _curve(title, curve, gal=gal)
 
@@ -88,6 +91,13 @@ def _filters(results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
             low, high = each.rate_range
             rate = tell("rate {low:.2f}", low=low) if low == high else tell("rate {low:.2f} to {high:.2f}", low=low, high=high)
             yield tell("{name}: {what}; {rate}", name=each.component, what=usual_filters(each.usual_highpass, gal=gal), rate=rate)
+
+
+def _models(results: Sequence[CemeteryRate]) -> Iterator[str]:
+    """Yield how far the models of the stones are apart, a sentence per shaking."""
+    for each in results:
+        if not each.of and (told := rates_line(each.component or "", each.models)):
+            yield told
 
 
 def _dowels(results: Sequence[CemeteryRate]) -> Iterator[str]:

@@ -9,21 +9,35 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.library import edges
+from seisblock.present.text.agreement import agreement_line, chance_lines
 from seisblock.present.text.tables import acceleration, acceleration_unit, line, number, record_line, seconds, table
 from seisblock.results import Response
-from seisblock.solvers.rock.outcome import RockOutcome
-from seisblock.words import tell
+from seisblock.solvers.rock.outcome import RockOutcome, friction_suffices
+from seisblock.studies.rocking.margin import Margin
+from seisblock.words import noted, tell
 
 Rockings = Sequence[Response[RockOutcome]]
 
 
-def tables(responses: Rockings, extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Iterator[Any]:
-    """Yield, per record, its line, a table with a column per component, and what it comes to in words."""
+def tables(responses: Rockings, extras: Sequence[Mapping[str, Any]], *, gal: bool, mu: float | None = None) -> Iterator[Any]:
+    """Yield, per record, its line, what becomes of the block in words, a table with a column per component, and how sure that is.
+
+    Parameters
+    ----------
+    responses : sequence of Response
+    extras : sequence of mapping
+        What was found beside each: ``agreement``, ``margin``, ``perturbation``.
+    gal : bool
+    mu : float or None
+        The friction there is, where it was said.
+    """
     records = list({id(r.motion.record): r.motion.record for r in responses}.values())
     for record in records:
         part = [(r, e) for r, e in zip(responses, extras, strict=True) if r.motion.record is record]
         if record is not None:
             yield record_line(record)
+        for response, _ in part:
+            yield line(first_line(response, mu))
         yield _table([r for r, _ in part], gal=gal)
         for response, extra in part:
             for sentence in sentences(response, extra):
@@ -60,23 +74,31 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
     return table(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
 
 
-def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iterator[str]:
-    """Yield the verdict, its fragility, its margins and its probability."""
+def first_line(response: Response[RockOutcome], mu: float | None = None) -> str:
+    """Return the verdict, and that it takes more friction than there is where that is so."""
     outcome, name = response.outcome, response.motion.name or "x"
-    yield tell("{name}: {verdict}.", name=name, verdict=verdict(outcome))
+    told = tell("{name}: {verdict}.", name=name, verdict=verdict(outcome))
+    if mu is None or friction_suffices(outcome, mu, response.options["gravity_m_s2"]):
+        return told
+    ratio = outcome.threshold_m_s2 / response.options["gravity_m_s2"]
+    if mu < ratio:
+        text = noted("With a friction of {mu:g}, less than b/h, {ratio:.3f}, it would slide and not rock: this is not what happens.")
+        return f"{told} {tell(text, mu=mu, ratio=ratio)}"
+    if outcome.max_friction_demand is None:
+        return f"{told} {tell('It leaves the ground, so that no friction suffices: this is not what happens.')}"
+    text = noted("That needs a friction of {needed:.2f} at {time:.3f} s, and there is {mu:g}: it would slip while it rocks.")
+    return f"{told} {tell(text, needed=outcome.max_friction_demand, time=outcome.max_friction_demand_s, mu=mu)}"
+
+
+def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iterator[str]:
+    """Yield how far the models disagree, the margins and the share of perturbed runs."""
+    name = response.motion.name or "x"
+    if "agreement" in extra:
+        yield agreement_line(name, extra["agreement"])
     if "margin" in extra:
-        yield from (f"  {told}" for told in _margin_lines(extra["margin"]))
+        yield from (tell("{name}: {text}", name=name, text=told) for told in _margin_lines(extra["margin"]))
     if "perturbation" in extra:
-        found = extra["perturbation"]
-        low, high = found.probability_interval
-        yield "  " + tell(
-            "overturns in {fallen} of {runs} perturbed runs: {share:.3f} (95 %: {low:.3f} to {high:.3f}).",
-            fallen=found.overturned,
-            runs=found.runs,
-            share=found.probability,
-            low=low,
-            high=high,
-        )
+        yield from (tell("{name}: {text}", name=name, text=told) for told in chance_lines(extra["perturbation"]))
 
 
 def verdict(outcome: RockOutcome) -> str:
@@ -99,15 +121,21 @@ def way_to_alpha(ratio: float) -> str:
     return tell("{share:.0%} of the way to alpha", share=ratio)
 
 
-def _margin_lines(margin: Any) -> Iterator[str]:
-    """Yield the windows of factors in which the block overturns."""
-    unsafe = [window for window in margin.windows if window.overturned]
-    if not unsafe:
-        yield tell("stands at every factor up to {limit:g} (looked at every {step:g}).", limit=margin.limit, step=margin.step)
+def _margin_lines(margin: Margin) -> Iterator[str]:
+    """Yield the first fall found, how often it falls above, and the windows in which it does."""
+    if margin.first_fall is None or margin.falls_above_first is None:
+        yield tell("stands at every factor looked at, up to {limit:g} (every {step:g}).", limit=margin.limit, step=margin.step)
         return
-    shown = [tell("{first:.4f} to {last:.4f}", first=w.first, last=w.last) for w in unsafe[:8]] + ["..."] * (len(unsafe) > 8)
     yield tell(
-        "overturns at factors {factors} (up to {limit:g}, looked at every {step:g}).", factors=shown, limit=margin.limit, step=margin.step
+        "falls from {first:.3g} times this record on (first found, looked at every {step:g} up to {limit:g}); above that at {share:.0%} of "
+        "the factors.",
+        first=margin.first_fall,
+        step=margin.step,
+        limit=margin.limit,
+        share=margin.falls_above_first,
     )
+    unsafe = [window for window in margin.windows if window.overturned]
+    shown = [tell("{first:.4f} to {last:.4f}", first=w.first, last=w.last) for w in unsafe[:8]] + ["..."] * (len(unsafe) > 8)
+    yield tell("falls were found at factors {factors}.", factors=shown)
     if margin.nearest_flip is not None:
-        yield tell("the verdict changes next at a factor of {factor:.4f}.", factor=margin.nearest_flip)
+        yield tell("the verdict changes next at a factor of {factor:.4f}, of those found.", factor=margin.nearest_flip)

@@ -7,9 +7,11 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.bodies.pile.stone import GROUND
+from seisblock.present.text.agreement import agreement_line
 from seisblock.present.text.tables import line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
+from seisblock.studies.agreement import Agreement
 from seisblock.words import strung, tell
 
 NOTICEABLE_TILT, NOTICEABLE_SLIP = 2e-3, 2e-4
@@ -19,10 +21,10 @@ NOTICEABLE_TILT, NOTICEABLE_SLIP = 2e-3, 2e-4
 Stacks = Sequence[Response[StackOutcome]]
 
 
-def tables(responses: Stacks) -> Iterator[Any]:
-    """Yield the record, a row per stone, and a sentence per run."""
+def tables(responses: Stacks, agreements: Sequence[Agreement | None]) -> Iterator[Any]:
+    """Yield the record, a row per stone, a sentence per run, and how far the models of the top stone are apart."""
     seen: set[int] = set()
-    for response in responses:
+    for response, found in zip(responses, agreements, strict=True):
         record = response.motion.record
         if record is not None and id(record) not in seen:
             seen.add(id(record))
@@ -31,6 +33,9 @@ def tables(responses: Stacks) -> Iterator[Any]:
         title = f"+x = {response.motion.name}: {tell(response.body.name)}"
         yield table(title, columns, (_row(stone) for stone in reversed(response.outcome.stones)))
         yield line(sentence(response))
+        if found is not None:
+            top = tell("{stone}, {name}", stone=tell(response.body.names[-1]), name=response.motion.name)
+            yield line(agreement_line(top, found))
         yield line()
 
 

@@ -7,10 +7,15 @@ from typing import Any
 
 from seisblock.present.text.tables import line, record_line, seconds, table
 from seisblock.results import Response
-from seisblock.solvers.uplift.solve import UpliftOutcome
-from seisblock.words import tell
+from seisblock.solvers.uplift.solve import SMALL, UpliftOutcome
+from seisblock.words import noted, tell
 
 Uplifts = Sequence[Response[UpliftOutcome]]
+
+OUTSIDE = noted(
+    "how far it lifts cannot be told: the block leans beyond {small:g} of its slenderness, where this model, without P-delta, fails."
+)
+"""What stands in the place of numbers that are none."""
 
 PLACES = ("1 (+x,+y)", "2 (+x,-y)", "3 (-x,+y)", "4 (-x,-y)")
 """Names of the corners."""
@@ -38,10 +43,12 @@ def tables(responses: Uplifts, *, gal: bool) -> Iterator[Any]:
 
 
 def _rows(response: Response[UpliftOutcome]) -> Iterator[list[str]]:
-    """Yield what each corner did, a column per corner."""
+    """Yield what each corner did, a column per corner; where the model does not hold, the first uplift alone."""
     corners = response.outcome.corners
     static = response.body.static_corner_force(response.options["gravity_m_s2"])
     yield [tell("first uplift (s)"), *(seconds(c.first_uplift_s) for c in corners)]
+    if not response.outcome.within_model:
+        return
     yield [tell("in the air (s)"), *(seconds(c.uplift_duration_s) for c in corners)]
     yield [tell("longest in the air (s)"), *(seconds(c.longest_uplift_s) for c in corners)]
     yield [tell("highest position (mm)"), *(f"{c.max_uplift_m * 1e3:.2f}" for c in corners)]
@@ -64,6 +71,9 @@ def sentence(response: Response[UpliftOutcome]) -> str:
         first = tell("{name}: corners {corners} lift first, at {time:.3f} s", name=name, corners=numbers, time=outcome.first_uplift_s)
     else:
         first = tell("{name}: corner {corner} lifts first, at {time:.3f} s", name=name, corner=corners[0], time=outcome.first_uplift_s)
+    if not outcome.within_model:
+        told = tell(OUTSIDE, small=SMALL)
+        return f"{first}; {told} " + tell("{factor:.3g} times this motion just lifts one.", factor=outcome.uplift_scale)
     shares = [tell("{share:.1%} on {corners}", share=share, corners=n) for n, share in outcome.share_on_corners.items() if share > 0.0]
     return first + tell(
         "; the highest uplift is {most:.2f} mm. Corners are in the air for {air:.3f} s in {changes} changes of contact ({shares} corners). "

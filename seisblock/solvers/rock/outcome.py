@@ -78,6 +78,17 @@ class RockOutcome:
     verdict_flips_within_2_percent: bool | None = None
 
 
+def friction_suffices(outcome: RockOutcome, mu: float, gravity: float) -> bool:
+    """Return whether a friction coefficient lets a block do what the outcome says ([Ishiyama1982]_).
+
+    It slides instead of rocking where mu < b/h, and slips where the forces of rocking ask for more than mu; a block that never moved asks
+    for what the ground's own acceleration does.
+    """
+    if outcome.rocks and mu < outcome.threshold_m_s2 / gravity:
+        return False
+    return outcome.max_friction_demand is not None and outcome.max_friction_demand <= mu
+
+
 def lean_ratio(block: Block, largest: tuple[float, float]) -> float:
     """Return the larger lean over alpha of its corner, from the largest leans to +x and to -x."""
     return max(lean / alpha for lean, alpha in zip(largest, block.slendernesses, strict=True))

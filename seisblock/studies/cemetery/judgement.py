@@ -13,6 +13,7 @@ from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import WORN, Inset
 from seisblock.criteria.gravestones import DOWELLED, DOWELLED_REMARK, PLAIN, GravestoneFit, outside_fit
 from seisblock.measures import FilterRange
+from seisblock.studies.agreement import RateOpinion, rates_by_model
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
 from seisblock.studies.cemetery.rate import CONFIDENCE, CURVE_PGA, FREQUENCIES, CurvePoint, rate_curve, rate_of, remarks, threshold_ratio
 from seisblock.studies.cemetery.shaking import Shaking
@@ -108,6 +109,8 @@ class CemeteryRate:
         How far PGV and frequency move with the usual filters; None when by no more than 5 %, or where the rate does not rest on a PGV.
     rate_range : two floats or None
         The least and the largest rate at those frequencies.
+    models : tuple of RateOpinion
+        The rate by each model of the stones, whichever criterion was asked for.
     """
 
     component: str | None
@@ -127,6 +130,7 @@ class CemeteryRate:
     of: str | None = None
     usual_highpass: FilterRange | None = None
     rate_range: tuple[float, float] | None = None
+    models: tuple[RateOpinion, ...] = ()
 
 
 def overturned(cemetery: Cemetery, shaking: Shaking, method: Method) -> BoolArray:
@@ -202,6 +206,7 @@ def judge_cemetery(
         outside_fit(shaking.pga, shaking.frequency, ratios) if method.criterion == "furukawa" else (),
         usual_highpass=moves,
         rate_range=None if moves is None else _rate_range(cemetery, shaking, method, moves.pga_pgv_hz),
+        models=rates_by_model(cemetery, shaking.pga, shaking.frequency, shaking.motion, width=method.width, gravity=method.gravity),
     )
 
 

@@ -1,0 +1,125 @@
+"""How it is told that models disagree, and of what a share of runs is the share."""
+
+from __future__ import annotations
+
+from seisblock.studies.agreement import GRAVESTONES, Agreement, Opinion, RateOpinion
+from seisblock.studies.rocking.perturb import Perturbation
+from seisblock.words import noted, tell
+
+LEAST, MOST = 0.03, 0.98
+"""Shares of perturbed runs beyond which no share is a chance: of fitted real rocks 3 % fell where no version did, and 2 % stood where
+all of them fell."""
+
+
+def agreement_line(name: str, found: Agreement) -> str:
+    """Return in a sentence how many models let an object fall, which, and how far apart they are.
+
+    Parameters
+    ----------
+    name : str
+        Direction of the record.
+    found : Agreement
+    """
+    factors = [opinion.factor for opinion in found.opinions if opinion.factor is not None]
+    if not found.opinions or found.spread is None:
+        return tell("{name}: falls in {falls} of {models} models.", name=name, falls=found.falls, models=found.models)
+    values = {"name": name, "models": found.models, "spread": found.spread}
+    if found.unanimous:
+        ends = {"low": min(factors), "high": max(factors)}
+        if found.falls:
+            text = noted(
+                "{name}: falls in all {models} models, which let it fall from {low:.2f} to {high:.2f} times this record on, a factor of "
+                "{spread:.1f} apart."
+            )
+        else:
+            text = noted(
+                "{name}: stands in all {models} models, which let it fall from {low:.2f} to {high:.2f} times this record on, a factor of "
+                "{spread:.1f} apart."
+            )
+        return tell(text, **values, **ends)
+    text = noted(
+        "{name}: falls in {falls} of {models} models, {falling}; stands in {standing}. From those factors on this record on they let it "
+        "fall, a factor of {spread:.1f} apart."
+    )
+    falling, standing = ([_opinion(o) for o in found.opinions if o.falls is falls] for falls in (True, False))
+    told = tell(text, **values, falls=found.falls, falling=falling, standing=standing)
+    made = next((opinion for opinion in found.opinions if opinion.made_for_it), None)
+    return told if made is None else f"{told} {_made_for_it(made)}"
+
+
+def _opinion(opinion: Opinion) -> str:
+    """Return a model with the factor from which on it lets the object fall."""
+    if opinion.factor is None:
+        return tell(opinion.model)
+    return tell("{model} ({factor:.2f})", model=tell(opinion.model), factor=opinion.factor)
+
+
+def _made_for_it(opinion: Opinion) -> str:
+    """Return what the model says that was made for such objects."""
+    if opinion.falls:
+        return tell("The {model}, made for this, says that it falls.", model=tell(opinion.model))
+    return tell("The {model}, made for this, says that it stands.", model=tell(opinion.model))
+
+
+def rates_line(name: str, rates: tuple[RateOpinion, ...]) -> str:
+    """Return in a sentence which share of a cemetery falls by each model, empty where only one was asked.
+
+    Parameters
+    ----------
+    name : str
+        Direction of the record; empty for bare numbers.
+    rates : tuple of RateOpinion
+    """
+    if len(rates) < 2:
+        return ""
+    told = [tell("{rate:.0%} by the {model}", rate=each.rate, model=tell(each.model)) for each in rates]
+    low, high = min(each.rate for each in rates), max(each.rate for each in rates)
+    values = {"name": name, "rates": told, "made": tell(GRAVESTONES)}
+    if low > 0.0:
+        text = noted("{name}: of the stones fall {rates}, {spread:.1f} times as many by one as by another; the {made} is made for them.")
+        return tell(text, **values, spread=high / low).removeprefix(": ")
+    return tell("{name}: of the stones fall {rates}; the {made} is made for them.", **values).removeprefix(": ")
+
+
+def chance(share: float) -> str:
+    """Return a share of perturbed runs as what can be said of it.
+
+    Examples
+    --------
+    >>> chance(0.0), chance(0.5), chance(1.0)
+    ('below 0.03', '0.50', 'above 0.98')
+    """
+    if share < LEAST:
+        return tell("below {share}", share=LEAST)
+    return tell("above {share}", share=MOST) if share > MOST else f"{share:.2f}"
+
+
+def chance_lines(found: Perturbation) -> tuple[str, str]:
+    """Return how often a perturbed block fell, of what that is the share, and what was varied.
+
+    Parameters
+    ----------
+    found : Perturbation
+    """
+    values = {"fallen": found.overturned, "runs": found.runs, "share": chance(found.probability), "of": tell(found.interval_of)}
+    low, high = found.probability_interval
+    if found.probability < LEAST:
+        text = noted("falls in {fallen} of {runs} versions of body and shaking: {share}; of real rocks 3 % fell where no version did.")
+    elif found.probability > MOST:
+        text = noted("falls in {fallen} of {runs} versions of body and shaking: {share}; of real rocks 2 % stood where every version fell.")
+    else:
+        text = noted(
+            "falls in {fallen} of {runs} versions of body and shaking: {share}; {low} to {high} is the 95 % interval of {of}, no more."
+        )
+    s = found.spread
+    varied = tell(
+        "varied: size by {size:.0%}, slenderness {slenderness:.0%}, restitution {restitution:.0%}, amplitude {amplitude:.0%}, azimuth "
+        "{azimuth:g} deg, edges worn by up to {inset:.0%} of the width.",
+        size=s.size,
+        slenderness=s.slenderness,
+        restitution=s.restitution,
+        amplitude=s.amplitude,
+        azimuth=s.azimuth_deg,
+        inset=s.inset,
+    )
+    return tell(text, **values, low=chance(low), high=chance(high)), varied
