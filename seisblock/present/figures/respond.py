@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
 from seisblock.results import Phase, Response
-from seisblock.solvers.respond.outcome import FLIGHT, ROCK, SLIDE, SLIDE_ROCK, RespondOutcome
+from seisblock.solvers.respond.outcome import RespondOutcome
+from seisblock.solvers.respond.tale import FLIGHT, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.units import GAL
 
 COLOURS = {SLIDE: "#d5dcef", ROCK: "#f4d9c6", SLIDE_ROCK: "#e3d3e8", FLIGHT: "#cfe3d4"}

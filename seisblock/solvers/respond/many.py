@@ -13,7 +13,7 @@ from seisblock.dynamics import Ensemble, follow_many
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.respond import names
-from seisblock.solvers.respond.run import STILL_DT, check_settling, still_ground
+from seisblock.solvers.respond.run import check_settling, still_ground
 from seisblock.solvers.respond.setting import Initial, Setting
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, IntArray
 
@@ -101,10 +101,11 @@ def _fates(settings: Sequence[Setting], motion: Motion, gains: FloatArray, initi
     high, low = _extrema(shaken)
     moving = (mode >= 0) & (mode % names.HELD != names.REST)
     if settle_s > 0.0 and moving.any():
-        p = np.array([setting.parameters(STILL_DT, still=True) for setting in settings])
+        ground = still_ground(settle_s)
+        p = np.array([setting.parameters(ground.dt, still=True) for setting in settings])
         for kind in np.unique(mode[moving]):
             rows = np.flatnonzero(moving & (shaken.final_mode == kind))
-            after = follow_many(model, still_ground(settle_s), p[rows], shaken.final[rows], int(kind), gains=(1.0, 0.0, 1.0))
+            after = follow_many(model, ground, p[rows], shaken.final[rows], int(kind), gains=(1.0, 0.0, 1.0))
             final[rows], mode[rows] = after.final, after.final_mode
             end[rows] = (motion.samples - 1) * motion.dt + after.end_time
             higher, lower = _extrema(after)

@@ -1,4 +1,4 @@
-"""What a run means: the outcome, its events and phases, and what one should know before believing the numbers."""
+"""What a run means in numbers: the outcome, its changes of mode and its phases."""
 
 from __future__ import annotations
 
@@ -9,17 +9,11 @@ from typing import TypedDict
 import numpy as np
 
 from seisblock.dynamics import Change
-from seisblock.results import Event, Phase, Status
+from seisblock.results import Phase, Status
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import Run
 from seisblock.solvers.respond.setting import Setting
-from seisblock.words import noted
-
-REST, SLIDE, ROCK = noted("rest"), noted("slide"), noted("rock")
-SLIDE_ROCK, FLIGHT, OVERTURNED = noted("slide-rock"), noted("flight"), noted("overturned")
-
-RESTS, OVERTURNS, MOVES_ON, HOPS_ON = "rests", "overturns", "moves on", "hops without end"
-"""Outcomes beside those of a body that has moved and stands: slides, rocks, flies, and their combinations."""
+from seisblock.solvers.respond.tale import OVERTURNED, in_words
 
 
 class ModeChange(TypedDict):
@@ -169,7 +163,7 @@ def gather(run: Run, setting: Setting, start_s: float, sensitive: bool | None) -
     ahead, behind = run.extrema(names.X)
     released = [time for time, change in run.changes() if change.guard == names.RELEASE and change.target == names.FLIGHT]
     return RespondOutcome(
-        outcome=in_words(run, events),
+        outcome=in_words(run, {event["mode"] for event in events}),
         overturned=overturned,
         overturned_towards=("+x" if final[names.THETA] > 0.0 else "-x") if overturned else None,
         overturning_time_s=end_s if overturned else None,
@@ -201,69 +195,11 @@ def _leaves_ground(change: Change) -> bool:
     return change.source % names.HELD != names.FLIGHT or bool(change.after[names.IMPACTS] > change.before[names.IMPACTS])
 
 
-def in_words(run: Run, events: list[ModeChange]) -> str:
-    """Say in a word or two what the body did."""
-    if run.mode == names.OVERTURNED:
-        return OVERTURNS
-    if run.mode == names.GAVE_UP:
-        return HOPS_ON
-    if not run.settles:
-        return MOVES_ON
-    seen = {event["mode"] for event in events}
-    did = [word for word, modes in (("slides", {SLIDE, SLIDE_ROCK}), ("rocks", {ROCK, SLIDE_ROCK}), ("flies", {FLIGHT})) if modes & seen]
-    return " and ".join(filter(None, (", ".join(did[:-1]), did[-1]))) if did else RESTS
-
-
 def status(run: Run) -> Status:
     """Return how the run ended."""
     if run.mode == names.GAVE_UP:
         return Status.TOO_MANY_EVENTS
     return Status.STOPPED if run.mode == names.OVERTURNED or run.settles else Status.RECORD_ENDED
-
-
-def event_name(change: Change) -> str:
-    """Return what happened."""
-    if change.target == names.OVERTURNED:
-        return "overturns"
-    if change.target == names.GAVE_UP:
-        return "is given up"
-    if change.guard == names.RELEASE:
-        return "leaves the tenons" if change.target == names.FLIGHT else "lifts one foot over its tenon"
-    struck = change.after[names.IMPACTS] > change.before[names.IMPACTS]
-    target = names.MODES[change.target]
-    if struck:
-        lands = change.source % names.HELD == names.FLIGHT
-        return ("landing" if lands else "impact") + (", " + target if target in (REST, SLIDE, FLIGHT) else "")
-    return {REST: "comes to rest", SLIDE: "slides", ROCK: "rocks", SLIDE_ROCK: "slides while rocking", FLIGHT: "lifts off"}[target]
-
-
-def event_log(run: Run, start_s: float) -> tuple[Event, ...]:
-    """Return every event with both limits of the state."""
-    return tuple(Event(event_name(change), start_s + time, change.before, change.after) for time, change in run.changes())
-
-
-def warnings(run: Run, setting: Setting, outcome: RespondOutcome, settle_s: float) -> tuple[str, ...]:
-    """Return what the user should know before believing the numbers."""
-    name = setting.stand.name
-    told = []
-    if run.mode == names.GAVE_UP:
-        told.append(
-            f"{name}: given up at {outcome.end_s:.3f} s after {outcome.impacts} impacts: it hops without end; lower the restitution"
-        )
-    elif not outcome.settled and not outcome.overturned:
-        told.append(f"{name}: still in motion {settle_s:g} s after the record; what is given is the state then")
-    if setting.may_jam:
-        jams = f"{outcome.jams} of its slips jammed" if outcome.jams else "no slip jammed here"
-        told.append(
-            f"{name}: kinetic friction {setting.mu_kinetic:g} is above {setting.stand.friction_limit:.2f}, where a rigid body that slips "
-            f"may jam (Painleve); {jams}"
-        )
-    if outcome.ratios_lowered:
-        told.append(
-            f"{name}: the rocking restitution {setting.rocking_restitution:g} would have created energy in "
-            f"{outcome.ratios_lowered} impacts and was lowered there"
-        )
-    return tuple(told)
 
 
 def final_mode(run: Run) -> int:

@@ -18,19 +18,27 @@ from seisblock.solvers.respond.setting import Initial, Setting
 from seisblock.typing import FloatArray, IntArray
 
 STILL_DT = 0.01
-"""Sampling interval of the still ground after the record, s: only the longest step depends on it."""
+"""Longest sampling interval of the still ground after the record, s: only the longest step depends on it."""
+
+LONGEST_SETTLING = 3600.0
+"""Longest time after the record that is followed, s."""
 
 
 def check_settling(settle_s: float) -> None:
-    """Refuse a time to settle that is negative or no number."""
-    if not (math.isfinite(settle_s) and settle_s >= 0.0):
-        raise ParameterError(f"the time to settle after the record must be zero or more, found {settle_s:g} s")
+    """Refuse a time to settle that is negative, endless or no number."""
+    if not 0.0 <= settle_s <= LONGEST_SETTLING:
+        raise ParameterError(
+            "the time to settle after the record must lie between 0 and {most:g} s, found {found:g} s",
+            most=LONGEST_SETTLING,
+            found=settle_s,
+        )
 
 
 @functools.lru_cache(maxsize=4)
 def still_ground(settle_s: float) -> Motion:
-    """Return ground that does not move, as a motion of at least `settle_s` seconds."""
-    return Motion(np.zeros((3, math.ceil(settle_s / STILL_DT) + 1)), STILL_DT, name="still")
+    """Return ground that does not move for `settle_s` seconds, as a motion."""
+    samples = max(math.ceil(settle_s / STILL_DT - 1e-9), 1)
+    return Motion(np.zeros((3, samples + 1)), settle_s / samples, name="still")
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +116,7 @@ class Run:
 def run(
     setting: Setting, motion: Motion, gains: tuple[float, float, float], initial: Initial, settle_s: float, *, keep: bool = True
 ) -> Run:
-    """Follow a body through a motion and to its rest ([ShentonJones1991]_).
+    """Follow a body through a motion and to its rest.
 
     `keep` says whether samples and events are wanted, or the end alone.
     """
@@ -119,8 +127,9 @@ def run(
     duration = (motion.samples - 1) * motion.dt
     if not moves_on(shaken.final_mode) or settle_s == 0.0:
         return Run(shaken, None, duration)
+    ground = still_ground(settle_s)
     after = follow(
-        setting.model, still_ground(settle_s), setting.parameters(STILL_DT, still=True), shaken.final, shaken.final_mode,
+        setting.model, ground, setting.parameters(ground.dt, still=True), shaken.final, shaken.final_mode,
         gains=(1.0, 0.0, 1.0), keep_path=keep, keep_events=keep,
     )  # fmt: skip
     return Run(shaken, after, duration)

@@ -10,6 +10,8 @@ import numpy as np
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.checks import fraction, not_negative, within
+from seisblock.checks import gravity as check_gravity
 from seisblock.dynamics import Model
 from seisblock.errors import BodyError, ParameterError
 from seisblock.records import Motion
@@ -30,6 +32,7 @@ from seisblock.solvers.respond.names import (
     X,
 )
 from seisblock.typing import FloatArray
+from seisblock.words import noted
 
 MOST_IMPACTS = 50_000
 """Impacts after which a motion counts as one of hops without end."""
@@ -70,8 +73,11 @@ class Stand:
     def __post_init__(self) -> None:
         if not (self.right > 0.0 and self.left > 0.0):
             raise BodyError(
-                f"{self.name}: the centre of gravity must lie above the base; it lies {self.left:g} m to +x of the left corner "
-                f"and {self.right:g} m to -x of the right one"
+                "{name}: the centre of gravity must lie above the base; it lies {left:g} m to +x of the left corner and {right:g} m to -x "
+                "of the right one",
+                name=self.name,
+                left=self.left,
+                right=self.right,
             )
 
     @property
@@ -130,24 +136,28 @@ class Setting:
     further_points: tuple[tuple[float, float], ...] = ()
 
     def __post_init__(self) -> None:
-        _within("the friction coefficient mu", self.mu, 0.0, math.inf, "zero or more")
-        _within("the kinetic friction coefficient", self.mu_kinetic, 0.0, math.inf, "zero or more")
+        not_negative(noted("the friction coefficient mu"), self.mu)
+        not_negative(noted("the kinetic friction coefficient"), self.mu_kinetic)
         if self.mu_kinetic > self.mu:
-            raise ParameterError(f"kinetic friction must not exceed static friction, found {self.mu_kinetic:g} above {self.mu:g}")
-        if not 0.0 <= self.restitution < 1.0:
-            raise ParameterError(f"the restitution must lie in [0, 1), found {self.restitution:g}")
-        if self.rocking_restitution is not None and not 0.0 <= self.rocking_restitution <= 1.0:
             raise ParameterError(
-                f"the rocking restitution, a ratio of angular velocities, must lie in [0, 1], found {self.rocking_restitution:g}"
+                "kinetic friction must not exceed static friction, found {found:g} above {mu:g}", found=self.mu_kinetic, mu=self.mu
             )
-        if not (math.isfinite(self.gravity) and self.gravity > 0.0):
-            raise ParameterError(f"gravity must be positive, found {self.gravity:g} m/s^2")
-        _within("the tenon's depth", self.tenon, 0.0, math.inf, "zero or more, m")
+        within(noted("the restitution"), self.restitution, "[0, 1)")
+        if self.rocking_restitution is not None:
+            fraction(noted("the rocking restitution, a ratio of angular velocities,"), self.rocking_restitution)
+        check_gravity(self.gravity)
+        not_negative(noted("the tenon's depth"), self.tenon, "m")
         for point in self.further_points:
             if len(point) != 2 or not all(math.isfinite(value) for value in point):
-                raise ParameterError(f"a further point is two lengths, to +x of the centre of gravity and above it, found {point}")
+                raise ParameterError(
+                    "a further point is two lengths, to +x of the centre of gravity and above it, found {found}", found=str(point)
+                )
             if not point[1] > -self.stand.height:
-                raise ParameterError(f"a further point must lie above the base, {self.stand.height:g} m below the centre, found {point}")
+                raise ParameterError(
+                    "a further point must lie above the base, {height:g} m below the centre, found {found}",
+                    height=self.stand.height,
+                    found=str(point),
+                )
 
     @property
     def small_rate(self) -> float:
@@ -185,10 +195,12 @@ class Setting:
         if initial is None:
             return y
         if len(initial) != 6 or not all(math.isfinite(value) for value in initial):
-            raise ParameterError(f"the initial state is six numbers, x_G, y_G, theta and their rates, found {tuple(initial)}")
+            raise ParameterError(
+                "the initial state is six numbers, x_G, y_G, theta and their rates, found {found}", found=str(tuple(initial))
+            )
         x, height, theta, x_rate, rise, omega = (float(value) for value in initial)
         if not abs(theta) < math.pi / 2:
-            raise ParameterError(f"the initial lean must lie within pi/2 rad, found {theta:g} rad")
+            raise ParameterError("the initial lean must lie within pi/2 rad, found {found:g} rad", found=theta)
         y[X], y[THETA], y[SPEED], y[OMEGA] = x, theta, x_rate, omega
         size = max(self.stand.radii)
         slow = TOUCHING * math.sqrt(self.gravity * size)
@@ -197,19 +209,15 @@ class Setting:
             gap = height - xi * math.sin(theta) - self.stand.height * math.cos(theta)
             rate = rise - rx * omega
             if gap < -TOUCHING * size:
-                raise ParameterError(f"{self.stand.name}: the initial state has a corner {-gap:.3g} m below the ground")
+                raise ParameterError(
+                    "{name}: the initial state has a corner {depth:.3g} m below the ground", name=self.stand.name, depth=-gap
+                )
             y[gap_row] = gap if gap > TOUCHING * size else 0.0
             y[rate_row] = rate if abs(rate) > slow + TOUCHING * (abs(rise) + abs(rx * omega)) else 0.0
         for ahead, above in self.further_points:
             if height - ahead * math.sin(theta) + above * math.cos(theta) <= 0.0:
-                raise ParameterError(f"{self.stand.name}: the initial state has a further point below the ground")
+                raise ParameterError("{name}: the initial state has a further point below the ground", name=self.stand.name)
         return y
-
-
-def _within(what: str, value: float, least: float, most: float, expected: str) -> None:
-    """Refuse a number outside its range."""
-    if not (math.isfinite(value) and least <= value <= most):
-        raise ParameterError(f"{what} must be {expected}, found {value:g}")
 
 
 def gains(motion: Motion, vertical: Factor | None) -> tuple[float, float, float]:

@@ -11,9 +11,10 @@ from seisblock.records.given import Factor, check_call
 from seisblock.results import Channel, Response
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.curves import curves
-from seisblock.solvers.respond.outcome import RespondOutcome, event_log, gather, motion_modes, phases, status, warnings
+from seisblock.solvers.respond.outcome import RespondOutcome, gather, motion_modes, phases, status
 from seisblock.solvers.respond.run import Run, check_settling, run
 from seisblock.solvers.respond.setting import Body, Initial, Setting, gains, stand
+from seisblock.solvers.respond.tale import event_log, warnings
 from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
 
@@ -125,7 +126,7 @@ def solve_respond(
     time, channels = _channels(found, setting, motion, factors)
     return Response(
         "respond", outcome, motion, block, motion.start_s + time, channels, phases(outcome.events, outcome.end_s),
-        event_log(found, motion.start_s), options, status(found), warnings(found, setting, outcome, settle_s), CITATIONS,
+        event_log(found, motion.start_s), options, status(found), warnings(found, setting, outcome.end_s, settle_s), CITATIONS,
     )  # fmt: skip
 
 
