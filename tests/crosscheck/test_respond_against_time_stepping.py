@@ -1,0 +1,62 @@
+"""`respond` agrees with Moreau's time stepping, which knows neither modes nor events: verdicts, displacements, leans."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.crosscheck.respond.cases import Case, plain, some_case
+from tests.crosscheck.respond.contact import LEFT, Body, along, jacobians, lever, mobility
+from tests.crosscheck.respond.impact import routh
+from tests.crosscheck.respond.program import events, final, program
+from tests.crosscheck.respond.time_stepping import contact, stepped
+
+STEP = 4e-5
+"""Time step of the witness, s; its errors are of this order."""
+
+SEEDS = (1, 3, 4, 5, 8, 10, 11, 13, 14, 16, 17, 20, 21, 23, 25, 26, 28, 31, 32, 33, 35, 42, 45, 46, 48, 53)
+"""Cases at which the witness agrees with itself at twice the step within 0.5 %.
+
+Left out beside those: 30, where the slip turns within an impact (last test).
+"""
+
+CLOSE = 1e-3
+"""Largest difference of displacements over the largest one; measured 5e-4, and 5e-5 in most cases."""
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_verdict_and_displacement(seed):
+    """The same verdict and side, at the same time; the same final and largest displacement, the same largest lean."""
+    case = plain(some_case(seed))
+    ours = program(case)
+    time, x, _, theta, *_, far, lean = stepped(case, STEP)
+    outcome = ours.outcome
+    assert outcome.overturned == (lean > math.pi / 2)
+    assert outcome.max_displacement_m == pytest.approx(far, rel=CLOSE)
+    assert final(ours)[0] == pytest.approx(x, abs=CLOSE * far)
+    if outcome.overturned:
+        assert outcome.overturning_time_s == pytest.approx(time, abs=2e-3)
+        assert np.sign(final(ours)[2]) == np.sign(theta)
+    else:
+        assert outcome.max_rotation_rad == pytest.approx(lean, abs=CLOSE * lean + 2 * STEP)
+
+
+def test_slip_that_turns_within_an_impact():
+    """The difference that is left: Moreau's impulse throws the slipping corner back less fast than Routh's path, which is the program's.
+
+    Friction opposes the slip before and then the one after on the path, only the latter in the impulse.
+    """
+    body = Body((0.125, 0.198), 0.341, 0.00787, 0.274, 0.274)
+    theta, omega, vx = -0.15, -1.5, 0.28
+    start = (0.0, 0.01 - lever(body, LEFT, theta)[1], theta, vx, -0.7, omega)
+    ours = program(Case(body, np.zeros(20), np.zeros(20), 0.01, start))
+    landing = events(ours)[1][0]
+    velocity = (vx, -0.7 - body.gravity * landing, omega)
+    normal, tangent = jacobians(body, theta + omega * landing)[LEFT]
+    u, v = along(normal, velocity), along(tangent, velocity)
+    thrown = routh(body, theta + omega * landing, LEFT, u, v, 0.0)[3]
+    nn, tn, tt = mobility(body, normal, normal), mobility(body, normal, tangent), mobility(body, tangent, tangent)
+    p, q = contact(u, v, 0.0, 0.0, nn, tn, tt, body.mu)
+    row = np.searchsorted(ours.time, landing, side="right") - 1
+    assert v > 0.0 > v + tn * p + tt * q > 0.9 * thrown
+    assert ours["slip_velocity"][row] == pytest.approx(thrown, rel=1e-9)
