@@ -20,7 +20,7 @@ from seisblock.cli.command import lang_option, plainly
 from seisblock.cli.help import Context, rows_of
 from seisblock.cli.language import answering
 from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, printable
-from seisblock.cli.talk import say
+from seisblock.cli.talk import forget, on_a_screen, say
 from seisblock.errors import OutputError, SeisblockError
 from seisblock.ledger import ledger
 from seisblock.words import noted, plain_text, said, tell
@@ -106,13 +106,14 @@ class SeisblockGroup(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""
         _jit.announce = say
+        forget()
         try:
             with ending_in_order(), ledger():
                 result = super().invoke(ctx)
                 sys.stdout.flush()
                 return result
         except SeisblockError as error:
-            click.secho(f"seisblock: {plain_text(tell(error.said))}", fg="red", err=True)
+            click.secho(f"seisblock: {on_a_screen(plain_text(tell(error.said)))}", fg="red", err=True)
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
             click.echo(f"\nseisblock: {tell('interrupted; no half-written file is left')}", err=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from seisblock.cli.options import Source
-from seisblock.cli.talk import say, warn
+from seisblock.cli.talk import insist, is_quiet, say, warn
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.records import Motion, Preparation, Record, motion_of
 
@@ -31,13 +31,27 @@ def load(source: Source, *, vertical_counts: bool = False, whole: bool = False) 
         names = (DEFAULT_SAMPLE,)
         say("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
     records = read_all(names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level)
-    return [_prepared(record, source, vertical_counts=vertical_counts, whole=whole) for record in records]
+    prepared = [_prepared(record, source, vertical_counts=vertical_counts, whole=whole) for record in records]
+    _tell_doubts(prepared, strict=source.strict)
+    return prepared
+
+
+def _tell_doubts(records: list[Record], *, strict: bool) -> None:
+    """Say what is doubtful about the records, in one line where silence was asked for, or refuse them."""
+    from seisblock.records.doubts import refuse_doubtful, sentences
+
+    if strict:
+        for record in records:
+            refuse_doubtful(record)
+    doubts = sentences(records)
+    if doubts and is_quiet():
+        insist("{names}: {doubts}", names=[record.source for record in records if record.doubts], doubts=doubts)
+    for doubt in doubts:
+        warn(doubt)
 
 
 def _prepared(record: Record, source: Source, *, vertical_counts: bool, whole: bool) -> Record:
     """Return a record that went through the steps asked for, and say them."""
-    for message in record.metadata.get("warnings", ()):  # type: ignore[attr-defined]
-        warn(message)
     preparation = Preparation(
         demean=source.demean,
         highpass_hz=source.highpass,

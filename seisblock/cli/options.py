@@ -37,6 +37,7 @@ class Source:
     dt: float | None
     station: str | None
     level: str | None
+    strict: bool
 
 
 @dataclass(frozen=True)
@@ -127,6 +128,7 @@ _RECORD_OPTIONS = (
     ),
     option("--station", section="Record", help="Station code, in a bundle that holds several; all takes each for itself."),
     option("--level", type=click.Choice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
+    option("--strict", is_flag=True, section="Record", help="Refuse records about which there is any doubt, instead of warning."),
 )
 
 _OUTPUT_OPTIONS = (
@@ -156,7 +158,7 @@ _OUTPUT_OPTIONS = (
         help="Play the animation this many times slower than life. [default: 1]",
     ),
     option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables. [default: gal]"),
-    option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors."),
+    option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records."),
 )
 
 

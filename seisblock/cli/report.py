@@ -66,7 +66,7 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     section="Output",
     help="The page to write, .html.  [required]",
 )
-@option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors.")
+@option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records.")
 def report(
     source: Source,
     body: tuple[str, ...],

@@ -10,7 +10,12 @@ import click
 
 from seisblock.words import plain_text, said, tell
 
+MOST_SHOWN = 1200
+"""Longest message, in letters."""
+
 _quiet = False
+_warned: set[str] = set()
+"""What was warned of in this run: nothing is warned of twice."""
 
 
 @contextlib.contextmanager
@@ -37,6 +42,23 @@ def say(text: str, /, **values: Any) -> None:
 
 
 def warn(text: str, /, **values: Any) -> None:
-    """Say one line that should not be overlooked."""
-    if not _quiet:
-        click.secho(plain_text(tell("warning: {message}", message=said(text, **values) if values else text)), fg="yellow", err=True)
+    """Say one line that should not be overlooked, once."""
+    message = said(text, **values) if values else text
+    if not _quiet and message not in _warned:
+        _warned.add(message)
+        click.secho(plain_text(tell("warning: {message}", message=message)), fg="yellow", err=True)
+
+
+def insist(text: str, /, **values: Any) -> None:
+    """Say one line although the program was asked to keep silent."""
+    click.secho(plain_text(tell("warning: {message}", message=said(text, **values) if values else text)), fg="yellow", err=True)
+
+
+def on_a_screen(text: str) -> str:
+    """Return a message that fits a screen: the middle of one that quotes half a file is left out."""
+    return text if len(text) <= MOST_SHOWN else f"{text[: MOST_SHOWN - 200]} ... {text[-150:]}"
+
+
+def forget() -> None:
+    """Forget what was warned of: another run begins."""
+    _warned.clear()

@@ -9,10 +9,13 @@ import numpy as np
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
 from seisblock.units import GAL, STANDARD_GRAVITY
-from seisblock.words import noted
+from seisblock.words import noted, said
 
 JMA_EXCEEDANCE_S = 0.3
 """Time for which the filtered vector must reach the amplitude that defines the intensity, s ([JMA1996]_)."""
+
+LEAST_INTENSITY = -3.0
+"""An intensity below this is none: 0.01 gal, at the resolution of the instruments that the scale is made for ([JMA1996]_)."""
 
 _HALVES = ((5.0, noted("5-")), (5.5, noted("5+")), (6.0, noted("6-")), (6.5, noted("6+")))
 _CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), *_HALVES)
@@ -85,19 +88,35 @@ def jma_intensity(record: Record) -> float | None:
     Returns
     -------
     float or None
-        None when the intensity is not defined: a component is missing, the record is shorter than 0.3 s, or it is at rest.
+        None when the intensity is not defined: a component is missing, the record is shorter than 0.3 s, or so still that the scale says
+        nothing (below -3, 0.01 gal: an offset alone would give -26). :func:`why_no_intensity` tells which.
     """
-    if record.vertical is None or len(record.horizontals) != 2:
-        return None
-    needed = math.ceil(JMA_EXCEEDANCE_S / record.dt - 1e-6)
-    if needed > record.samples:
+    needed = _samples_needed(record)
+    if record.vertical is None or len(record.horizontals) != 2 or needed > record.samples:
         return None
     weight = _jma_filter(np.asarray(np.fft.rfftfreq(record.samples, record.dt), dtype=np.float64))
     squared = np.zeros(record.samples)
     for component in record.components:
         squared += np.fft.irfft(weight * np.fft.rfft(component.acceleration / GAL), record.samples) ** 2
     a0_squared = float(np.partition(squared, record.samples - needed)[record.samples - needed])
-    return math.log10(a0_squared) + 0.94 if a0_squared > 0 else None
+    intensity = math.log10(a0_squared) + 0.94 if a0_squared > 0 else -math.inf
+    return intensity if intensity >= LEAST_INTENSITY else None
+
+
+def why_no_intensity(record: Record) -> str:
+    """Return the reason for which :func:`jma_intensity` is None ([JMA1996]_), a sentence that can be told in any language."""
+    if record.vertical is None or len(record.horizontals) != 2:
+        return said("it needs two horizontals and the vertical (UD); the record has {codes}", codes=record.codes)
+    if _samples_needed(record) > record.samples:
+        return said("the record is shorter than 0.3 s ({duration:g} s)", duration=record.duration_s)
+    if not any(np.any(c.acceleration) for c in record.components):
+        return said("the record is zero throughout")
+    return said("the motion is too weak for the scale: filtered, it does not reach 0.01 gal for 0.3 s")
+
+
+def _samples_needed(record: Record) -> int:
+    """Return how many samples are 0.3 s."""
+    return math.ceil(JMA_EXCEEDANCE_S / record.dt - 1e-6)
 
 
 def jma_class(intensity: float) -> str:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from seisblock.measures.baseline import HIGHPASS_HZ, ground_history
 from seisblock.measures.duration import Duration, Side, duration_above
 from seisblock.measures.frequency import (
@@ -16,20 +14,18 @@ from seisblock.measures.frequency import (
     peak_pulse,
     pga_pgv_frequency,
 )
-from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration
+from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration, why_no_intensity
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
 from seisblock.measures.spectra import SMOOTHING_HZ
 from seisblock.measures.usual_filters import FilterRange, filter_range
 from seisblock.records.process import pick
 from seisblock.records.record import Component, Record
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import said
 
 DEFAULT_THRESHOLD = 0.1 * STANDARD_GRAVITY
 """Threshold of durations when none is given, m/s^2: a tenth of g, below which nothing stouter than H/B = 10 rocks, and about
 the 100 gal from which the criteria of [Furukawa2009]_ are fitted."""
-
-IMPLAUSIBLE_PGA = 50.0
-"""A peak beyond this (m/s^2, about 5 g) has hardly been recorded on the ground: the unit is probably wrong."""
 
 _ROUND_OFF = 1e-10
 """A velocity below this share of PGA times duration is round-off: what the high-pass leaves of an offset."""
@@ -220,13 +216,7 @@ def _measure_component(
 
 def _intensity_warnings(record: Record, intensity: float | None) -> list[str]:
     """Say why there is no JMA intensity, when there is none."""
-    if intensity is not None:
-        return []
-    if record.vertical is None or len(record.horizontals) != 2:
-        return [f"no JMA intensity: it needs two horizontals and the vertical (UD); the record has {', '.join(record.codes)}"]
-    if not any(np.any(c.acceleration) for c in record.components):
-        return ["no JMA intensity: the record is zero throughout"]
-    return [f"no JMA intensity: the record is shorter than 0.3 s ({record.duration_s:g} s)"]
+    return [] if intensity is not None else [said("no JMA intensity: {reason}", reason=why_no_intensity(record))]
 
 
 def _baseline_warnings(record: Record, rules: Conventions) -> list[str]:
@@ -243,8 +233,6 @@ def _baseline_warnings(record: Record, rules: Conventions) -> list[str]:
 def _component_warnings(m: ComponentMeasures) -> list[str]:
     """Say what is doubtful about one component."""
     found = []
-    if m.pga_m_s2 > IMPLAUSIBLE_PGA:
-        found.append(f"{m.component}: a PGA of {m.pga_m_s2:.4g} m/s^2 is more than 5 g; is the unit right?")
     if m.pulse_width_ambiguous:
         found.append(f"{m.component}: the record begins or ends inside the pulse that holds the PGA; its frequency is an upper bound")
     return found

@@ -56,6 +56,7 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
         source=name,
         history=(*told, *history),
         metadata=_merged_metadata(chosen),
+        doubts=tuple(dict.fromkeys(doubt for part in chosen for doubt in part.doubts)),
     )
 
 
@@ -120,10 +121,7 @@ def _merged_metadata(parts: Sequence[Record]) -> dict[str, object]:
     merged: dict[str, object] = {}
     for part in parts:
         for key, value in part.metadata.items():
-            if key == "warnings" and isinstance(value, tuple):
-                before = merged.get(key, ())
-                merged[key] = (*(before if isinstance(before, tuple) else ()), *value)
-            elif isinstance(value, dict):
+            if isinstance(value, dict):
                 held = merged.get(key)
                 merged[key] = {**(held if isinstance(held, dict) else {}), **value}
             else:

@@ -13,6 +13,7 @@ from seisblock.readers.dispatch import Options, parts_of
 from seisblock.readers.siblings import with_siblings
 from seisblock.readers.source import Blob, Location, digest, fetch
 from seisblock.records import Record
+from seisblock.records.signs import examined
 
 ALL = "all"
 """The station that stands for every station of a bundle."""
@@ -52,7 +53,8 @@ def read(
     -------
     Record
         Components ``NS``, ``EW``, ``UD`` (positive north, east, up) where the file tells them, else under the file's own names or
-        azimuths in degrees clockwise from north; start in UTC; ``sha256`` of the bytes of all files in order.
+        azimuths in degrees clockwise from north; start in UTC; ``sha256`` of the bytes of all files in order; ``doubts``, what a careful
+        reader notices in the file and in the samples.
 
     Raises
     ------
@@ -140,7 +142,7 @@ def _records_of(group: Sequence[Opened], options: Options, named: frozenset[Path
     for part in parts:
         recordings.setdefault((part.station, part.start, part.metadata.get("event")), []).append(part)
     sha256 = digest(blobs)
-    return [replace(assemble(name, each, level=_level(each, options.level)), sha256=sha256) for each in recordings.values()]
+    return [examined(replace(assemble(name, each, level=_level(each, options.level)), sha256=sha256)) for each in recordings.values()]
 
 
 def _record_of(group: Sequence[Opened], options: Options, named: frozenset[Path | None] = frozenset()) -> Record:
@@ -151,7 +153,7 @@ def _record_of(group: Sequence[Opened], options: Options, named: frozenset[Path 
         if len(stations) > 1:
             raise ComponentError("{name} holds {count} stations, and one record was asked for: choose one", name=name, count=len(stations))
     record = assemble(name, parts, station=None if options.station == ALL else options.station, level=options.level)
-    return replace(record, sha256=digest(blobs))
+    return examined(replace(record, sha256=digest(blobs)))
 
 
 def _family(group: Sequence[Opened], options: Options, named: frozenset[Path | None]) -> tuple[str, list[Record], list[Blob]]:

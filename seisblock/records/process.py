@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.errors import ComponentError, ParameterError, RecordError
+from seisblock.records.doubts import settled
 from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.motion import _oriented_pair, _resolve
 from seisblock.records.record import Component, Record
@@ -33,7 +34,8 @@ def demean(record: Record) -> Record:
     """
     means = {c.code: float(c.acceleration.mean()) for c in record.components}
     removed = ", ".join(f"{code} {mean:.6g}" for code, mean in means.items())
-    return _apply(record, lambda c: c.acceleration - means[c.code], f"mean of the whole record removed ({removed} m/s^2)")
+    did = f"mean of the whole record removed ({removed} m/s^2)"
+    return _apply(record, lambda c: c.acceleration - means[c.code], did, doubts=settled(record.doubts))
 
 
 def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
@@ -180,7 +182,7 @@ def highpass(record: Record, hz: float) -> Record:
         If the corner lies outside that range, or so low that it needs more padding than is allowed.
     """
     did = f"high-pass {hz:g} Hz (Butterworth order {HIGHPASS_ORDER} forwards and backwards, line through the ends removed, mirrored ends)"
-    return _apply(record, lambda c: highpass_samples(c.acceleration, record.dt, hz), did)
+    return _apply(record, lambda c: highpass_samples(c.acceleration, record.dt, hz), did, doubts=settled(record.doubts))
 
 
 def towards(record: Record, azimuth_deg: float) -> Component:

@@ -10,6 +10,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.errors import ComponentError, RecordError
+from seisblock.records.doubts import Doubt
 from seisblock.typing import ArrayLike, FloatArray
 from seisblock.words import said
 
@@ -18,6 +19,9 @@ HORIZONTAL_AZIMUTHS = {"NS": 0.0, "EW": 90.0}
 
 VERTICAL = "UD"
 """Code of the vertical component, positive up."""
+
+IMPOSSIBLE = 1e9
+"""No number beyond this, m/s^2, is an acceleration of the ground: squares of it would leave the range of numbers."""
 
 
 def frozen(values: ArrayLike) -> FloatArray:
@@ -82,6 +86,8 @@ class Record:
         What was done to the samples since they were read, oldest first.
     metadata : mapping
         What else the header said (epicentre, magnitude, header's own maximum...).
+    doubts : tuple of Doubt
+        What a careful reader notices before he believes it, by the file and by the samples as read.
     """
 
     components: tuple[Component, ...]
@@ -94,6 +100,7 @@ class Record:
     format: str = ""
     history: tuple[str, ...] = ()
     metadata: dict[str, object] = field(default_factory=dict)
+    doubts: tuple[Doubt, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "components", tuple(self.components))
@@ -115,6 +122,9 @@ class Record:
                 raise RecordError(
                     where + f"component {component.code} holds {bad.size} samples that are not numbers, the first at index {bad[0]}"
                 )
+            size = max(float(component.acceleration.max()), -float(component.acceleration.min()))
+            if size > IMPOSSIBLE:
+                raise RecordError(where + f"component {component.code} reaches {size:.3g} m/s^2, which is no acceleration of the ground")
 
     @property
     def carries_offset(self) -> bool:

@@ -65,9 +65,3 @@ def test_times_count_from_the_first_sample_as_read():
     """A window's offset is part of the time of the PGA."""
     record = Record((Component("NS", np.array([0.0, 1.0, 5.0, 1.0])),), 0.1, offset_s=7.0)
     assert measure(record).components[0].time_of_pga_s == pytest.approx(7.2)
-
-
-def test_a_wrong_unit_is_suspected():
-    """A thousand m/s^2 is gal read as m/s^2."""
-    record = Record((Component("NS", 1000 * np.sin(np.arange(300.0))),), 0.01)
-    assert any("unit" in text for text in measure(record).warnings)

@@ -96,10 +96,29 @@ def test_what_is_wrong_is_said_with_its_line(tmp_path, text, error, says):
 def test_overwritten_pieces_are_told_and_left_alone(tmp_path):
     """Half a second overwritten by what comes 2 s later makes two isolated jumps, which are told; smooth records are not suspected."""
     lines = sample_path("synthetic_jma.csv").read_bytes().decode("cp932").split("\r\n")
-    assert "warnings" not in read("synthetic_jma.csv").metadata
+    assert read("synthetic_jma.csv").doubts == ()
     lines[7 + 3000 : 7 + 3050] = lines[7 + 3200 : 7 + 3250]
     record = read(write(tmp_path, "\r\n".join(lines)))
-    told = record.metadata["warnings"]
-    assert any("2015-12-04" in text for text in told)
+    told = [doubt for doubt in record.doubts if doubt.component == "NS"]
+    assert [doubt.kind for doubt in told] == ["jump"]
+    assert "1 isolated jump(s) (at 30.00 s)" in told[0].message and "2015-12-04" in told[0].message
     ns = record.component("NS").acceleration
     np.testing.assert_array_equal(ns[3000:3050], ns[3200:3250])
+
+
+@pytest.mark.parametrize(
+    ("spoil", "kinds"),
+    [
+        (lambda text: text, []),
+        (lambda text: text[:-2], ["cut"]),
+        (lambda text: text[:-5], ["cut"]),
+        (lambda text: "\r\n".join(text.split("\r\n")[:-8]) + "\r\n", ["count"]),
+        (lambda text: "\r\n".join(text.split("\r\n")[:3000] + text.split("\r\n")[3001:]), ["count"]),
+        (lambda text: text[: text.index("\r\n", len(text) // 2) - 1], ["cut", "count"]),
+    ],
+    ids=["whole", "no line end", "cut in the last number", "seven lines short", "a line is missing", "half"],
+)
+def test_a_cut_file_is_doubted(tmp_path, spoil, kinds):
+    """JMA ends every line and publishes whole seconds: what does not is told."""
+    whole = sample_path("synthetic_jma.csv").read_bytes().decode("cp932")
+    assert [doubt.kind for doubt in read(write(tmp_path, spoil(whole))).doubts if doubt.kind in ("cut", "count")] == kinds

@@ -105,7 +105,24 @@ def test_a_wrong_header_maximum_is_told(tmp_path):
     """When the samples do not reach what the header says, the record is read and the difference told."""
     path = tmp_path / "a.NS"
     path.write_text(knet(maximum="99.9"))
-    assert "99.9" in read(path).metadata["warnings"][0]
+    found = read(path).doubts
+    assert [doubt.kind for doubt in found if doubt.kind != "offset"] == ["header"]
+    assert "99.9" in found[0].message
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "says"),
+    [
+        (knet([1000 + i % 37 for i in range(210)], duration="2"), "count", "the header promises 200 samples, the file holds 210"),
+        (knet(duration="2x"), "header", "Duration Time is no number ('2x')"),
+        (knet(maximum="-.-"), "header", "Max. Acc. is no number ('-.-')"),
+    ],
+)
+def test_a_header_that_cannot_judge_is_doubted(tmp_path, text, kind, says):
+    """Too many samples, and a duration or a maximum that cannot be read, do not pass in silence."""
+    path = tmp_path / "a.NS"
+    path.write_text(text)
+    assert any(doubt.kind == kind and says in doubt.message for doubt in read(path).doubts)
 
 
 @pytest.mark.parametrize(
@@ -155,6 +172,16 @@ def test_knet_csv_keeps_its_offset_and_its_true_time(tmp_path):
     np.testing.assert_array_equal(record.component("NS").acceleration, [-0.1856, -0.186, -0.1863])
     with pytest.raises(UnitError, match="gal by its own header"):
         read(path, units="g")
+
+
+def test_knet_csv_counts_against_its_own_duration(tmp_path):
+    """The header says 60 s, three samples follow: told; a duration that is no number as well."""
+    path = tmp_path / "download.csv"
+    for text, says in ((KNET_CSV, "promises 6000 samples, the file holds 3"), (KNET_CSV.replace("#60", "#6O"), "no number ('6O')")):
+        path.write_text(text)
+        assert any(says in doubt.message for doubt in read(path).doubts)
+    path.write_text(KNET_CSV.replace("#60", "#0.03"))
+    assert not [doubt for doubt in read(path).doubts if doubt.kind in ("count", "header")]
 
 
 def test_kik_net_csv_has_two_sensors(tmp_path):

@@ -144,6 +144,17 @@ def test_other_formats_of_obspy_need_a_unit(tmp_path):
         read(path, units="gal")
 
 
+@pytest.mark.parametrize("waveform", ["SLIST", "TSPAIR"])
+def test_counts_of_ascii_headers_are_compared(tmp_path, waveform):
+    """SLIST and TSPAIR state how many samples follow: another number is told, which obspy does not."""
+    trace = obspy.Trace((np.sin(np.arange(300) * 0.2) * 1000).astype(np.int32), header={"station": "ABC", "channel": "HNZ", "delta": 0.01})
+    path = tmp_path / "a.txt"
+    obspy.Stream([trace]).write(str(path), format=waveform)
+    assert read(path, units="mm/s2").doubts == ()
+    path.write_text(path.read_text().replace(" 300 samples", " 301 samples"))
+    assert [doubt.message for doubt in read(path, units="mm/s2").doubts] == ["_ABC__HNZ_: the header states 301 samples, 300 follow"]
+
+
 def test_gse_is_not_read(tmp_path):
     """Obspy's decoder of GSE2 ends the process on a damaged file: the format is named and left alone."""
     trace = obspy.Trace(np.arange(200, dtype=np.int32), header={"station": "ABC", "channel": "HNZ", "delta": 0.01})

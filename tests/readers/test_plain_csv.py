@@ -166,3 +166,18 @@ def test_bad_tables_get_one_sentence(table, text, options, error, says):
         read(table(text), **options)
     assert says in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_an_empty_line_where_each_is_a_sample_is_doubted(table):
+    """In one column without a clock an empty line may be a lost sample; with a clock, or at the end, it is nothing."""
+    found = read(table("NS (gal)\n1\n2\n\n-3\n\n"), dt=0.01).doubts
+    assert [doubt.kind for doubt in found] == ["line"]
+    assert "1 line(s) are empty (the first is line 4)" in found[0].message
+    assert read(table("time,NS (gal)\n0,1\n\n0.01,-1\n")).doubts == ()
+
+
+def test_a_last_line_cut_short_is_doubted(table):
+    """A last line that is shorter than all others and has no end looks cut; one that only lacks its end does not."""
+    rows = "".join(f"{i / 100:.2f},{(-1) ** i * 1.25:.4f}\n" for i in range(20))
+    assert [doubt.kind for doubt in read(table("time,NS (gal)\n" + rows[:-4])).doubts] == ["cut"]
+    assert [doubt.kind for doubt in read(table("time,NS (gal)\n" + rows[:-1])).doubts] == []

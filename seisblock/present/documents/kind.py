@@ -13,7 +13,8 @@ from msgspec import UNSET, Meta, Struct, UnsetType
 
 from seisblock import __version__
 from seisblock.present.documents.versions import schema_name
-from seisblock.records import Record
+from seisblock.records import Doubt, Record
+from seisblock.records.doubts import sentences
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
@@ -56,6 +57,10 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
         Time of the first sample used, from the record's first.
     history : list of str
         What was done to it, in this order.
+    azimuths_deg : list of float or None
+        Of the components, clockwise from north; null where vertical or not known.
+    doubts : list of Doubt
+        What a careful reader notices before he believes it; in words also among the warnings.
     """
 
     station: str
@@ -68,6 +73,8 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
     components: tuple[str, ...]
     offset_s: float
     history: tuple[str, ...]
+    azimuths_deg: tuple[float | None, ...]
+    doubts: tuple[Doubt, ...]
 
 
 def record_entry(record: Record) -> RecordEntry:
@@ -83,6 +90,8 @@ def record_entry(record: Record) -> RecordEntry:
         components=record.codes,
         offset_s=record.offset_s,
         history=tuple(record.history),
+        azimuths_deg=tuple(c.azimuth_deg for c in record.components),
+        doubts=record.doubts,
     )
 
 
@@ -180,7 +189,7 @@ class Kind:
             record=entries[0] if len(entries) == 1 else entries or None,
             parameters=parameters,
             results=[msgspec.structs.replace(entry, record_index=index[id(r)]) if id(r) in index else entry for r, entry in pairs],
-            warnings=list(dict.fromkeys(warnings)),
+            warnings=list(dict.fromkeys([*sentences(records), *warnings])),
             citations=list(dict.fromkeys(citations)),
             **beside,
         )

@@ -13,6 +13,7 @@ from seisblock.present.figures.fonts import drawn
 from seisblock.present.page import facts, html_table, note, page
 from seisblock.present.pages import report_words as said
 from seisblock.present.text.tables import NOTHING, number, seconds
+from seisblock.records.doubts import sentences
 from seisblock.references import REFERENCES
 from seisblock.studies.assessment import Assessment, BodyAssessment, Effect
 from seisblock.studies.criteria_card import Card
@@ -45,6 +46,7 @@ def report(found: Assessment, *, lang: str = "en", command: str = "") -> str:
 
 def _parts(found: Assessment, lang: str, command: str) -> Iterator[str]:
     """Yield the page from top to bottom."""
+    yield from (note(doubt) for doubt in sentences([found.record]))
     tiles = "".join(_tile(body, kind, lang) for body in found.bodies for kind in ORDER if _of(body, kind))
     yield f'<div class="verdicts">{tiles}</div>'
     yield from _record(found, lang)

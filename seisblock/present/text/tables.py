@@ -121,7 +121,10 @@ def record_line(record: Record) -> Text:
         rate=1 / record.dt,
         format=record.format,
     )
-    return line(told, "bold").append(f"\n{plain_text(history(record))}", style="dim not bold")
+    shown = line(told, "bold").append(f"\n{plain_text(history(record))}", style="dim not bold")
+    for doubt in record.doubts:
+        shown.append("\n" + tell("doubtful: {doubt}", doubt=doubt.message), style="yellow not bold")
+    return shown
 
 
 def history(record: Record) -> str:

@@ -13,9 +13,11 @@ import numpy as np
 from seisblock.errors import ParameterError, RecordFormatError, UnitError
 from seisblock.readers.cells import to_si
 from seisblock.readers.directions import Direction, direction_of
+from seisblock.readers.header import number
 from seisblock.readers.naming import normal_unit
 from seisblock.readers.source import Blob
-from seisblock.records import Component, Record
+from seisblock.records import Component, Doubt, Record
+from seisblock.words import said
 
 # PICKLE runs whatever the file says; the others have a reader here
 _NOT_TRIED = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "KNET", "GSE1", "GSE2"}
@@ -23,6 +25,8 @@ _CRASHING = {"GSE1", "GSE2"}
 """Formats whose decoder in obspy ends the process (segmentation fault) on a damaged file."""
 
 _GSE = re.compile(rb"^WID[12] ", re.MULTILINE)
+_COUNTED = {"SLIST", "TSPAIR"}
+_TIMESERIES = re.compile(r"^TIMESERIES[ \t]+(.*)$", re.MULTILINE)
 _KNOWN = "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, a plain table, a bundle of those, nor a waveform format of obspy"
 _LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
 
@@ -57,12 +61,34 @@ def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) 
         path.write_bytes(blob.data)
         name = _recognise(blob.name, path) if waveform is None else waveform.upper()
         traces = _traces(blob.name, path, name)
+    doubts = _counts_against_headers(blob.data) if name in _COUNTED else ()
     if units is None:
         raise UnitError(f"{blob.name} is a {name} file, which does not say the unit of its samples: give --units gal|m/s2|g")
     unit = normal_unit(units)
     if unit is None:
         raise UnitError(f"unknown unit of acceleration {units!r}: give gal, m/s2 or g")
-    return [_record(blob.name, trace, name, unit) for trace in traces]
+    return [_record(blob.name, trace, name, unit, doubts) for trace in traces]
+
+
+def _counts_against_headers(data: bytes) -> tuple[Doubt, ...]:
+    """Return a doubt for each channel of an SLIST or TSPAIR file whose header states another number of samples than follow it."""
+    found = []
+    pieces = _TIMESERIES.split(data.decode("latin-1"))
+    for head, body in zip(pieces[1::2], pieces[2::2], strict=True):
+        fields = [field.strip() for field in head.split(",")]
+        words = fields[1].split() if len(fields) > 1 else []
+        stated = number(words[0]) if words else None
+        pairs = any(field.upper() == "TSPAIR" for field in fields)
+        count = len(body.split()) // (2 if pairs else 1)
+        if stated is None or stated != count:
+            text = said(
+                "{channel}: the header states {stated} samples, {count} follow",
+                channel=fields[0],
+                stated=words[0][:20] if words else "no",
+                count=count,
+            )
+            found.append(Doubt("count", text))
+    return tuple(found)
 
 
 def _recognise(name: str, path: Path) -> str:
@@ -117,27 +143,37 @@ def _traces(name: str, path: Path, waveform: str) -> list[Any]:
     return list(stream)
 
 
-def _record(name: str, trace: Any, waveform: str, unit: str) -> Record:
+def _record(name: str, trace: Any, waveform: str, unit: str, doubts: tuple[Doubt, ...]) -> Record:
     """Return one trace as a record of one component."""
     from datetime import UTC
 
     stats = trace.stats
     if np.ma.is_masked(trace.data):
         raise RecordFormatError(f"{name}: channel {trace.id} has gaps: cut the record to a stretch without")
+    if trace.data.dtype.kind not in "iuf":
+        raise RecordFormatError(f"{name}: channel {trace.id} holds text, not samples")
     values = np.asarray(trace.data, dtype=np.float64)
     if values.size < 2 or not stats.delta > 0:
         raise RecordFormatError(f"{name}: channel {trace.id} holds {values.size} samples at an interval of {stats.delta} s: no waveform")
     metadata: dict[str, object] = {"unit": unit, "channel": trace.id}
     if stats.calib != 1.0:
-        metadata["warnings"] = (f"{trace.id}: the calibration factor {stats.calib:g} of the file was not applied: units are as you said",)
-    direction = direction_of(stats.channel) or Direction(_LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC"))
+        text = said(
+            "{channel}: the calibration factor {factor:g} of the file was not applied: units are as you said",
+            channel=trace.id,
+            factor=stats.calib,
+        )
+        doubts = (*doubts, Doubt("calibration", text))
+    told = direction_of(stats.channel)
+    if told is None or told.bare:
+        told = Direction(_LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC"))
     start = stats.starttime.datetime.replace(tzinfo=UTC) if stats.starttime.timestamp else None
     return Record(
-        (Component(direction.code, direction.sign * to_si(values, unit), direction.azimuth_deg),),
+        (Component(told.code, told.sign * to_si(values, unit), told.azimuth_deg),),
         float(stats.delta),
         station=stats.station,
         start=start,
         source=name,
         format=f"OBSPY:{waveform}",
         metadata=metadata,
+        doubts=doubts,
     )

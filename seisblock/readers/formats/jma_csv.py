@@ -10,10 +10,10 @@ import numpy as np
 from seisblock.errors import RecordFormatError, UnitError
 from seisblock.readers.cells import columns_of, fail, to_si
 from seisblock.readers.header import JST, number
-from seisblock.readers.jumps import isolated_jumps
 from seisblock.readers.naming import code_of, normal_unit
 from seisblock.readers.source import Blob, decode
-from seisblock.records import Component, Record
+from seisblock.records import Component, Doubt, Record
+from seisblock.words import said
 
 FORMAT = "JMA-CSV"
 _HEADER_LINES = 40  # 7 in every file seen; old ones may carry more
@@ -51,11 +51,33 @@ def read_jma_csv(blob: Blob) -> Record:
         value = number(header[key][1].split(",")[0]) if key in header else None
         if value:  # 0.0000 means unknown
             metadata[label] = value
-    found = tuple(text for c in components for text in isolated_jumps(c, dt))
-    if found:
-        metadata["warnings"] = found
     metadata["unit"] = unit
-    return Record(components, dt, station=station, start=start, source=blob.name, format=FORMAT, metadata=metadata)
+    return Record(
+        components,
+        dt,
+        station=station,
+        start=start,
+        source=blob.name,
+        format=FORMAT,
+        metadata=metadata,
+        doubts=_doubts(lines, rows.shape[1], dt),
+    )
+
+
+def _doubts(lines: list[str], samples: int, dt: float) -> tuple[Doubt, ...]:
+    """Return what speaks for a file that was cut: JMA ends its last line, and publishes whole seconds."""
+    found = []
+    if lines[-1].strip():
+        found.append(Doubt("cut", said("the last line has no end: the file looks cut, and its last number with it")))
+    seconds = samples * dt
+    if abs(seconds - round(seconds)) > 0.25 * dt:
+        text = said(
+            "{samples} samples are no whole number of seconds ({seconds:.6g} s): lines are missing, or the file was cut",
+            samples=samples,
+            seconds=seconds,
+        )
+        found.append(Doubt("count", text))
+    return tuple(found)
 
 
 def _read_header(name: str, lines: list[str]) -> tuple[dict[str, tuple[int, str]], int]:

@@ -14,8 +14,9 @@ from seisblock.readers.cells import fail
 from seisblock.readers.header import number, time_in_japan
 from seisblock.readers.naming import code_of
 from seisblock.readers.source import Blob, decode
-from seisblock.records import Component, Record
+from seisblock.records import Component, Doubt, Record
 from seisblock.typing import FloatArray
+from seisblock.words import said
 
 FORMAT, KIK_FORMAT = "KNET", "KIKNET"
 TRIGGER_DELAY = timedelta(seconds=15)
@@ -77,7 +78,7 @@ def read_knet(blob: Blob) -> Record:
     -----
     The scale factor of the header is applied, the trigger delay of 15 s is taken off the record time, and the offset of the counts is
     kept and told: ``metadata["carries_offset"]`` and ``metadata["offset_gal"]``. ``metadata["level"]`` is the sensor of a KiK-net file.
-    The header's ``Max. Acc.`` is compared with the largest deviation from the mean; a difference is put under ``metadata["warnings"]``.
+    The header's ``Max. Acc.`` is compared with the largest deviation from the mean, its duration with the count: a difference is a doubt.
     """
     lines = decode(blob).split("\n")
     values = _header(blob.name, lines)
@@ -92,10 +93,11 @@ def read_knet(blob: Blob) -> Record:
     if scale is None or not float(scale[2]):
         fail(blob.name, SCALE + 1, f"expected a scale factor such as 3920(gal)/6182761, found {values[SCALE]!r}")
     counts = _counts(blob.name, values, lines)
-    _check_length(blob.name, counts.size, number(values[DURATION]), rate)
+    doubts = _check_length(blob.name, counts.size, values[DURATION], rate)
     # one correctly rounded division: counts and factors are whole numbers
     acceleration = counts * float(scale[1]) / (float(scale[2]) * 100.0)
     metadata = _metadata(values, code, level, 100.0 * acceleration)
+    doubts += _check_maximum(code, values[MAXIMUM], 100.0 * acceleration)
     return Record(
         (Component(code, acceleration),),
         1.0 / rate,
@@ -104,6 +106,7 @@ def read_knet(blob: Blob) -> Record:
         source=blob.name,
         format=KIK_FORMAT if level else FORMAT,
         metadata=metadata,
+        doubts=doubts,
     )
 
 
@@ -171,17 +174,49 @@ def _name_the_line(name: str, body: Sequence[str]) -> None:
                 fail(name, len(_LABELS) + 1 + offset, f"expected counts, found {cell!r}")
 
 
-def _check_length(name: str, count: int, duration: float | None, rate: float) -> None:
-    """Refuse a file that ends before its header says."""
-    promised = round((duration or 0.0) * rate)
+def _check_length(name: str, count: int, text: str, rate: float) -> tuple[Doubt, ...]:
+    """Refuse a file that ends before its header says, and doubt one that is longer or does not say."""
+    duration = number(text)
+    if duration is None or not duration > 0:
+        found = said("the header's Duration Time is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
+        return (Doubt("header", found),)
+    promised = round(duration * rate)
     if count < promised:
         raise RecordFormatError(
-            f"{name} is cut short: its header promises {promised} samples ({duration:g} s at {rate:g} Hz), it holds {count}: fetch it again"
+            "{name} is cut short: its header promises {promised} samples ({duration:g} s at {rate:g} Hz), it holds {count}: fetch it again",
+            name=name,
+            promised=promised,
+            duration=duration,
+            rate=rate,
+            count=count,
         )
+    if count > promised:
+        found = said("the header promises {promised} samples, the file holds {count}", promised=promised, count=count)
+        return (Doubt("count", found),)
+    return ()
+
+
+def _check_maximum(code: str, text: str, gal: FloatArray) -> tuple[Doubt, ...]:
+    """Doubt samples whose largest distance from their mean is not the header's own maximum."""
+    told, peak = number(text), float(np.abs(gal - gal.mean()).max())
+    if told is None or not np.isfinite(told):
+        found = said(
+            "{component}: the header's Max. Acc. is no number ({text!r}): the samples cannot be checked", component=code, text=text[:20]
+        )
+        return (Doubt("header", found, code),)
+    if abs(peak - told) > _ORACLE:
+        found = said(
+            "{component}: the header says Max. Acc. {told:g} gal, the samples reach {peak:.3f} gal from their mean",
+            component=code,
+            told=told,
+            peak=peak,
+        )
+        return (Doubt("header", found, code),)
+    return ()
 
 
 def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> dict[str, object]:
-    """Return what the header says, the offset, and a warning when the header's maximum is not the file's."""
+    """Return what the header says, and the offset."""
     metadata: dict[str, object] = {"unit": "gal", "carries_offset": True, "offset_gal": {code: float(gal.mean())}}
     if level:
         metadata["level"] = level
@@ -203,9 +238,7 @@ def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> 
         metadata["origin_time"] = origin
     if values[MEMO]:
         metadata["memo"] = values[MEMO]
-    peak, told = float(np.abs(gal - gal.mean()).max()), number(values[MAXIMUM])
+    told = number(values[MAXIMUM])
     if told is not None:
         metadata["header_max_gal"] = {code: told}
-        if abs(peak - told) > _ORACLE:
-            metadata["warnings"] = (f"{code}: the header says Max. Acc. {told:g} gal, the samples reach {peak:.3f} gal from their mean",)
     return metadata

@@ -13,7 +13,8 @@ from seisblock.readers.clock import even_dt
 from seisblock.readers.header import number, time_in_japan
 from seisblock.readers.naming import TIME, code_of
 from seisblock.readers.source import Blob, decode
-from seisblock.records import Component, Record
+from seisblock.records import Component, Doubt, Record
+from seisblock.words import said
 
 FORMAT = "KNET-CSV"
 _CHANNELS = {"1": ("NS", "borehole"), "2": ("EW", "borehole"), "3": ("UD", "borehole")}
@@ -48,6 +49,7 @@ def read_knet_csv(blob: Blob) -> list[Record]:
     if rate and abs(1.0 / rate - dt) > 1e-6:
         raise RecordFormatError(f"{blob.name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged")
     start = _start(blob.name, lines[body], body + 1, float(columns[clock][0]))
+    doubts = _doubts(header, columns[clock].size, rate or 1.0 / dt)
     records = []
     for level, codes in sensors.items():
         rows = {code: columns[i] for code, i in codes.items()}
@@ -60,9 +62,23 @@ def read_knet_csv(blob: Blob) -> list[Record]:
                 source=blob.name,
                 format=FORMAT,
                 metadata=_metadata(header, level) | {"offset_gal": {code: float(row.mean()) for code, row in rows.items()}},
+                doubts=doubts,
             )
         )
     return records
+
+
+def _doubts(header: Sequence[str], samples: int, rate: float) -> tuple[Doubt, ...]:
+    """Return what speaks against the count of samples: the header's duration is another, or no number."""
+    text = _after(header, "DurationTime(s)")
+    duration = number(text)
+    if duration is None or not duration > 0:
+        found = said("the header's DurationTime is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
+        return (Doubt("header", found),)
+    promised = round(duration * rate)
+    if samples != promised:
+        return (Doubt("count", said("the header promises {promised} samples, the file holds {count}", promised=promised, count=samples)),)
+    return ()
 
 
 def _sensors(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:

@@ -15,8 +15,9 @@ from seisblock.readers.clock import even_dt
 from seisblock.readers.columns import Column, Columns, columns_of_header, means_something
 from seisblock.readers.naming import TIME
 from seisblock.readers.source import Blob, decode
-from seisblock.records import Component, Record
+from seisblock.records import Component, Doubt, Record
 from seisblock.typing import FloatArray
+from seisblock.words import said
 
 FORMAT = "CSV"
 _WIDTH_TOLERANT = {",", ";", "\t"}
@@ -97,7 +98,27 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     components = [Component(c.code, c.sign * to_si(row, c.unit), c.azimuth_deg) for c, row in pairs if c.code != TIME]
     if not components:
         raise RecordFormatError(f"{blob.name} holds a time column and nothing else: expected at least one column of acceleration")
-    return Record(tuple(components), dt, source=blob.name, format=FORMAT, history=told.remarks, metadata=metadata)
+    clocked = any(column.code == TIME for column in told.read)
+    doubts = _doubts(lines, layout.body, clocked=clocked)
+    return Record(tuple(components), dt, source=blob.name, format=FORMAT, history=told.remarks, metadata=metadata, doubts=doubts)
+
+
+def _doubts(lines: Sequence[str], body: int, *, clocked: bool) -> tuple[Doubt, ...]:
+    """Return what speaks for lines that were lost: one that is empty where nothing else counts them, and a last one cut short."""
+    found = []
+    last = max(i for i, line in enumerate(lines) if _is_data(line))
+    empty = [] if clocked else [i + 1 for i in range(body, last) if not lines[i].strip()]
+    if empty:
+        text = said(
+            "{count} line(s) are empty (the first is line {line}) where each stands for a sample: if samples are missing there, all later "
+            "ones come too early",
+            count=len(empty),
+            line=empty[0],
+        )
+        found.append(Doubt("line", text))
+    if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if _is_data(line)):
+        found.append(Doubt("cut", said("the last line is the shortest and has no end: the file looks cut, and its last number with it")))
+    return tuple(found)
 
 
 def _unnamed(width: int) -> Columns:

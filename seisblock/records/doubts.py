@@ -1,0 +1,85 @@
+"""What a careful reader notices about a record before he believes it: values that travel with the record to every answer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from seisblock.errors import RecordError
+from seisblock.words import said
+
+if TYPE_CHECKING:
+    from seisblock.records.record import Record
+
+KINDS = {
+    "header": "the header contradicts the samples, or cannot be read where it would judge them",
+    "count": "the number of samples is not the one that the file states or implies",
+    "cut": "the end of the file looks cut",
+    "line": "a line is empty where each stands for a sample",
+    "spike": "a sample stands apart from its neighbours",
+    "jump": "a step between two samples stands apart from those around it",
+    "held": "a value is held in the midst of shaking, as where a gap was filled",
+    "clipped": "the peaks are flat, as of an instrument at the end of its range",
+    "offset": "the mean is a large part of the peak",
+    "size": "the peak is larger than has hardly ever been recorded",
+    "directions": "the horizontal components are not at right angles, or stand without a vertical one",
+    "calibration": "a factor in the file was not applied",
+}
+"""The kinds of doubt, and what each means."""
+
+REMEDIED = {"offset"}
+"""Kinds of doubt that a removed mean or a high-pass settles."""
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """One thing about a record that is not as it should be.
+
+    Parameters
+    ----------
+    kind : str
+        One of ``KINDS``.
+    message : str
+        What was expected and what was found, a sentence that can be told in any language.
+    component : str
+        Which component it is about; empty for the whole record.
+    """
+
+    kind: str
+    message: str
+    component: str = ""
+
+
+def sentences(records: Sequence[Record]) -> list[str]:
+    """Return the doubts about some records, a sentence each, with the record's name where there are several.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    """
+    if len(records) == 1:
+        return list(dict.fromkeys(doubt.message for doubt in records[0].doubts))
+    named = (said("{record}: {doubt}", record=r.station or r.source, doubt=doubt.message) for r in records for doubt in r.doubts)
+    return list(dict.fromkeys(named))
+
+
+def settled(doubts: Iterable[Doubt]) -> tuple[Doubt, ...]:
+    """Return the doubts that remain after the mean was removed."""
+    return tuple(doubt for doubt in doubts if doubt.kind not in REMEDIED)
+
+
+def refuse_doubtful(record: Record) -> None:
+    """Raise where a careful reader would doubt.
+
+    Raises
+    ------
+    RecordError
+        If there are doubts about the record; the message holds them all.
+    """
+    if record.doubts:
+        raise RecordError(
+            "{record} is doubtful, and doubtful records are refused: {doubts}",
+            record=record.source or record.station or "record",
+            doubts=[doubt.message for doubt in record.doubts],
+        )

