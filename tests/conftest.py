@@ -2,6 +2,7 @@
 
 import contextlib
 import dataclasses
+import functools
 import json
 import os
 
@@ -21,6 +22,17 @@ if os.environ.get("CI"):
     hypothesis.settings.load_profile("ci")
 
 
+@functools.cache
+def cases_by_key() -> dict[str, list[Case]]:
+    """Return the cases of the papers by their keys: those themselves, not what a test makes of them."""
+    from seisblock.validation import cases
+
+    found: dict[str, list[Case]] = {}
+    for case in cases():
+        found.setdefault(case.key, []).append(case)
+    return found
+
+
 @pytest.fixture(scope="session", autouse=True)
 def evidence(tmp_path_factory):
     """Let each validation case be computed by the first test that runs it, in whatever process; later runs find what it computed.
@@ -33,7 +45,7 @@ def evidence(tmp_path_factory):
     run = Case.run
 
     def run_once(case: Case) -> CaseResult:
-        if case.key.startswith("toy"):
+        if not any(case is known for known in cases_by_key().get(case.key, ())):
             return run(case)
         kept = folder / f"{case.key}.json"
         with contextlib.suppress(FileNotFoundError):
