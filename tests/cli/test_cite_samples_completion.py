@@ -13,7 +13,7 @@ from seisblock.cli import COMMANDS, main
 from seisblock.references import CITED, REFERENCES
 from seisblock.samples import list_samples, sample_directory
 
-OF_THE_PROGRAM = {"validate", "cite", "samples", "completion", "report"}
+OF_THE_PROGRAM = {"validate", "cite", "samples", "completion", "report", "schema"}
 """Commands whose answers rest on no paper of their own."""
 
 
