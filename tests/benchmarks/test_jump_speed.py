@@ -7,7 +7,7 @@ from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.dynamics import follow
 from seisblock.records import Motion
 from seisblock.solvers.jump import flight as flying
-from seisblock.solvers.jump import rocking
+from seisblock.solvers.jump import modes, rocking
 
 N = 50_000
 BLOCK = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
@@ -22,8 +22,8 @@ def parameters(**changed):
 
 
 def flight():
-    p = flying.flight_parameters(BLOCK, 1e-9, 0.2, 0.2, 0.3, QUIET.dt)
-    return follow(flying.FLYING, QUIET, p, [0.0, 1e-9, 0.0, 0.0, 1.0, 1.0], flying.FLIGHT, keep_path=False)
+    p = modes.flight_parameters(BLOCK, 1e-9, 0.2, 0.2, 0.3, QUIET.dt)
+    return follow(flying.FLYING, QUIET, p, [0.0, 1e-9, 0.0, 0.0, 1.0, 1.0], modes.FLIGHT, keep_path=False)
 
 
 def rest():
@@ -35,7 +35,7 @@ def rocks():
     return follow(rocking.ROCKING, QUIET, parameters(PUSH=1e-4, WEIGHT=1e-9), [0.2, 0.0], rocking.ROCK, keep_path=False)
 
 
-MODES = {"rest": (rest, rocking.REST), "rocking": (rocks, rocking.ROCK), "flight": (flight, flying.FLIGHT)}
+MODES = {"rest": (rest, rocking.REST), "rocking": (rocks, rocking.ROCK), "flight": (flight, modes.FLIGHT)}
 
 
 @pytest.mark.parametrize(("run", "mode"), MODES.values(), ids=MODES)

@@ -3,6 +3,7 @@
 import dataclasses
 import importlib
 import math
+import pkgutil
 import re
 import subprocess
 import sys
@@ -11,8 +12,9 @@ from pathlib import Path
 import pytest
 
 import seisblock
+from seisblock import validation
 from seisblock.references import REFERENCES
-from seisblock.validation import PAPERS, cases
+from seisblock.validation import cases
 from seisblock.validation.case import SAME, WORTHS, Case, counts, counts_by_kind, same
 
 PACKAGE = Path(seisblock.__file__).parent
@@ -29,8 +31,8 @@ class ReachedError(Exception):
 
 def first_call(case):
     """Return the first function of the program that a case calls: its name when it reads a record or a survey, "runs" for any other."""
-    for paper in PAPERS:
-        for value in vars(importlib.import_module(f"seisblock.validation.{paper}")).values():
+    for _, name, _ in pkgutil.iter_modules(validation.__path__, f"{validation.__name__}."):
+        for value in vars(importlib.import_module(name)).values():
             getattr(value, "cache_clear", lambda: None)()
 
     def watch(frame, event, argument):
