@@ -44,7 +44,9 @@ from .solvers.respond.outcome import RespondOutcome
 from .solvers.respond.setting import Setting
 from .solvers.respond.solve import make_setting, solve_respond
 from .solvers.rock.outcome import RockOutcome
-from .solvers.rock.solve import Verdict, rock_verdict, solve_rock
+from .solvers.rock.rocker import RockOptions
+from .solvers.rock.solve import solve_rock
+from .solvers.rock.verdicts import Verdict, rock_verdict
 from .solvers.slide.solve import SlideOutcome, solve_slide
 from .solvers.stack.outcome import StackOutcome
 from .solvers.stack.solve import solve_stack
@@ -149,6 +151,7 @@ __all__ = [
     "rock_verdict",
     "rocking_spectrum",
     "RockingSpectrum",
+    "RockOptions",
     "RockOutcome",
     "rotate",
     "Sample",

@@ -92,10 +92,8 @@ def spectrum(
     from seisblock.cli.progress import progress
     from seisblock.present.documents.spectrum import document
     from seisblock.present.text import spectrum as shown
-    from seisblock.solvers.rock.solve import check_options
     from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum, size_of, slenderness_of
 
-    check_options(restitution, gravity)
     _one_of(sizes, "--sizes", frequency_parameter, "--frequency-parameter")
     _one_of(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
     diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else default_sizes(steps))

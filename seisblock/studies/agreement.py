@@ -24,7 +24,7 @@ from seisblock.measures.frequency import pga_pgv_frequency
 from seisblock.measures.peaks import peak_velocity
 from seisblock.records import Motion
 from seisblock.results import Response
-from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
 from seisblock.studies.cemetery.simulated import simulated_overturns

@@ -290,7 +290,7 @@ def rigid_top(body: Pile, points: int) -> Block:
 
 def rigid_levels(study: CriterionStudy, body: Pile, *, points: int, gravity: float = STANDARD_GRAVITY) -> dict[float, float]:
     """Return a(f) of the top stone as one rigid block, over the study's sines ([Furukawa2009]_ eq. (7)); parameters as for the study."""
-    from seisblock.solvers.rock.solve import rock_verdict
+    from seisblock.solvers.rock.verdicts import rock_verdict
 
     blocks = [(ratio, rigid_top(with_top(body, ratio), points)) for ratio in RATIOS]
     found = []

@@ -15,6 +15,9 @@ from seisblock.typing import Progress
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
 
+BATCH = 32
+"""Runs that one thread takes at a time where an ensemble does several."""
+
 CHUNK = 128
 """Runs handed out at a time."""
 
@@ -66,3 +69,25 @@ def in_threads(
         # after an interruption no run begins, and those under way end at the next pause of their kernels
         gone.set()
         pool.shutdown(cancel_futures=True)
+
+
+def in_batches(
+    work: Callable[[slice], Answer], runs: int, *, size: int = BATCH, progress: Progress | None = None, workers: int | None = None
+) -> Iterator[Answer]:
+    """Yield the answers for one stretch of runs after another, in their order: for work that does several runs at once.
+
+    Parameters
+    ----------
+    work : callable
+        Some runs, as a slice of all of them.
+    runs, size : int
+        How many there are, and how many a stretch holds.
+    progress, workers
+        As for :func:`in_threads`.
+    """
+    parts = [slice(first, min(first + size, runs)) for first in range(0, runs, size)]
+    answers = in_threads(work, parts, workers=workers)
+    for part, answer in zip(parts, answers, strict=True):
+        yield answer
+        if progress is not None:
+            progress(part.stop, runs)

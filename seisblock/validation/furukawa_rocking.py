@@ -15,7 +15,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.criteria.gravestones import overturning_level
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.units import SUN
 from seisblock.validation.case import Case, same
 

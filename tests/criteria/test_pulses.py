@@ -12,7 +12,7 @@ from seisblock.criteria.card import OWN_FREQUENCY, once_each, overturning_card
 from seisblock.criteria.pulses import half_sine_acceleration, half_sine_ratio
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.units import STANDARD_GRAVITY as G
 
 STONE = Block(0.24, 0.63)

@@ -11,7 +11,8 @@ from seisblock.bodies.block import Block, from_slenderness
 from seisblock.criteria.pulses import half_sine_ratio, one_sine_ratio, rectangular_ratio
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import rock_verdict, solve_rock
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.units import STANDARD_GRAVITY as G
 from seisblock.validation.housner import CASES
 

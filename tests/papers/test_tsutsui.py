@@ -9,7 +9,7 @@ from seisblock.bodies.block import Block
 from seisblock.criteria.overturning import ishiyama_velocity, tsutsui_sine_velocity, tsutsui_velocity, velocity_step
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.validation.tsutsui import CASES
 
 

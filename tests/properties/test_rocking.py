@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from seisblock.bodies.block import Block, resized
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import rock_verdict, solve_rock
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.units import STANDARD_GRAVITY as G
 
 pytestmark = pytest.mark.kernel

@@ -14,6 +14,7 @@ from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.solvers.rock import model as rock_model
 from seisblock.solvers.rock.aftermath import fate, sides
+from seisblock.solvers.rock.rocker import rocker
 from seisblock.units import STANDARD_GRAVITY as G
 
 T = np.arange(1201) * 0.005
@@ -28,7 +29,7 @@ def test_friction_demand_is_that_of_the_moving_centre():
     a, up = np.interp(fine, T, SHAKING), np.interp(fine, T, UP)
     motion = Motion.from_arrays(a, 5e-5, vertical=up)
     response = solve_rock(block, motion, vertical=True)
-    trajectory = follow(rock_model.ROCKING, motion, rock_model.parameters(block, 5e-5, G, None, False), (0, 0), 0, gains=(1, 0, 1))
+    trajectory = follow(rock_model.ROCKING, motion, rock_model.parameters(rocker(block, motion), 5e-5), (0, 0), 0, gains=(1, 0, 1))
     theta, modes = trajectory.states[:, 0], trajectory.modes
     half, centre = np.where(theta >= 0, block.width / 2, -block.width / 2), block.centre
     x = half - half * np.cos(theta) + centre * np.sin(theta)
@@ -138,7 +139,7 @@ def test_block_that_never_loses_energy_is_told_from_one_that_falls():
 def test_fate_agrees_with_integrating_on(theta, omega, linear):
     """Verdict, times and largest lean of free rocking are those of a long still record, starting on either side of alpha."""
     block = from_slenderness(0.25, 2.14)
-    found = fate(sides(block, G, 0.95, linear), theta, omega)
+    found = fate(sides(rocker(block, Motion.from_arrays(np.zeros(2), 0.01), restitution=0.95, linear=linear, gravity=G)), theta, omega)
     long = solve_rock(block, Motion.from_arrays(np.zeros(4000), 0.005), restitution=0.95, linear=linear, initial=(theta, omega)).outcome
     assert found.overturns == long.overturned
     assert max(found.largest) == pytest.approx(long.max_rotation_rad, rel=1e-9)

@@ -15,7 +15,7 @@ from seisblock.measures import measure
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.results import Response
-from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.studies.agreement import (
     GRAVESTONES,
     ISHIYAMA,

@@ -10,7 +10,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.measures import measure
 from seisblock.records import Component, Record, motion_of
-from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.studies.cemetery.limits import fitted_limits
 from seisblock.studies.inverse.assumptions import Assumptions, assumptions_for
 from seisblock.studies.inverse.estimate import estimate_shaking

@@ -9,9 +9,10 @@ import pytest
 from seisblock.bodies.block import Block, from_slenderness, resized
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import rock_verdict, solve_rock
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.studies.rocking.margin import find_margin, flagged, flips_nearby
-from seisblock.studies.rocking.perturb import Spread, perturb, turned, wilson_interval
+from seisblock.studies.rocking.perturb import Spread, perturb, wilson_interval
 from seisblock.studies.runs import CHUNK, in_threads
 from seisblock.units import STANDARD_GRAVITY as G
 
@@ -132,17 +133,6 @@ def test_same_seed_same_runs():
     motion = one_sine(3.0)
     assert perturb(BLOCK, motion, 50, seed=7) == perturb(BLOCK, motion, 50, seed=7)
     assert perturb(BLOCK, motion, 50, seed=7).overturned != perturb(BLOCK, motion, 50, seed=8).overturned
-
-
-def test_turning_the_motion():
-    """Clockwise seen from above; a quarter turn from north is east, and a motion without a known second horizontal stays."""
-    rng = np.random.default_rng(0)
-    north, west = rng.normal(size=(2, 50))
-    motion = Motion(np.vstack([north, west, np.zeros(50)]), 0.01)
-    np.testing.assert_allclose(turned(motion, 90.0).horizontal, -west, atol=1e-15)
-    np.testing.assert_allclose(turned(turned(motion, 30.0), -30.0).acceleration, motion.acceleration, atol=1e-14)
-    alone = Motion.from_arrays(north, 0.01)
-    assert turned(alone, 30.0) is alone
 
 
 def test_resized_block_keeps_its_shape():

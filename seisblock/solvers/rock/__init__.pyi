@@ -1,4 +1,6 @@
 from .outcome import RockOutcome
-from .solve import Verdict, rock_verdict, solve_rock
+from .rocker import Rocker, RockOptions, rocker
+from .solve import solve_rock
+from .verdicts import Verdict, Verdicts, rock_verdict, rock_verdicts
 
-__all__ = ["RockOutcome", "Verdict", "rock_verdict", "solve_rock"]
+__all__ = ["RockOptions", "RockOutcome", "Rocker", "Verdict", "Verdicts", "rock_verdict", "rock_verdicts", "rocker", "solve_rock"]

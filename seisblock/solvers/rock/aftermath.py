@@ -10,8 +10,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from seisblock.bodies.block import LEFT, RIGHT, Block, Restitution, restitutions
+from seisblock.bodies.block import LEFT, RIGHT
 from seisblock.errors import SolverError
+from seisblock.solvers.rock.rocker import Rocker
 
 HALF_PI = math.pi / 2
 MOST_SWINGS = 10_000
@@ -68,10 +69,9 @@ class Side:
         return float(quad(slowness, 0.0, 1.0, epsabs=0.0, epsrel=1e-12, limit=400, points=breaks, full_output=1)[0])
 
 
-def sides(block: Block, gravity: float, restitution: Restitution, linear: bool) -> tuple[Side, Side]:
+def sides(block: Rocker) -> tuple[Side, Side]:
     """Return the right and the left corner of a block."""
-    onto = restitutions(block, restitution)
-    right, left = (Side(block.slendernesses[k], gravity * block.lever_ratios[k], onto[k], linear) for k in (RIGHT, LEFT))
+    right, left = (Side(block.alphas[k], block.gravity * block.levers[k], block.onto[k], block.linear) for k in (RIGHT, LEFT))
     return right, left
 
 

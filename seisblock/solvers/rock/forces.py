@@ -12,10 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.bodies.block import LEFT, RIGHT, Block
+from seisblock.bodies.block import LEFT, RIGHT
 from seisblock.dynamics import Trajectory
 from seisblock.records import Motion
 from seisblock.solvers.rock.model import BEYOND_LEFT, REST, TO_LEFT
+from seisblock.solvers.rock.rocker import Rocker
 from seisblock.typing import FloatArray, IntArray
 
 INNER = np.linspace(0.0, 1.0, 9)
@@ -80,15 +81,13 @@ class _Rows:
         return np.where(at_rest, push, along), np.where(at_rest, weight, normal)
 
 
-def demand(
-    block: Block, motion: Motion, trajectory: Trajectory, *, gravity: float, linear: bool, gains: FloatArray, until_s: float
-) -> Demand:
+def demand(block: Rocker, motion: Motion, trajectory: Trajectory, *, until_s: float) -> Demand:
     """Return the largest friction demand, and the loss of contact, before `until_s` (s after sample 0); impacts excepted.
 
     The block's acceleration relative to the ground is that of a point at R from the corner in contact (derived here): with
     psi = s alpha - theta, H/m = a + R (theta'' cos(psi) + theta'^2 sin(psi)), N/m = g + a_v + R (theta'' sin(psi) - theta'^2 cos(psi)).
     """
-    rows = _rows(block, motion, trajectory, gravity, linear, gains, until_s)
+    rows = _rows(block, motion, trajectory, until_s)
     if rows.time.size == 0:
         return Demand(0.0, None, None)
     along, normal = rows.forces(rows.theta, rows.omega, rows.push, rows.weight)
@@ -121,12 +120,12 @@ def demand(
     return _polished(inside[row], moments[row], column)
 
 
-def _rows(block: Block, motion: Motion, trajectory: Trajectory, gravity: float, linear: bool, gains: FloatArray, until_s: float) -> _Rows:
+def _rows(block: Rocker, motion: Motion, trajectory: Trajectory, until_s: float) -> _Rows:
     """Return the rows up to a time, with what the forces need."""
     time, states, modes = trajectory.table()
     n = int(np.searchsorted(time, until_s, side="right")) if math.isfinite(until_s) else time.size
-    push = trajectory.sampled(motion.horizontal) * gains[0]
-    weight = gravity + (trajectory.sampled(motion.vertical) * gains[2] if gains[2] != 0.0 else np.zeros(time.size))
+    push = trajectory.sampled(motion.horizontal)
+    weight = block.gravity + (trajectory.sampled(motion.vertical) * block.vertical if block.vertical != 0.0 else np.zeros(time.size))
     left = (modes[:n] == TO_LEFT) | (modes[:n] == BEYOND_LEFT)
     return _Rows(
         time[:n],
@@ -135,10 +134,10 @@ def _rows(block: Block, motion: Motion, trajectory: Trajectory, gravity: float, 
         push[:n],
         weight[:n],
         modes[:n],
-        lean=np.where(left, -block.slendernesses[LEFT], block.slendernesses[RIGHT]),
-        lever=np.where(left, block.lever_ratios[LEFT], block.lever_ratios[RIGHT]),
+        lean=np.where(left, -block.alphas[LEFT], block.alphas[RIGHT]),
+        lever=np.where(left, block.levers[LEFT], block.levers[RIGHT]),
         radius=np.where(left, block.radii[LEFT], block.radii[RIGHT]),
-        linear=linear,
+        linear=block.linear,
     )
 
 

@@ -12,6 +12,8 @@ Equation
         theta'' = -(m R/I_O) [(g + a_v) sin(psi) + a cos(psi)]
 
     The linear (slender) option puts psi for sin(psi) and 1 for cos(psi) ([Zhang2001]_ eqs. (4), (5)).
+Ground
+    a is the sum of the two horizontal rows, each times its gain: one along +x as it stands, or both for a motion that is turned.
 Rest
     The block stays while abs(a) < (g + a_v) tan(alpha) (alpha for tan(alpha) in the linear option). After an impact it comes to rest
     when the acceleration would bring it back within ``REST_HOP`` = 1e-8 s, the accuracy claimed of all times: the impacts that are
@@ -27,9 +29,9 @@ import math
 import numpy as np
 
 from seisblock._jit import kernel
-from seisblock.bodies.block import LEFT, RIGHT, Block, Restitution, restitutions
 from seisblock.dynamics import Model
 from seisblock.dynamics.contract import CONSTANT, RESET, SERIES, SKIP
+from seisblock.solvers.rock.rocker import Rocker
 from seisblock.typing import FloatArray
 from seisblock.words import noted
 
@@ -38,7 +40,7 @@ OVERTURNED = -1
 THETA, OMEGA = range(2)
 SINE, COSINE = range(2, 4)
 DOWN, UP_AND_OVER = range(2)
-ALONG, UPWARD = 0, 2
+ALONG, ACROSS, UPWARD = range(3)
 GRAVITY, DT, IS_LINEAR, ALPHA_RIGHT, ALPHA_LEFT, HOLD_RIGHT, HOLD_LEFT, LEVER_RIGHT, LEVER_LEFT, ONTO_RIGHT, ONTO_LEFT = range(11)
 
 REST_HOP = 1e-8
@@ -59,12 +61,9 @@ MODES = (
 HALF_PI = math.pi / 2
 
 
-def parameters(block: Block, dt: float, gravity: float, restitution: Restitution, linear: bool) -> FloatArray:
+def parameters(block: Rocker, dt: float) -> FloatArray:
     """Return the parameters of the model, in the order of the named integers above."""
-    alpha = block.slendernesses
-    hold = alpha if linear else (math.tan(alpha[RIGHT]), math.tan(alpha[LEFT]))
-    onto = restitutions(block, restitution)
-    return np.array([gravity, dt, float(linear), *alpha, *hold, *block.lever_ratios, *onto])
+    return np.array([block.gravity, dt, float(block.linear), *block.alphas, *block.holds, *block.levers, *block.onto])
 
 
 @kernel(SERIES)
@@ -72,8 +71,8 @@ def series(mode, y, f, p, order, c, g):
     """Write the lean, the angular velocity and the slacks of one mode as power series."""
     weight = p[GRAVITY] + f[UPWARD, 0]
     weight_rate = f[UPWARD, 1]
-    push = f[ALONG, 0]
-    push_rate = f[ALONG, 1]
+    push = f[ALONG, 0] + f[ACROSS, 0]
+    push_rate = f[ALONG, 1] + f[ACROSS, 1]
     if mode == REST:
         g[0, 0] = weight * p[HOLD_RIGHT] + push
         g[0, 1] = weight_rate * p[HOLD_RIGHT] + push_rate
@@ -165,14 +164,15 @@ def reset(mode, guard, y, f, p):
     # impact: the corner changes, the angular velocity keeps its sign
     y[THETA] = 0.0
     weight = p[GRAVITY] + f[UPWARD, 0]
+    push = f[ALONG, 0] + f[ACROSS, 0]
     if mode == TO_LEFT:
         y[OMEGA] *= p[ONTO_RIGHT]
-        slack = weight * p[HOLD_RIGHT] + f[ALONG, 0]
+        slack = weight * p[HOLD_RIGHT] + push
         back = p[LEVER_RIGHT] * slack * (1.0 if p[IS_LINEAR] != 0.0 else math.cos(p[ALPHA_RIGHT]))
         following = TO_RIGHT
     else:
         y[OMEGA] *= p[ONTO_LEFT]
-        slack = weight * p[HOLD_LEFT] - f[ALONG, 0]
+        slack = weight * p[HOLD_LEFT] - push
         back = p[LEVER_LEFT] * slack * (1.0 if p[IS_LINEAR] != 0.0 else math.cos(p[ALPHA_LEFT]))
         following = TO_LEFT
     if 2.0 * abs(y[OMEGA]) <= REST_HOP * back:
@@ -187,12 +187,13 @@ def skip(mode, acceleration, gains, sample, p):
     if mode != REST:
         return sample
     along = gains[ALONG]
+    across = gains[ACROSS]
     up = gains[UPWARD]
     last = acceleration.shape[1] - 1
     right = p[HOLD_RIGHT]
     left = p[HOLD_LEFT]
     k = sample
-    if up == 0.0:
+    if up == 0.0 and across == 0.0:
         low = -p[GRAVITY] * right
         high = p[GRAVITY] * left
         while k <= last and low < along * acceleration[ALONG, k] < high:
@@ -200,7 +201,7 @@ def skip(mode, acceleration, gains, sample, p):
     else:
         while k <= last:
             weight = p[GRAVITY] + up * acceleration[UPWARD, k]
-            push = along * acceleration[ALONG, k]
+            push = along * acceleration[ALONG, k] + across * acceleration[ACROSS, k]
             if not (-weight * right < push < weight * left):
                 break
             k += 1

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from seisblock.bodies.block import Block, Restitution, restitutions
 from seisblock.dynamics import Change, Trajectory
 from seisblock.records import Motion
 from seisblock.results import Phase
 from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate
 from seisblock.solvers.rock.forces import demand
-from seisblock.typing import FloatArray
+from seisblock.solvers.rock.rocker import Rocker
+from seisblock.words import Said, said
 
 STANDING = Fate(False, 0, (0.0, 0.0))
 """Nothing happens after the record."""
@@ -89,22 +89,7 @@ def friction_suffices(outcome: RockOutcome, mu: float, gravity: float) -> bool:
     return outcome.max_friction_demand is not None and outcome.max_friction_demand <= mu
 
 
-def lean_ratio(block: Block, largest: tuple[float, float]) -> float:
-    """Return the larger lean over alpha of its corner, from the largest leans to +x and to -x."""
-    return max(lean / alpha for lean, alpha in zip(largest, block.slendernesses, strict=True))
-
-
-def gather(
-    block: Block,
-    motion: Motion,
-    trajectory: Trajectory,
-    after: Fate | None,
-    *,
-    gains: FloatArray,
-    gravity: float,
-    restitution: Restitution,
-    linear: bool,
-) -> RockOutcome:
+def gather(block: Rocker, motion: Motion, trajectory: Trajectory, after: Fate | None) -> RockOutcome:
     """Gather the outcome from the trajectory and what follows it."""
     changes = trajectory.changes
     starts = [c.time for c in changes if c.source == model.REST]
@@ -122,10 +107,8 @@ def gather(
     largest = (max(high, late.largest[0]), max(-low, late.largest[1]))
     lean = max(largest)
     when = high_s if lean == high else low_s if lean == -low else None
-    need = demand(block, motion, trajectory, gravity=gravity, linear=linear, gains=gains, until_s=math.inf if falls is None else falls)
+    need = demand(block, motion, trajectory, until_s=math.inf if falls is None else falls)
     moved = bool(starts) or not (trajectory.final_mode == model.REST and not changes)
-    side = 0 if block.slendernesses[0] <= block.slendernesses[1] else 1
-    hold = (block.slendernesses if linear else tuple(math.tan(alpha) for alpha in block.slendernesses))[side]
 
     def at(moment: float | None) -> float | None:
         return None if moment is None else float(motion.start_s + moment)
@@ -137,7 +120,7 @@ def gather(
         rocks=moved,
         rocking_start_s=at(starts[0] if starts else 0.0) if moved else None,
         max_rotation_rad=float(lean),
-        max_rotation_ratio=float(lean_ratio(block, largest)),
+        max_rotation_ratio=float(max(lean / alpha for lean, alpha in zip(largest, block.alphas, strict=True))),
         max_rotation_s=at(when) if moved else None,
         impacts=impacts,
         overturned=overturned,
@@ -145,10 +128,10 @@ def gather(
         alpha_passed_s=at(falls),
         overturned_towards=towards,
         decided_after_record=after is not None,
-        slenderness_rad=block.slenderness,
-        frequency_parameter_rad_s=block.frequency_parameter(gravity),
-        restitution=restitutions(block, restitution)[1 - side],
-        threshold_m_s2=gravity * hold,
+        slenderness_rad=block.alphas[block.weaker],
+        frequency_parameter_rad_s=math.sqrt(block.gravity * block.levers[block.weaker]),
+        restitution=block.onto[1 - block.weaker],
+        threshold_m_s2=block.gravity * block.holds[block.weaker],
         max_friction_demand=need.friction if math.isfinite(need.friction) else None,
         max_friction_demand_s=at(need.friction_s),
         contact_lost=need.contact_lost_s is not None,
@@ -183,12 +166,18 @@ def phases(trajectory: Trajectory, start_s: float) -> tuple[Phase, ...]:
     )
 
 
-def warnings(block: Block, outcome: RockOutcome, gravity: float) -> tuple[str, ...]:
+def warnings(block: Rocker, outcome: RockOutcome) -> tuple[Said, ...]:
     """Return what the user should know before believing the numbers."""
     found = []
-    if outcome.threshold_m_s2 > gravity:
-        found.append(f"{block.name}: wider than tall; it rocks only above {outcome.threshold_m_s2 / gravity:.2f} g and will rather slide")
+    name, level = block.block.name, outcome.threshold_m_s2 / block.gravity
+    if level > 1.0:
+        found.append(said("{name}: wider than tall; it rocks only above {level:.2f} g and will rather slide", name=name, level=level))
     if outcome.contact_lost:
-        when = f"{outcome.contact_lost_s:.3f} s"
-        found.append(f"{block.name}: contact with the ground is lost at {when}; pure rocking is the wrong model from there")
+        found.append(
+            said(
+                "{name}: contact with the ground is lost at {time:.3f} s; pure rocking is the wrong model from there",
+                name=name,
+                time=outcome.contact_lost_s,
+            )
+        )
     return tuple(found)

@@ -3,34 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
-import numpy as np
-
-from seisblock import checks
 from seisblock.bodies.block import Block, Restitution
 from seisblock.dynamics import Trajectory, follow
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.records.given import Factor, check_call, vertical_gain
+from seisblock.records.given import Factor
 from seisblock.results import Channel, Event, Response, Status
 from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate, fate, sides
-from seisblock.solvers.rock.outcome import RockOutcome, event_name, gather, lean_ratio, phases, warnings
+from seisblock.solvers.rock.outcome import RockOutcome, event_name, gather, phases, warnings
+from seisblock.solvers.rock.rocker import Rocker, rocker
 from seisblock.units import STANDARD_GRAVITY
 
 CITATIONS = ("Housner1963", "Zhang2001", "Ishiyama1982")
-
-
-def check_options(restitution: Restitution, gravity: float) -> None:
-    """Refuse a restitution outside [0, 1] and a gravity that is not positive."""
-    given = () if restitution is None else restitution if isinstance(restitution, tuple) else (restitution,)
-    if not all(0.0 <= ratio <= 1.0 for ratio in given):
-        raise ParameterError(
-            f"the restitution, a ratio of angular velocities, must lie in [0, 1], found {restitution}; "
-            "leave it out for 1 - 1.5 sin^2(alpha)"
-        )
-    checks.gravity(gravity)
 
 
 def solve_rock(
@@ -90,19 +76,16 @@ def solve_rock(
     >>> outcome.overturned, outcome.overturned_towards, outcome.decided_after_record
     (True, '-x', True)
     """
-    check_call(block, Block, motion)
-    check_options(restitution, gravity)
-    p = model.parameters(block, motion.dt, gravity, restitution, linear)
-    gains = np.array([1.0, 0.0, vertical_gain(motion, vertical)])
-    trajectory = follow(model.ROCKING, motion, p, initial, start_mode(block, initial), gains=tuple(gains))
-    after = afterwards(trajectory, block, gravity, restitution, linear)
-    outcome = gather(block, motion, trajectory, after, gains=gains, gravity=gravity, restitution=restitution, linear=linear)
+    one = rocker(block, motion, restitution=restitution, linear=linear, vertical=vertical, gravity=gravity)
+    p = model.parameters(one, motion.dt)
+    trajectory = follow(model.ROCKING, motion, p, initial, start_mode(one, initial), gains=one.gains())
+    outcome = gather(one, motion, trajectory, afterwards(trajectory, one))
     time, states, _ = trajectory.table()
     channels = (
         Channel("rotation", "rad", states[:, model.THETA], "θ"),
         Channel("angular_velocity", "rad/s", states[:, model.OMEGA], "θ'"),
         Channel("ground_acceleration", "m/s^2", trajectory.sampled(motion.horizontal), "a"),
-        Channel("vertical_acceleration", "m/s^2", gains[2] * trajectory.sampled(motion.vertical), "a_v"),
+        Channel("vertical_acceleration", "m/s^2", one.vertical * trajectory.sampled(motion.vertical), "a_v"),
     )
     return Response(
         "rock",
@@ -113,14 +96,14 @@ def solve_rock(
         channels,
         phases(trajectory, motion.start_s),
         tuple(Event(event_name(c), motion.start_s + c.time, c.before, c.after) for c in trajectory.changes),
-        {"restitution": restitution, "linear": linear, "vertical": float(gains[2]), "gravity_m_s2": gravity},
+        {"restitution": restitution, "linear": linear, "vertical": one.vertical, "gravity_m_s2": gravity},
         Status(trajectory.status),
-        warnings(block, outcome, gravity),
+        warnings(one, outcome),
         CITATIONS,
     )
 
 
-def start_mode(block: Block, initial: tuple[float, float]) -> int:
+def start_mode(block: Rocker, initial: tuple[float, float]) -> int:
     """Return the mode in which a block with this lean and angular velocity is."""
     theta, omega = initial
     if not (abs(theta) < math.pi / 2 and math.isfinite(omega)):
@@ -131,59 +114,15 @@ def start_mode(block: Block, initial: tuple[float, float]) -> int:
         )
     if theta == 0.0 and omega == 0.0:
         return model.REST
-    right, left = block.slendernesses
+    right, left = block.alphas
     if theta > 0.0 or (theta == 0.0 and omega > 0.0):
         return model.BEYOND_RIGHT if theta > right else model.TO_RIGHT
     return model.BEYOND_LEFT if -theta > left else model.TO_LEFT
 
 
-def afterwards(
-    trajectory: Trajectory, block: Block, gravity: float, restitution: Restitution, linear: bool, *, timed: bool = True
-) -> Fate | None:
+def afterwards(trajectory: Trajectory, block: Rocker) -> Fate | None:
     """Return what free rocking makes of the block after the record's end, None when at rest or overturned by then."""
     if trajectory.final_mode in (model.REST, model.OVERTURNED):
         return None
     theta, omega = trajectory.final
-    return fate(sides(block, gravity, restitution, linear), float(theta), float(omega), timed=timed)
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """What an ensemble keeps of one run."""
-
-    overturned: bool
-    max_rotation_ratio: float
-
-
-def rock_verdict(
-    block: Block,
-    motion: Motion,
-    *,
-    scale: float = 1.0,
-    restitution: Restitution = None,
-    linear: bool = False,
-    vertical: Factor = False,
-    gravity: float = STANDARD_GRAVITY,
-) -> Verdict:
-    """Return only whether a block overturns and its largest lean over alpha, as fast as possible ([Housner1963]_).
-
-    Parameters
-    ----------
-    block, motion, restitution, linear, vertical, gravity
-        As in :func:`solve_rock`.
-    scale : float
-        Factor on the ground acceleration.
-
-    Returns
-    -------
-    Verdict
-        The ratio is pi/2 over alpha when it overturns.
-    """
-    p = model.parameters(block, motion.dt, gravity, restitution, linear)
-    gains = (scale, 0.0, scale * vertical)
-    trajectory = follow(model.ROCKING, motion, p, (0.0, 0.0), model.REST, gains=gains, keep_path=False, keep_events=False)
-    after = afterwards(trajectory, block, gravity, restitution, linear, timed=False)
-    late = after.largest if after else (0.0, 0.0)
-    high, _, low, _ = trajectory.extrema[model.THETA]
-    overturned = trajectory.final_mode == model.OVERTURNED or (after is not None and after.overturns)
-    return Verdict(overturned, lean_ratio(block, (max(high, late[0]), max(-low, late[1]))))
+    return fate(sides(block), float(theta), float(omega))

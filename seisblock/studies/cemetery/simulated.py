@@ -15,10 +15,10 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import WORN, Inset
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import rock_verdict
+from seisblock.solvers.rock.rocker import rocker
 from seisblock.studies.cemetery.limits import require_loose
 from seisblock.studies.cemetery.rate import CurvePoint
-from seisblock.studies.runs import in_threads
+from seisblock.studies.rocking.verdicts import all_verdicts
 from seisblock.typing import BoolArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 
@@ -102,9 +102,8 @@ def simulated_overturns(
     """
     require_loose(cemetery)
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
-    blocks = [sao(float(ratio), float(b), inset=inset) for ratio, b in sizes]
-    falls = list(in_threads(lambda block: rock_verdict(block, motion, scale=scale, gravity=gravity).overturned, blocks))
-    return np.array(falls, dtype=np.bool_)[index.ravel()]
+    stones = [rocker(sao(float(ratio), float(b), inset=inset), motion, gravity=gravity) for ratio, b in sizes]
+    return all_verdicts(stones, motion, stones[0].gains(scale)).overturned[index.ravel()]
 
 
 def simulated_curve(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 
@@ -18,10 +18,9 @@ from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
-from seisblock.solvers.rock.solve import check_options, rock_verdict
-from seisblock.studies.runs import in_threads
-from seisblock.typing import Progress
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
+from seisblock.studies.rocking.verdicts import overturns_at
+from seisblock.typing import BoolArray, FloatArray, Progress
 
 LIMIT = 3.0
 """Default largest factor of the scan."""
@@ -80,7 +79,13 @@ class Margin:
 
 
 def find_margin(
-    block: Block, motion: Motion, *, limit: float = LIMIT, step: float = STEP, progress: Progress | None = None, **options: Any
+    block: Block,
+    motion: Motion,
+    *,
+    limit: float = LIMIT,
+    step: float = STEP,
+    progress: Progress | None = None,
+    **options: Unpack[RockOptions],
 ) -> Margin:
     """Return the factors up to a limit at which a rocking block's verdict is found to change.
 
@@ -100,36 +105,30 @@ def find_margin(
         If limit or step are not positive, the step exceeds the limit, or an option is out of range.
     """
     if not (0.0 < step <= limit < float("inf")):
-        raise ParameterError(f"the scan needs 0 < step <= limit, found step {step} and limit {limit}")
-    check_options(options.get("restitution"), options.get("gravity", STANDARD_GRAVITY))
-
-    def overturns(factor: float) -> bool:
-        return rock_verdict(block, motion, scale=factor, **options).overturned
-
+        raise ParameterError("the scan needs 0 < step <= limit, found step {step} and limit {limit}", step=step, limit=limit)
+    one = rocker(block, motion, **options)
     grid = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
-    factors = [float(factor) for factor in grid[grid <= limit]]
-    verdicts = list(in_threads(overturns, factors, progress=progress))
-    changes = [i for i in range(1, len(factors)) if verdicts[i] != verdicts[i - 1]]
-    flips = tuple(in_threads(lambda i: _bisected(overturns, factors[i - 1], factors[i], verdicts[i]), changes))
+    factors = grid[grid <= limit]
+    verdicts = overturns_at(one, motion, factors, progress=progress)
+    flips = _bisected(one, motion, factors, verdicts)
     edges = (0.0, *flips, limit)
     windows = tuple(FactorRange(low, high, bool(i % 2)) for i, (low, high) in enumerate(pairwise(edges)))
     nearest = min(flips, key=lambda flip: abs(np.log(flip))) if flips else None
-    at_one = verdicts[factors.index(1.0)] if limit >= 1.0 else overturns(1.0)
-    fallen = next((i for i, falls in enumerate(verdicts) if falls), None)
+    at_one = bool(verdicts[factors == 1.0][0] if limit >= 1.0 else overturns_at(one, motion, [1.0])[0])
     first = next((window.first for window in windows if window.overturned), None)
-    share = None if fallen is None else sum(verdicts[fallen:]) / (len(verdicts) - fallen)
+    share = float(verdicts[int(verdicts.argmax()) :].mean()) if verdicts.any() else None
     return Margin(at_one, windows, flips, nearest, first, share, step, limit)
 
 
-def _bisected(overturns: Any, low: float, high: float, above: bool) -> float:
-    """Return the factor between two at which the verdict changes to `above`."""
-    while high - low > SHARP:
+def _bisected(block: Rocker, motion: Motion, factors: FloatArray, verdicts: BoolArray) -> tuple[float, ...]:
+    """Return the factors at which the verdict changes, all bisected at once."""
+    changes = np.flatnonzero(verdicts[1:] != verdicts[:-1])
+    low, high, above = factors[changes], factors[changes + 1], verdicts[changes + 1]
+    while changes.size and (high - low).max() > SHARP:
         middle = 0.5 * (low + high)
-        if overturns(middle) == above:
-            high = middle
-        else:
-            low = middle
-    return 0.5 * (low + high)
+        same = overturns_at(block, motion, middle) == above
+        low, high = np.where(same, low, middle), np.where(same, middle, high)
+    return tuple(float(flip) for flip in 0.5 * (low + high))
 
 
 def flagged(response: Response[RockOutcome]) -> Response[RockOutcome]:
@@ -142,8 +141,7 @@ def flagged(response: Response[RockOutcome]) -> Response[RockOutcome]:
     return replace(response, outcome=replace(response.outcome, verdict_flips_within_2_percent=flips), warnings=warnings)
 
 
-def flips_nearby(block: Block, motion: Motion, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Any) -> bool:
+def flips_nearby(block: Block, motion: Motion, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Unpack[RockOptions]) -> bool:
     """Return whether some factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
-    factors = [float(factor) for factor in np.linspace(1.0 - share, 1.0 + share, steps)]
-    verdicts = set(in_threads(lambda factor: rock_verdict(block, motion, scale=factor, **options).overturned, factors))
-    return len(verdicts) > 1
+    verdicts = overturns_at(rocker(block, motion, **options), motion, np.linspace(1.0 - share, 1.0 + share, steps))
+    return bool(verdicts.any() and not verdicts.all())

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 
 from seisblock import checks
-from seisblock.bodies.block import Block, Restitution, resized, restitutions
+from seisblock.bodies.block import Block, resized
 from seisblock.bodies.inset import HALF
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.records.motion import ACROSS, ALONG
-from seisblock.solvers.rock.solve import check_options, rock_verdict
-from seisblock.studies.runs import in_threads
-from seisblock.typing import Progress
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.records.motion import ACROSS
+from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
+from seisblock.studies.rocking.verdicts import all_verdicts
+from seisblock.typing import FloatArray, Progress
 from seisblock.words import noted
 
 CONFIDENCE = 0.95
@@ -91,9 +90,8 @@ def perturb(
     *,
     spread: Spread = Spread(),
     seed: int = 0,
-    restitution: Restitution = None,
     progress: Progress | None = None,
-    **options: Any,
+    **options: Unpack[RockOptions],
 ) -> Perturbation:
     """Return how often a block overturns when size, slenderness, edges, restitution, amplitude and azimuth change a little.
 
@@ -106,12 +104,11 @@ def perturb(
         Of the changes, each uniform and independent of the others.
     seed : int
         The same seed gives the same runs.
-    restitution : float, or a pair
-        Its middle value; that of each changed block's angular momentum when left out. Never above 1.
     progress : callable
         Told the number of runs done and the number in all.
     options
-        ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
+        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve.solve_rock`; the restitution is the
+        middle value, that of each changed block's angular momentum when left out, and never above 1.
 
     Raises
     ------
@@ -119,34 +116,28 @@ def perturb(
         If there are no runs, or an option is out of range.
     """
     if runs < 1:
-        raise ParameterError(f"a perturbation needs at least 1 run, found {runs}")
-    check_options(restitution, options.get("gravity", STANDARD_GRAVITY))
+        raise ParameterError("a perturbation needs at least 1 run, found {runs}", runs=runs)
+    given = rocker(block, motion, **options)
+    turns = spread.azimuth_deg if motion.acceleration[ACROSS].any() else 0.0
     dice = np.random.default_rng(seed)
     draws = np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs)])
     deepest = max(spread.inset, block.inset / block.width) if spread.inset else None
 
-    def once(draw: Any) -> bool:
+    def version(draw: FloatArray) -> tuple[Rocker, tuple[float, float, float]]:
         size, slenderness, bounce, amplitude, turn, wear = (float(value) for value in draw)
         changed = resized(block, size=1.0 + spread.size * size, slenderness=1.0 + spread.slenderness * slenderness)
         if deepest is not None:
             changed = changed.worn(deepest * wear)
-        right, left = (min(middle * (1.0 + spread.restitution * bounce), 1.0) for middle in restitutions(changed, restitution))
-        towards, factor = turned(motion, spread.azimuth_deg * turn), 1.0 + spread.amplitude * amplitude
-        return rock_verdict(changed, towards, scale=factor, restitution=(right, left), **options).overturned
+        one = rocker(changed, motion, **options)
+        right, left = (min(e * (1.0 + spread.restitution * bounce), 1.0) for e in one.onto)
+        factor, angle = 1.0 + spread.amplitude * amplitude, math.radians(turns * turn)
+        # +x turned clockwise, seen from above
+        return replace(one, onto=(right, left)), (factor * math.cos(angle), -factor * math.sin(angle), factor * given.vertical)
 
-    count = sum(in_threads(once, list(draws), progress=progress))
+    versions = [version(draw) for draw in draws]
+    found = all_verdicts([one for one, _ in versions], motion, [gains for _, gains in versions], progress=progress)
+    count = int(found.overturned.sum())
     return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)
-
-
-def turned(motion: Motion, degrees: float) -> Motion:
-    """Return a motion whose +x is turned clockwise, seen from above, when both horizontals are known; else the motion itself."""
-    if degrees == 0.0 or not motion.acceleration[ACROSS].any():
-        return motion
-    cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    rows = motion.acceleration.copy()
-    rows[ALONG] = cosine * motion.acceleration[ALONG] - sine * motion.acceleration[ACROSS]
-    rows[ACROSS] = sine * motion.acceleration[ALONG] + cosine * motion.acceleration[ACROSS]
-    return replace(motion, acceleration=rows)
 
 
 def wilson_interval(count: int, runs: int, confidence: float = CONFIDENCE) -> tuple[float, float]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 
@@ -12,8 +13,8 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.solvers.rock.solve import check_options, rock_verdict
-from seisblock.studies.runs import in_threads
+from seisblock.solvers.rock.rocker import RockOptions, rocker
+from seisblock.studies.rocking.verdicts import all_verdicts
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 
@@ -48,9 +49,8 @@ def rocking_spectrum(
     motion: Motion,
     *,
     inset: Inset = SHARP,
-    gravity: float = STANDARD_GRAVITY,
     progress: Progress | None = None,
-    **options: Any,
+    **options: Unpack[RockOptions],
 ) -> RockingSpectrum:
     """Return the rocking spectrum of a motion: peak lean over alpha against 2R and alpha ([Housner1963]_, [Zhang2001]_).
 
@@ -63,31 +63,24 @@ def rocking_spectrum(
     motion : Motion
     inset : Inset
         How far the edges are worn, per side; leans are then told over the alpha that is left.
-    gravity : float, m/s^2
     progress : callable
         Told the number of runs done and the number in all.
     options
-        ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
+        ``restitution``, ``linear``, ``vertical``, ``gravity`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
 
     Raises
     ------
     ParameterError
         If a size, a slenderness or an option is out of range, or there is none.
     """
-    check_options(options.get("restitution"), gravity)
     diagonal = _grid(sizes, "size 2R", "m", math.inf)
     alpha = _grid(slendernesses, "slenderness", "rad", math.pi / 2)
-
-    def run(index: int) -> tuple[bool, float]:
-        d, a = float(diagonal[index // alpha.size]), float(alpha[index % alpha.size])
-        verdict = rock_verdict(Block(d * math.sin(a), d * math.cos(a)).worn(inset), motion, gravity=gravity, **options)
-        return verdict.overturned, verdict.max_rotation_ratio
-
-    overturned = np.zeros((diagonal.size, alpha.size), dtype=np.bool_)
-    ratio = np.zeros((diagonal.size, alpha.size))
-    for index, answer in enumerate(in_threads(run, range(diagonal.size * alpha.size), progress=progress)):
-        overturned.flat[index], ratio.flat[index] = answer
-    return RockingSpectrum(diagonal, np.sqrt(1.5 * gravity / diagonal), alpha, ratio, overturned)
+    grid = itertools.product(diagonal.tolist(), alpha.tolist())
+    rockers = [rocker(Block(d * math.sin(a), d * math.cos(a)).worn(inset), motion, **options) for d, a in grid]
+    found = all_verdicts(rockers, motion, rockers[0].gains(), progress=progress)
+    shape = diagonal.size, alpha.size
+    p = np.sqrt(1.5 * rockers[0].gravity / diagonal)
+    return RockingSpectrum(diagonal, p, alpha, found.max_rotation_ratio.reshape(shape), found.overturned.reshape(shape))
 
 
 def size_of(frequency_parameter: ArrayLike, gravity: float = STANDARD_GRAVITY) -> FloatArray:

@@ -1,0 +1,77 @@
+"""Verdicts of many runs at once are those of one run after another (H11)."""
+
+import math
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.errors import ComponentError, KindError, ParameterError
+from seisblock.records import Component, Motion, Record, motion_of
+from seisblock.solvers.rock import rock_verdict, rock_verdicts, rocker, solve_rock
+from seisblock.studies.rocking.verdicts import all_verdicts, overturns_at
+
+RNG = np.random.default_rng(5)
+T = np.arange(1200) * 0.01
+ROWS = [
+    np.convolve(RNG.normal(size=T.size), np.hanning(40), "same") * 0.5 * size * np.exp(-(((T - 5.0) / 2.5) ** 2))
+    for size in (1.0, 0.8, 0.4)
+]
+RECORD = Record(tuple(Component(code, row) for code, row in zip(("NS", "EW", "UD"), ROWS, strict=True)), 0.01)
+MOTION = motion_of(RECORD, "NS")
+BLOCKS = [Block(w, h, centroid_offset=0.1 * w * k) for w, h in ((0.2, 0.5), (0.24, 0.72), (0.3, 1.2)) for k in (-1, 0, 1)]
+SCALES = (0.2, 0.8, 1.0, 1.3)
+OPTIONS = [{}, {"vertical": 0.7}, {"linear": True, "restitution": 0.9}, {"gravity": 9.0, "restitution": (0.8, 0.95)}]
+
+
+@pytest.mark.parametrize("options", OPTIONS, ids=str)
+def test_many_runs_are_one_run_after_another(options):
+    """Several blocks under one gain, one block under several, and all of both: bit for bit what solve_rock says of each."""
+    rockers = [rocker(block, MOTION, **options) for block in BLOCKS]
+    alone = [solve_rock(block, MOTION, **options).outcome for block in BLOCKS]
+    assert {outcome.overturned for outcome in alone} == {False, True}
+    together = rock_verdicts(rockers, MOTION, rockers[0].gains())
+    assert together.overturned.tolist() == [outcome.overturned for outcome in alone]
+    np.testing.assert_array_equal(together.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in alone])
+    one = rockers[4]
+    scaled = rock_verdicts([one], MOTION, [one.gains(scale) for scale in SCALES])
+    for scale, overturned, ratio in zip(SCALES, scaled.overturned, scaled.max_rotation_ratio, strict=True):
+        found = rock_verdict(one.block, MOTION, scale=scale, **options)
+        assert (found.overturned, found.max_rotation_ratio) == (overturned, ratio)
+    np.testing.assert_array_equal(scaled.overturned, overturns_at(one, MOTION, SCALES))
+
+
+def test_runs_on_all_cores_keep_their_order():
+    """More runs than a thread takes at once come back as they were asked for, and progress reaches the end."""
+    told = []
+    rockers = [rocker(BLOCKS[i % len(BLOCKS)], MOTION) for i in range(100)]
+    found = all_verdicts(rockers, MOTION, rockers[0].gains(), progress=lambda done, runs: told.append((done, runs)))
+    first = rock_verdicts(rockers[: len(BLOCKS)], MOTION, rockers[0].gains())
+    for i in range(100):
+        assert found.max_rotation_ratio[i] == first.max_rotation_ratio[i % len(BLOCKS)]
+    assert told[-1] == (100, 100) and [done for done, _ in told] == sorted(done for done, _ in told)
+
+
+@pytest.mark.parametrize("azimuth", [0.0, 37.0, 90.0, 200.0])
+def test_a_motion_is_turned_by_its_gains(azimuth):
+    """Cos and -sin on the rows along and across are the record turned clockwise, also while the block is at rest."""
+    angle = math.radians(azimuth)
+    for options in ({}, {"vertical": True}):
+        one = rocker(BLOCKS[1], MOTION, **options)
+        turned = rock_verdicts([one], MOTION, (math.cos(angle), -math.sin(angle), one.vertical))
+        there = solve_rock(one.block, motion_of(RECORD, f"{azimuth:g}"), **options).outcome
+        assert turned.overturned[0] == there.overturned
+        assert turned.max_rotation_ratio[0] == pytest.approx(there.max_rotation_ratio, rel=1e-9)
+
+
+def test_what_cannot_be_asked_is_refused_once_for_all_studies():
+    """The same sentences as of a single run."""
+    level = Motion(MOTION.acceleration, 0.01, record=Record(RECORD.components[:2], 0.01))
+    for call, error in (
+        (lambda: rocker(BLOCKS[0], RECORD), KindError),
+        (lambda: rocker(BLOCKS[0], level, vertical=True), ComponentError),
+        (lambda: rocker(BLOCKS[0], MOTION, restitution=1.1), ParameterError),
+        (lambda: rocker(BLOCKS[0], MOTION, gravity=0.0), ParameterError),
+    ):
+        with pytest.raises(error):
+            call()
