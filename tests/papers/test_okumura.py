@@ -148,7 +148,7 @@ def test_impossible_bodies_are_refused(words, message):
 
 def test_impossible_directions_and_corners_are_refused():
     """An angle that is not a number and a fifth corner are one sentence each."""
-    with pytest.raises(ParameterError, match="rho must be a finite angle"):
+    with pytest.raises(ParameterError, match="rho must be a finite number, found nan degrees"):
         shaking_direction(0.0, float("nan"))
     with pytest.raises(ParameterError, match="corners 1 to 4"):
         uplift_minima(SpringBlock.from_ratios(1.0, 1.0), corner=5)

@@ -98,7 +98,7 @@ def estimate_shaking(
     >>> from seisblock.studies.inverse.survey import counted_survey
     >>> found = estimate_shaking(counted_survey(read_cemetery("aoyama.csv"), 35, 100), 2.75)
     >>> round(found.pga_m_s2, 1)
-    7.0
+    9.5
     """
     rules = assumptions or Assumptions()
     if frequency is not None:
