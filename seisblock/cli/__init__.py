@@ -100,8 +100,9 @@ class SeisblockGroup(click.Group):
         """Run the command; errors of the user become a message on stderr and an exit code."""
         if os.environ.get("NO_COLOR"):
             extra.setdefault("color", False)
-        with printable(), answering(sys.argv[1:] if args is None else args):
-            return super().main(args, prog_name or "seisblock", **extra)
+        line = sys.argv[1:] if args is None else list(args)
+        with printable(), answering(line):
+            return super().main(line, prog_name or "seisblock", obj=line, **extra)
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""

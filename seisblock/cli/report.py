@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shlex
-import sys
 from pathlib import Path
 
 import click
@@ -86,6 +85,7 @@ def report(
     from seisblock.bodies.subjects import subject
     from seisblock.cli.inputs import components, load
     from seisblock.cli.progress import progress
+    from seisblock.present.figures.fonts import MISSING, drawable
     from seisblock.present.files import write_text
     from seisblock.present.pages.report import report as page
     from seisblock.studies.assessment import assess
@@ -93,25 +93,16 @@ def report(
     with quietly(quiet):
         names = body or DEFAULT_BODIES
         if not body:
-            say(f"no --body given: {' and '.join(DEFAULT_BODIES)}")
+            say("no --body given: {bodies}", bodies=DEFAULT_BODIES)
         subjects = [subject(name, side=side, mu=mu, mu_kinetic=mu_kinetic, frequency_vertical=frequency_vertical) for name in names]
         records = load(source)
         if len(records) != 1:
-            raise InputError(f"a report is about one record, found {len(records)}: give one, or run the command for each")
-        chosen = language()
-        _check_fonts(chosen)
-        with progress("reporting") as tell:
-            found = assess(records[0], subjects, components=components(records[0], source), drop=drop, gravity=gravity, progress=tell)
+            raise InputError("a report is about one record, found {count}: give one, or run the command for each", count=len(records))
+        if drawable() != language():
+            say(MISSING)
+        with progress("reporting") as advance:
+            found = assess(records[0], subjects, components=components(records[0], source), drop=drop, gravity=gravity, progress=advance)
         for message in found.warnings:
             warn(message)
-        write_text(output, page(found, lang=chosen, command=shlex.join(["seisblock", *sys.argv[1:]])))
-        say(f"wrote {output}")
-
-
-def _check_fonts(lang: str) -> None:
-    """Say once when figures cannot follow the page's language."""
-    if lang != "en":
-        from seisblock.present.figures.fonts import MISSING, japanese_font
-
-        if japanese_font() is None:
-            say(MISSING)
+        write_text(output, page(found, command=shlex.join(["seisblock", *click.get_current_context().obj])))
+        say("wrote {path}", path=output)

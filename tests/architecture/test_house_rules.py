@@ -35,7 +35,6 @@ LIGHT = (
     "seisblock.records",
     "seisblock.bodies.block",
     "seisblock.samples",
-    "seisblock.present.words",
     "seisblock.present.page",
     "seisblock.present.documents.kind",
     "seisblock.present.documents.write",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
-from html import escape
+from typing import NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -15,15 +15,22 @@ LARGEST_DRAWING = 200_000
 PICTURE_DPI = 170
 
 
-def picture(figure: Figure, caption: str, *, width: float = 6.0) -> str:
-    """Return an HTML figure.
+class Picture(NamedTuple):
+    """A figure as a page holds it: where it is taken from, which is the page itself, and what stands below it and is read aloud."""
+
+    source: str
+    caption: str
+
+
+def picture(figure: Figure, caption: str, *, width: float = 6.0) -> Picture:
+    """Return a figure as a page holds it.
 
     Parameters
     ----------
     figure : Figure
         Narrowed to `width`, so that its letters stay readable where the page is small.
     caption : str
-        Plain text, also what is read aloud.
+        Plain text.
     width : float, inch
     """
     have, height = figure.get_size_inches()
@@ -37,11 +44,7 @@ def picture(figure: Figure, caption: str, *, width: float = 6.0) -> str:
     if held.tell() > LARGEST_DRAWING:
         held, kind = io.BytesIO(), "png"
         figure.savefig(held, format="png", dpi=PICTURE_DPI)
-    data = base64.b64encode(held.getvalue()).decode("ascii")
-    return (
-        f'<figure><img alt="{escape(caption, quote=True)}" src="data:image/{kind};base64,{data}">'
-        f"<figcaption>{escape(caption)}</figcaption></figure>"
-    )
+    return Picture(f"data:image/{kind};base64,{base64.b64encode(held.getvalue()).decode('ascii')}", caption)
 
 
 def _part(axis: Axes) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import json
 import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -18,7 +17,9 @@ from PIL import Image
 
 from seisblock.errors import OutputError
 from seisblock.present.files import replacing
+from seisblock.present.page import page
 from seisblock.typing import Progress
+from seisblock.words import tell
 
 FRAMES_PER_SECOND = 20
 """Default rate; a .gif counts in hundredths of a second, so 20, 25 and 50 play at true speed."""
@@ -196,28 +197,5 @@ def _write_html(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
         frame.quantize(64, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(held, format="PNG")
         pictures.append(base64.b64encode(held.getvalue()).decode("ascii"))
         size = frame.size
-    page = _PAGE.replace("@WIDTH", str(size[0])).replace("@FPS", str(fps)).replace("@LAST", str(len(pictures) - 1))
-    path.write_text(page.replace("@PICTURES", json.dumps(pictures)), encoding="utf-8")
-
-
-_PAGE = """<!doctype html>
-<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>seisblock</title>
-<style>body{font:14px system-ui,sans-serif;margin:1em auto;padding:0 .8em;max-width:@WIDTHpx}
-img{width:100%}div{display:flex;gap:.6em}input{flex:1}</style>
-<img id="picture" alt="animation">
-<div><button id="play">pause</button><input id="at" type="range" min="0" max="@LAST" value="0"></div>
-<script>
-const pictures = @PICTURES, fps = @FPS;
-const image = document.getElementById("picture"), at = document.getElementById("at"), play = document.getElementById("play");
-let timer = null;
-function show(i) { at.value = i; image.src = "data:image/png;base64," + pictures[i]; }
-function step(by) { show((+at.value + by + pictures.length) % pictures.length); }
-function run(on) {
-  clearInterval(timer); timer = on ? setInterval(() => step(1), 1000 / fps) : null; play.textContent = on ? "pause" : "play";
-}
-play.onclick = () => run(!timer);
-at.oninput = () => { run(false); show(+at.value); };
-document.onkeydown = e => { if (e.key == "ArrowRight") { run(false); step(1); } if (e.key == "ArrowLeft") { run(false); step(-1); } };
-show(0); run(true);
-</script></html>
-"""
+    words = {"play": tell("play"), "pause": tell("pause")}
+    path.write_text(page("animation.html", "seisblock", width=size[0], fps=fps, pictures=pictures, words=words), encoding="utf-8")

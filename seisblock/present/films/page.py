@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from html import escape
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,19 +11,8 @@ from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Film, Strip
 from seisblock.present.page import page
 from seisblock.typing import FloatArray
-from seisblock.words import language, tell
+from seisblock.words import tell
 
-STYLE = """
-canvas { display: block; width: 100%; } .scenes { display: grid; grid-template-columns: 1fr; gap: .6rem; }
-.scenes.both { grid-template-columns: 3fr 2fr; align-items: end; } .scenes figure { margin: 0; }
-.panel { display: flex; flex-wrap: wrap; align-items: center; gap: .6rem; margin: .6rem 0; position: sticky; bottom: 0;
-  background: var(--paper); padding: .4rem 0; }
-.panel input { flex: 1 1 5rem; min-width: 4rem; } .panel button { min-width: 4.5rem; }
-.panel button, .panel select { font: inherit; padding: .2rem .5rem; } .panel select { max-width: 8rem; }
-.clock { font-variant-numeric: tabular-nums; font-weight: 600; }
-.trail i { display: inline-block; width: 1.2em; height: 3px; margin: 0 .3em; }
-@media (max-width: 40rem) { .scenes.both { grid-template-columns: 1fr; } }
-"""
 PACES = (0.02, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
 METRES, RADIANS, SECONDS = 5, 6, 4
 """Decimals that are kept: 0.01 mm, 1e-6 rad, 0.1 ms."""
@@ -42,30 +28,13 @@ def film_page(film: Film, filming: Filming) -> str:
     filming : Filming
         Speed at the start.
     """
-    text = json.dumps(_data(film, filming), ensure_ascii=False, separators=(",", ":")).replace("</", "<\\/")
-    script = Path(__file__).with_name("film.js").read_text(encoding="utf-8")
-    close = ""
-    if film.close:
-        named = ((trail.colour, escape(trail.name)) for trail in film.trails)
-        key = "".join(f'<span class="trail"><i style="background:{colour}"></i>{name}</span>' for colour, name in named)
-        close = f'<figure><figcaption>{tell("enlarged, seen from the ground")} {key}</figcaption><canvas id="close"></canvas></figure>'
-    body = [
-        f'<div class="scenes{" both" if film.close else ""}"><figure><figcaption><span class="clock" id="clock"></span> '
-        f'<span id="phase"></span></figcaption><canvas id="scene"></canvas></figure>{close}</div>',
-        '<div class="panel"><button id="play"></button><input id="at" type="range" min="0" max="1000" value="0" aria-label="time">'
-        f'<select id="pace" aria-label="speed">{_paces(1.0 / filming.slow)}</select></div>',
-        *(f'<canvas id="strip{index}"></canvas>' for index in range(len(film.strips))),
-        f'<script type="application/json" id="film">{text}</script>',
-        f"<script>{script}</script>",
-    ]
-    return page(film.title, body, lang=language(), style=STYLE)
+    pace = 1.0 / filming.slow
+    return page("film.html", film.title, film=film, data=_data(film, filming), pace=pace, paces=_paces(pace))
 
 
-def _paces(chosen: float) -> str:
+def _paces(chosen: float) -> list[tuple[float, str]]:
     """Return the choices of speed, the chosen one among them."""
-    options = sorted({*PACES, chosen})
-    told = {value: f"× {value:g}" + (f" ({tell('real time')})" if value == 1.0 else "") for value in options}
-    return "".join(f'<option value="{value!r}"{" selected" if value == chosen else ""}>{told[value]}</option>' for value in options)
+    return [(value, f"× {value:g}" + (f" ({tell('real time')})" if value == 1.0 else "")) for value in sorted({*PACES, chosen})]
 
 
 def _data(film: Film, filming: Filming) -> dict[str, Any]:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Mapping, Sequence
-from html import escape
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from seisblock.present.documents.units import unit_of
@@ -12,13 +11,13 @@ from seisblock.present.documents.write import plain
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.embed import picture
 from seisblock.present.figures.fonts import drawn
+from seisblock.present.page import page
 from seisblock.present.text.tables import number
 from seisblock.results import Response
+from seisblock.words import listed, tell
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-_STYLE = "border-collapse:collapse;margin:.3em 0;font-variant-numeric:tabular-nums"
 
 
 def plot(response: Response[Any]) -> Figure:
@@ -48,22 +47,25 @@ def _png(figure: Figure) -> bytes:
 
 def html(response: Response[Any]) -> str:
     """Return a response as a notebook shows it: what it is about, its outcome, its warnings, its figure."""
-    title = " · ".join(part for part in (response.model, response.motion.name, str(getattr(response.body, "name", ""))) if part)
-    parts = [f"<b>{escape(title)}</b>", *_tables(plain(response.outcome))]
-    parts += [f'<p style="border-left:4px solid #c0392b;padding-left:.6em">{escape(text)}</p>' for text in response.warnings]
-    parts.append(picture(drawn(lambda: figure_of([response])), title))
-    return f'<div style="max-width:60em">{"".join(parts)}</div>'
+    parts = (response.model, response.motion.name, tell(str(getattr(response.body, "name", ""))))
+    title = " · ".join(part for part in parts if part)
+    return page(
+        "notebook.html",
+        title,
+        tables=list(_tables(plain(response.outcome))),
+        warnings=[tell(text) for text in response.warnings],
+        picture=picture(drawn(lambda: figure_of([response])), title),
+    )
 
 
-def _tables(outcome: Mapping[str, Any]) -> Iterator[str]:
-    """Yield the numbers of an outcome, then a table for each list of things in it."""
+def _tables(outcome: Mapping[str, Any]) -> Iterator[tuple[str, list[list[str]]]]:
+    """Yield the numbers of an outcome, then a table with its name for each list of things in it."""
     flat = {key: value for key, value in outcome.items() if not isinstance(value, (Mapping, list)) or _is_short(value)}
-    yield _table([[_spelt(key), _cell(value)] for key, value in flat.items()])
+    yield "", [[_spelt(key), _cell(value)] for key, value in flat.items()]
     for key, value in outcome.items():
         if isinstance(value, list) and value and all(isinstance(entry, Mapping) for entry in value):
-            names = list(value[0])
-            yield f"<b>{escape(key.replace('_', ' '))}</b>"
-            yield _table([[_spelt(name), *(_cell(entry.get(name)) for entry in value[:MOST_COLUMNS])] for name in names])
+            rows = [[_spelt(name), *(_cell(entry.get(name)) for entry in value[:MOST_COLUMNS])] for name in value[0]]
+            yield key.replace("_", " "), rows
 
 
 MOST_COLUMNS, MOST_ENTRIES = 8, 12
@@ -90,14 +92,5 @@ def _superscript(unit: str) -> str:
 def _cell(value: Any) -> str:
     """Return a value as text."""
     if isinstance(value, list):
-        return ", ".join(_cell(entry) for entry in value) or "-"
-    return value if isinstance(value, str) and value else "-" if value in ("", None) else number(value)
-
-
-def _table(rows: Sequence[Sequence[str]]) -> str:
-    """Return rows as a small table, the first column on the left."""
-    cells = (
-        "".join(f'<td style="text-align:{"right" if i else "left"};padding:.1em .8em .1em 0">{escape(c)}</td>' for i, c in enumerate(row))
-        for row in rows
-    )
-    return f'<table style="{_STYLE}">{"".join(f"<tr>{row}</tr>" for row in cells)}</table>'
+        return listed(_cell(entry) for entry in value) or "-"
+    return tell(value) if isinstance(value, str) and value else "-" if value in ("", None) else number(value)

@@ -1,4 +1,4 @@
-"""The sentences of the report, about any effect, in English and in Japanese."""
+"""The sentences of the report, about any effect."""
 
 from __future__ import annotations
 
@@ -6,30 +6,23 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from seisblock.present.words import SENTENCES
 from seisblock.solvers.jump.chain import JUMPED
 from seisblock.studies.assessment import Effect
+from seisblock.words import noted, tell
 
-KINDS = {"rock": "overturning", "slide": "sliding", "jump": "jump", "uplift": "uplift"}
 SECTIONS = {
-    "rock": "Rocking and overturning",
-    "slide": "Sliding",
-    "jump": "Jump of the two-layer block",
-    "uplift": "Uplift from corner springs",
+    "rock": noted("Rocking and overturning"),
+    "slide": noted("Sliding"),
+    "jump": noted("Jump of the two-layer block"),
+    "uplift": noted("Uplift from corner springs"),
 }
-LIMITS = (
+LIMITS = noted(
     "Each model is rigid and planar but for uplift, and each motion is followed by itself: a body that slides and rocks at once does "
     "neither exactly as said here. Rocking is sensitive: read the margins before the verdict."
 )
 
 BAD = 2.0
 """Severity from which a body falls or jumps."""
-
-
-def told(template: str, lang: str, **values: Any) -> str:
-    """Return a sentence in a language, with its values."""
-    chosen = SENTENCES.get(template, template) if lang == "ja" else template
-    return chosen.format(**values) if values else chosen
 
 
 def severity(effect: Effect) -> float:
@@ -49,83 +42,84 @@ def _moved(effect: Effect) -> float:
     return float(effect.response.outcome.final_displacement_m)
 
 
-def verdict(effect: Effect, lang: str) -> str:
+def verdict(effect: Effect) -> str:
     """Return one line for the top of the page."""
     outcome, name = effect.response.outcome, effect.response.motion.name
     if effect.kind == "rock":
         if outcome.overturned:
-            return told("overturns towards {side}{name}", lang, side=outcome.overturned_towards[0], name=name)
+            return tell("overturns towards {side}{name}", side=outcome.overturned_towards[0], name=name)
         if outcome.rocks:
-            text = "rocks and stands: {share:.0%} of the way to overturning ({name})"
-            return told(text, lang, share=outcome.max_rotation_ratio, name=name)
-        return told("stands still", lang)
+            text = noted("rocks and stands: {share:.0%} of the way to overturning ({name})")
+            return tell(text, share=outcome.max_rotation_ratio, name=name)
+        return tell("stands still")
     if effect.kind == "slide":
         if not outcome.slips:
-            return told("does not slide", lang)
-        return told("slides up to {mm:.0f} mm ({name})", lang, mm=outcome.max_slip_m * 1e3, name=name)
+            return tell("does not slide")
+        return tell("slides up to {mm:.0f} mm ({name})", mm=outcome.max_slip_m * 1e3, name=name)
     if effect.kind == "jump":
         if outcome.outcome == JUMPED:
-            return told("jumps: {mm:+.0f} mm along {name}", lang, mm=_moved(effect) * 1e3, name=name)
-        return told("rocks without jumping ({name})" if outcome.chains else "stands still", lang, name=name)
+            return tell("jumps: {mm:+.0f} mm along {name}", mm=_moved(effect) * 1e3, name=name)
+        return tell("rocks without jumping ({name})" if outcome.chains else "stands still", name=name)
     if not outcome.uplifts:
-        return told("no corner lifts", lang)
+        return tell("no corner lifts")
     if not outcome.within_model:
-        return told("corner {corner} lifts, how far is beyond the model ({name})", lang, corner=outcome.corner, name=name)
-    return told("corner {corner} lifts, up to {mm:.1f} mm ({name})", lang, corner=outcome.corner, mm=outcome.max_uplift_m * 1e3, name=name)
+        return tell("corner {corner} lifts, how far is beyond the model ({name})", corner=outcome.corner, name=name)
+    return tell("corner {corner} lifts, up to {mm:.1f} mm ({name})", corner=outcome.corner, mm=outcome.max_uplift_m * 1e3, name=name)
 
 
-def sentences(effect: Effect, lang: str) -> Iterator[str]:
+def sentences(effect: Effect) -> Iterator[str]:
     """Yield what happened and with what margin, in words."""
     name = effect.response.motion.name
     body = {"rock": _rock, "slide": _slide, "jump": _jump, "uplift": _uplift}[effect.kind]
-    yield f"{name}:"
-    yield from body(effect, effect.response.outcome, lang)
+    yield tell("{name}:", name=name)
+    yield from body(effect, effect.response.outcome)
     if effect.onset is not None and math.isfinite(effect.onset):
-        yield told(_ONSETS[effect.kind], lang, factor=effect.onset)
+        yield tell(_ONSETS[effect.kind], factor=effect.onset)
 
 
 _ONSETS = {
-    "rock": "Rocking begins at {factor:.2f} times this record.",
-    "slide": "Sliding begins at {factor:.2f} times this record.",
-    "jump": "The chain begins at {factor:.2f} times this record.",
-    "uplift": "A corner just lifts at {factor:.2f} times this record.",
+    "rock": noted("Rocking begins at {factor:.2f} times this record."),
+    "slide": noted("Sliding begins at {factor:.2f} times this record."),
+    "jump": noted("The chain begins at {factor:.2f} times this record."),
+    "uplift": noted("A corner just lifts at {factor:.2f} times this record."),
 }
 
 
-def _rock(effect: Effect, outcome: Any, lang: str) -> Iterator[str]:
+def _rock(effect: Effect, outcome: Any) -> Iterator[str]:
     """Yield rocking and its margins."""
     if not outcome.rocks:
-        yield told("The body stands still.", lang)
+        yield tell("The body stands still.")
     elif outcome.overturned:
-        after = told(" after the record's end", lang) if outcome.decided_after_record else ""
-        when = outcome.overturning_time_s
-        text = "The body overturns to {side}{after}; it lies down at {time:.2f} s."
-        yield told(text, lang, side=outcome.overturned_towards, after=after, time=math.nan if when is None else when)
+        when = math.nan if outcome.overturning_time_s is None else outcome.overturning_time_s
+        if outcome.decided_after_record:
+            text = noted("The body overturns to {side} after the record's end; it lies down at {time:.2f} s.")
+        else:
+            text = noted("The body overturns to {side}; it lies down at {time:.2f} s.")
+        yield tell(text, side=outcome.overturned_towards, time=when)
     else:
-        text = "The body rocks from {time:.2f} s and stands; it leans to {share:.0%} of its slenderness."
-        yield told(text, lang, time=outcome.rocking_start_s, share=outcome.max_rotation_ratio)
+        text = noted("The body rocks from {time:.2f} s and stands; it leans to {share:.0%} of its slenderness.")
+        yield tell(text, time=outcome.rocking_start_s, share=outcome.max_rotation_ratio)
     margin = effect.margin
     if margin is not None:
         if margin.nearest_flip is None:
-            yield told("The verdict is the same at every factor up to {limit:g}.", lang, limit=margin.limit)
+            yield tell("The verdict is the same at every factor up to {limit:g}.", limit=margin.limit)
         else:
-            yield told("The verdict changes next at {factor:.3f} times this record.", lang, factor=margin.nearest_flip)
+            yield tell("The verdict changes next at {factor:.3f} times this record.", factor=margin.nearest_flip)
         first = next((window for window in margin.windows if window.overturned), None)
         if first is not None:
-            yield told("Of the factors looked at, all below {factor:.3f} let it stand.", lang, factor=first.first)
+            yield tell("Of the factors looked at, all below {factor:.3f} let it stand.", factor=first.first)
     if outcome.verdict_flips_within_2_percent:
-        yield told("A change of the record by less than 2 % changes the verdict.", lang)
+        yield tell("A change of the record by less than 2 % changes the verdict.")
 
 
-def _slide(effect: Effect, outcome: Any, lang: str) -> Iterator[str]:
+def _slide(effect: Effect, outcome: Any) -> Iterator[str]:
     """Yield sliding."""
     if not outcome.slips:
-        yield told("Friction holds throughout.", lang)
+        yield tell("Friction holds throughout.")
         return
-    text = "The body slides from {start:.2f} s, up to {most:.1f} mm at {time:.2f} s; {rest:+.1f} mm remain."
-    yield told(
+    text = noted("The body slides from {start:.2f} s, up to {most:.1f} mm at {time:.2f} s; {rest:+.1f} mm remain.")
+    yield tell(
         text,
-        lang,
         start=outcome.slip_start_s,
         most=outcome.max_slip_m * 1e3,
         time=outcome.max_slip_time_s,
@@ -133,16 +127,17 @@ def _slide(effect: Effect, outcome: Any, lang: str) -> Iterator[str]:
     )
 
 
-def _jump(effect: Effect, outcome: Any, lang: str) -> Iterator[str]:
+def _jump(effect: Effect, outcome: Any) -> Iterator[str]:
     """Yield the chains of a jump."""
     if not outcome.chains:
-        yield told("The ground acceleration never exceeds the rocking threshold.", lang)
+        yield tell("The ground acceleration never exceeds the rocking threshold.")
     for number, chain in enumerate(outcome.chains, start=1):
         if chain.outcome == JUMPED:
-            text = "Chain {number}: rocks for {rock:.3f} s, flies for {fly:.3f} s, moves {mm:+.1f} mm; the centroid rises by {rise:.1f} mm."
-            yield told(
+            text = noted(
+                "Chain {number}: rocks for {rock:.3f} s, flies for {fly:.3f} s, moves {mm:+.1f} mm; the centroid rises by {rise:.1f} mm."
+            )
+            yield tell(
                 text,
-                lang,
                 number=number,
                 rock=chain.rocking_duration_s,
                 fly=chain.jump_duration_s,
@@ -150,25 +145,24 @@ def _jump(effect: Effect, outcome: Any, lang: str) -> Iterator[str]:
                 rise=(chain.max_rise_m or 0.0) * 1e3,
             )
         else:
-            yield told("Chain {number}: {outcome}.", lang, number=number, outcome=told(chain.outcome, lang))
+            yield tell("Chain {number}: {outcome}.", number=number, outcome=tell(chain.outcome))
 
 
-def _uplift(effect: Effect, outcome: Any, lang: str) -> Iterator[str]:
+def _uplift(effect: Effect, outcome: Any) -> Iterator[str]:
     """Yield uplift."""
     if not outcome.uplifts:
-        yield told("No corner leaves its spring.", lang)
+        yield tell("No corner leaves its spring.")
         return
     if not outcome.within_model:
-        text = "Corner {corner} lifts first, at {time:.2f} s; the block then leans so far that this model, without P-delta, does not hold."
-        yield told(text, lang, corner=outcome.corner, time=outcome.first_uplift_s)
+        text = noted("Corner {corner} lifts first, at {time:.2f} s; the block then leans so far that this model, without P-delta, does not hold.")
+        yield tell(text, corner=outcome.corner, time=outcome.first_uplift_s)
         return
-    text = (
+    text = noted(
         "Corner {corner} lifts first, at {time:.2f} s; up to {mm:.1f} mm, {total:.2f} s in the air; "
         "largest force {ratio:.1f} times the static one."
     )
-    yield told(
+    yield tell(
         text,
-        lang,
         corner=outcome.corner,
         time=outcome.first_uplift_s,
         mm=outcome.max_uplift_m * 1e3,

@@ -11,7 +11,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from seisblock.present.text.tables import table
+from seisblock.present.text.tables import line, table
 from seisblock.validation.case import VERDICTS, WORTHS, CaseResult, Verdict, Worth, counts, counts_by_kind
 from seisblock.words import noted, tell
 
@@ -46,13 +46,13 @@ def tables(results: Sequence[CaseResult], *, every: bool = True) -> Iterator[Any
     for verdict in VERDICTS:
         chosen = [result for result in results if result.verdict == verdict]
         if chosen and (every or verdict != "holds"):
-            yield Text(tell(_HEADINGS[verdict]), style=_STYLES[verdict])
+            yield line(tell(_HEADINGS[verdict]), _STYLES[verdict])
             yield _grid(heading=True)
             for paper in dict.fromkeys(result.case.paper for result in chosen):
-                yield Text(paper, style="italic")
+                yield line(paper, "italic")
                 part = [result for result in chosen if result.case.paper == paper]
                 yield from [_grid(part)] if verdict == "holds" else _explained(part)
-            yield Text()
+            yield line()
     yield _kinds(results)
     yield _count(results, every=every)
 
@@ -62,7 +62,7 @@ def _explained(results: Sequence[CaseResult]) -> Iterator[Any]:
     for note in dict.fromkeys(map(explanation, results)):
         yield _grid([result for result in results if explanation(result) == note])
         if note:
-            yield Constrain(Padding(Text(tell("why: {reason}", reason=note), style="dim"), (0, 2, 1, 4)), WIDTH)
+            yield Constrain(Padding(line(tell("why: {reason}", reason=note), "dim"), (0, 2, 1, 4)), WIDTH)
 
 
 def explanation(result: CaseResult) -> str:
@@ -88,7 +88,7 @@ def _grid(results: Sequence[CaseResult] = (), *, heading: bool = False) -> Any:
         made.add_column(name, width=width, justify="right", overflow="fold")
     for r in results:
         numbers = (short(r.expected), short(r.computed), short(r.error, 2), short(r.case.tolerance, 2))
-        made.add_row(Padding(Text(r.case.place, overflow="fold"), (0, 0, 0, 2)), Text(labelled(r), overflow="fold"), *numbers)
+        made.add_row(Padding(line(r.case.place), (0, 0, 0, 2)), line(labelled(r)), *numbers)
     return Constrain(made, WIDTH)
 
 
@@ -128,10 +128,8 @@ def _kinds(results: Sequence[CaseResult]) -> Any:
 def _count(results: Sequence[CaseResult], *, every: bool) -> Text:
     """Return the last line."""
     counted = counts(results)
-    told = Text(
-        tell("{all} cases: {hold} hold, {differ} differ as explained, {fail} fail.", all=len(results), **_named(counted)),
-        style="bold red" if counted["fails"] else "",
-    )
+    counts_told = tell("{all} cases: {hold} hold, {differ} differ as explained, {fail} fail.", all=len(results), **_named(counted))
+    told = line(counts_told, "bold red" if counted["fails"] else "")
     return told if every else told.append(" " + tell("--all lists those that hold."), style="dim")
 
 
