@@ -76,7 +76,7 @@ def test_its_verdict_is_the_solver_s(pages):
     assert f"overturns towards {outcome.overturned_towards[0]}EW" in pages["en"]
     assert f"lies down at {outcome.overturning_time_s:.2f} s" in pages["en"]
     assert re.search(r"The verdict changes next at \d\.\d{3} times this record", pages["en"])
-    assert "倍より小さければ常に転倒しない" in pages["ja"]
+    assert "倍未満ではすべて転倒しない" in pages["ja"]
 
 
 def test_what_the_user_must_mend_is_one_sentence(tmp_path):

@@ -154,7 +154,9 @@ def _uplift(effect: Effect, outcome: Any) -> Iterator[str]:
         yield tell("No corner leaves its spring.")
         return
     if not outcome.within_model:
-        text = noted("Corner {corner} lifts first, at {time:.2f} s; the block then leans so far that this model, without P-delta, does not hold.")
+        text = noted(
+            "Corner {corner} lifts first, at {time:.2f} s; the block then leans so far that this model, without P-delta, does not hold."
+        )
         yield tell(text, corner=outcome.corner, time=outcome.first_uplift_s)
         return
     text = noted(
