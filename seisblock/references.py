@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 
@@ -195,22 +197,6 @@ _ALL = (
         doi="10.1061/(ASCE)0733-9399(1996)122:7(690)",
     ),
     Reference(
-        "WangMason1992",
-        "Wang, Y. and Mason, M. T.",
-        1992,
-        "Two-dimensional rigid-body collisions with friction",
-        "Journal of Applied Mechanics, 59(3), 635-642",
-        doi="10.1115/1.2893771",
-    ),
-    Reference(
-        "Moreau1988",
-        "Moreau, J. J.",
-        1988,
-        "Unilateral contact and dry friction in finite freedom dynamics",
-        "Nonsmooth Mechanics and Applications, CISM 302, Springer, 1-82",
-        kind="book",
-    ),
-    Reference(
         "GenotBrogliato1999",
         "Génot, F. and Brogliato, B.",
         1999,
@@ -233,17 +219,53 @@ SOFTWARE = Reference(
 )
 """The program itself."""
 
-CITED: dict[str, tuple[str, ...]] = {
-    "measure": ("Furukawa2009", "Arias1970", "TrifunacBrady1975", "JMA1996", "Parzen1961", "NigamJennings1969"),
-    "slide": ("Fujino1978", "Newmark1965"),
-    "rock": ("Housner1963", "Zhang2001", "Ishiyama1982"),
+RESTS_ON: dict[str, tuple[str, ...]] = {
+    "measures": ("Furukawa2009", "JMA1996", "Arias1970", "TrifunacBrady1975", "Parzen1961"),
+    "response spectrum": ("NigamJennings1969",),
+    "sliding": ("Fujino1978",),
+    "one-way sliding": ("Newmark1965",),
+    "rocking": ("Housner1963", "Zhang2001", "Ishiyama1982"),
     "jump": ("Sugimoto2017",),
+    "two-layer body": ("Sugimoto2017",),
+    "landing with friction": ("WangMason1992", "Moreau1988"),
     "uplift": ("Okumura1987",),
-    "respond": ("ShentonJones1991", "Shenton1996", "Housner1963", "WangMason1992", "Moreau1988", "GenotBrogliato1999", "Sugimoto2017"),
-    "criteria": ("Housner1963", "Ishiyama1982", "Tsutsui", "Furukawa2009", "Fujino1978"),
-    "spectrum": ("Housner1963", "Zhang2001"),
-    "overturn-rate": ("Furukawa2009", "Housner1963"),
-    "infer": ("Furukawa2009", "Midorikawa1999", "Fujino1978", "Sugimoto2017"),
-    "stack": ("Furukawa2009",),
+    "pile": ("Furukawa2009",),
+    "all modes": ("ShentonJones1991", "Shenton1996", "Housner1963", "WangMason1992", "Moreau1988", "GenotBrogliato1999"),
+    "overturning criteria": ("Furukawa2009", "Tsutsui", "Housner1963", "Zhang2001", "Ishiyama1982"),
+    "gravestones as fitted": ("Furukawa2009",),
+    "gravestones as blocks": ("Furukawa2009", "Housner1963"),
+    "intensity of a velocity": ("Midorikawa1999",),
 }
-"""What each command's answers rely on unless options ask for more; one answer's own list stands in its document."""
+"""What each question rests on: the only place where an answer finds its papers."""
+
+
+def papers(*questions: str) -> tuple[str, ...]:
+    """Return the keys of the papers that the answers to some questions rely on, each once, in their order.
+
+    Examples
+    --------
+    >>> papers("jump", "landing with friction")
+    ('Sugimoto2017', 'WangMason1992', 'Moreau1988')
+    """
+    return tuple(dict.fromkeys(key for question in questions for key in RESTS_ON[question]))
+
+
+def cited_in(texts: Iterable[str]) -> tuple[str, ...]:
+    """Return the keys that stand in brackets in some texts, each once, in their order."""
+    return tuple(dict.fromkeys(key for text in texts for key in re.findall(r"\[(\w+)\]", text) if key in REFERENCES))
+
+
+CITED: dict[str, tuple[str, ...]] = {
+    "measure": papers("measures", "response spectrum"),
+    "slide": papers("sliding", "one-way sliding"),
+    "rock": papers("rocking"),
+    "jump": papers("jump"),
+    "uplift": papers("uplift"),
+    "respond": papers("all modes", "two-layer body"),
+    "criteria": papers("overturning criteria"),
+    "spectrum": papers("rocking", "sliding"),
+    "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),
+    "infer": papers("gravestones as fitted", "gravestones as blocks", "intensity of a velocity", "sliding", "jump"),
+    "stack": papers("pile"),
+}
+"""What the answers of each command rely on unless options ask for more; one answer's own list stands in its document."""

@@ -20,6 +20,7 @@ from seisblock.measures.spectra import SMOOTHING_HZ
 from seisblock.measures.usual_filters import FilterRange, filter_range
 from seisblock.records.process import pick
 from seisblock.records.record import Component, Record
+from seisblock.references import papers
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import said
 
@@ -30,7 +31,6 @@ the 100 gal from which the criteria of [Furukawa2009]_ are fitted."""
 _ROUND_OFF = 1e-10
 """A velocity below this share of PGA times duration is round-off: what the high-pass leaves of an offset."""
 
-CITATIONS = ("Furukawa2009", "JMA1996", "Arias1970", "TrifunacBrady1975", "Parzen1961")
 """What the numbers of :func:`measure` rest on."""
 
 
@@ -131,7 +131,7 @@ class RecordMeasures:
     horizontal: HorizontalPeak | None
     conventions: Conventions
     warnings: tuple[str, ...] = ()
-    citations: tuple[str, ...] = CITATIONS
+    citations: tuple[str, ...] = papers("measures")
 
 
 def measure(

@@ -13,6 +13,7 @@ from seisblock.bodies.subjects import Subject
 from seisblock.criteria.card import Row, overturning_card
 from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures, measure
 from seisblock.records import Motion, Record, motion_of
+from seisblock.references import cited_in
 from seisblock.results import Response
 from seisblock.solvers.jump.solve import solve_jump
 from seisblock.solvers.rock.solve import solve_rock
@@ -71,8 +72,8 @@ class Assessment:
     def citations(self) -> tuple[str, ...]:
         """Keys of the papers relied on."""
         found = [*self.measures.citations, *(key for body in self.bodies for effect in body.effects for key in effect.response.citations)]
-        cards = (row.where for body in self.bodies for rows in body.cards.values() for row in rows)
-        return tuple(dict.fromkeys([*found, *(where[1:].split("]")[0] for where in cards)]))
+        cards = cited_in(row.where for body in self.bodies for rows in body.cards.values() for row in rows)
+        return tuple(dict.fromkeys([*found, *cards]))
 
 
 def assess(

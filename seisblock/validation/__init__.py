@@ -37,12 +37,12 @@ def cases_of(papers: Sequence[str] = ()) -> list[Case]:
         If no case cites such a paper.
     """
     every = cases()
-    keys = {case: case.where.split("]")[0].strip("[") for case in every}
+    known = tuple(dict.fromkeys(case.paper for case in every))
     for name in papers:
-        if not any(key.lower().startswith(name.lower()) for key in keys.values()):
-            there_are = ", ".join(dict.fromkeys(keys.values()))
+        if not any(paper.lower().startswith(name.lower()) for paper in known):
+            there_are = ", ".join(known)
             raise ParameterError(f"no validation case cites {name!r}; there are cases of {there_are}")
-    return [case for case in every if not papers or any(keys[case].lower().startswith(name.lower()) for name in papers)]
+    return [case for case in every if not papers or any(case.paper.lower().startswith(name.lower()) for name in papers)]
 
 
 __all__ = ["CONVERGED", "EXACT", "PAPERS", "Case", "CaseResult", "cases", "cases_of"]

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from seisblock.errors import ParameterError, SeisblockError
+from seisblock.references import cited_in
 from seisblock.words import noted
 
 EXACT = 1e-12
@@ -103,8 +104,7 @@ class Case:
     @property
     def paper(self) -> str:
         """Key of the paper."""
-        found = re.match(r"\[(\w+)\]_", self.where)
-        return found.group(1) if found else self.key.split("-")[0]
+        return cited_in([self.where])[0]
 
     @property
     def place(self) -> str:

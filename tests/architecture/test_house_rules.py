@@ -13,7 +13,7 @@ import pytest
 
 import seisblock
 from seisblock.cli import COMMANDS, main
-from seisblock.references import CITED, REFERENCES
+from seisblock.references import REFERENCES
 
 PACKAGE = Path(seisblock.__file__).parent
 CITATION = re.compile(r"\[(\w+)\]_")
@@ -133,11 +133,19 @@ def test_every_key_exists():
     assert {(file, key) for file, key in named if key not in REFERENCES} == set()
 
 
-def test_every_reference_is_used():
-    """The bibliography holds nothing that the program does not rely on."""
+def test_every_reference_stands_once_and_is_used():
+    """The bibliography says nothing twice, and holds nothing that the program does not rely on."""
+    bibliography = (PACKAGE / "references.py").read_text(encoding="utf-8")
+    assert len(re.findall(r"^    Reference\(", bibliography, re.MULTILINE)) == len(REFERENCES)
     text = "".join(path.read_text(encoding="utf-8") for path in sources() if path.name != "references.py")
-    used = set(CITATION.findall(text)) | {key for keys in CITED.values() for key in keys}
-    assert set(REFERENCES) <= used
+    assert set(REFERENCES) <= set(CITATION.findall(text))
+
+
+def test_papers_are_named_in_one_table():
+    """No answer brings a list of papers of its own: a key alone is written in the table of references only."""
+    trees = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sources() if path.name != "references.py"}
+    constants = [(path.name, node.value) for path, tree in trees.items() for node in ast.walk(tree) if isinstance(node, ast.Constant)]
+    assert [(name, value) for name, value in constants if isinstance(value, str) and value in REFERENCES] == []
 
 
 def test_every_public_function_is_described():

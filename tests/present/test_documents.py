@@ -14,6 +14,7 @@ from seisblock.present.documents.catalogue import KINDS, kinds_of, schema_of
 from seisblock.present.documents.units import unit_of
 from seisblock.present.documents.versions import VERSIONS
 from seisblock.present.documents.write import plain
+from seisblock.references import CITED, REFERENCES
 from seisblock.words import said
 from tests.present.document_keys import gone, lines, stored
 
@@ -96,6 +97,15 @@ def test_a_document_is_what_its_schema_says(line, documents):
             definition["additionalProperties"] = False
     wrong = jsonschema.exceptions.best_match(jsonschema.Draft202012Validator(schema).iter_errors(documents(line)))
     assert wrong is None, f"{wrong.json_path}: {wrong.message}"
+
+
+@pytest.mark.parametrize("line", EVERY)
+def test_an_answer_cites_what_its_command_relies_on(line, documents):
+    """The papers of a document are among those that `cite COMMAND` prints; ``validate`` those of its cases."""
+    command, cited = line.split()[0], documents(line)["citations"]
+    assert len(set(cited)) == len(cited)
+    assert set(cited) <= set(CITED.get(command, REFERENCES))
+    assert bool(cited) is (command not in {"samples"})
 
 
 def test_every_command_has_a_schema_and_every_kind_an_example(documents):

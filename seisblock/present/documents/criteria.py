@@ -13,6 +13,7 @@ from seisblock.measures.frequency import EquivalentFrequency
 from seisblock.present.documents.bodies import BlockEntry, block_entry
 from seisblock.present.documents.entry import entry_of, entry_type
 from seisblock.present.documents.kind import Document, Kind, Result
+from seisblock.references import cited_in, papers
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.studies.agreement import Agreement
 from seisblock.studies.criteria_card import Card
@@ -69,7 +70,6 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
 
 
 CRITERIA = Kind("criteria", CriteriaParameters, CriteriaResult)
-CITATIONS = ("Furukawa2009", "Housner1963", "Zhang2001", "Ishiyama1982", "Tsutsui")
 
 
 def document(cards: Sequence[Card], options: Mapping[str, Any], *, gravity: float) -> Document:
@@ -92,4 +92,5 @@ def document(cards: Sequence[Card], options: Mapping[str, Any], *, gravity: floa
         )
         for card in cards
     )
-    return CRITERIA.document(parameters, found, citations=CITATIONS, warnings=[text for card in cards for text in card.warnings])
+    cited = [*cited_in(row.where for card in cards for row in card.rows), *papers("rocking")]
+    return CRITERIA.document(parameters, found, citations=cited, warnings=[text for card in cards for text in card.warnings])

@@ -14,6 +14,7 @@ from seisblock.present.documents.bodies import TwoLayerEntry, two_layer_entry
 from seisblock.present.documents.entry import entry_of, entry_type
 from seisblock.present.documents.kind import Document, Kind
 from seisblock.records import Record
+from seisblock.references import papers
 from seisblock.studies.inverse.estimate import ShakingEstimate
 from seisblock.studies.inverse.factors import ScaleFactors
 from seisblock.studies.inverse.joint import JointEstimate
@@ -162,19 +163,20 @@ def stones_document(
 ) -> Document:
     """Return the document of what fallen stones say of the shaking."""
     found = ((None, entry_of(STONES_RESULT, each)) for each in estimates)
-    citations = ("Furukawa2009", *(("Housner1963",) if parameters.criterion == "rigid" else ()), "Midorikawa1999")
+    stones = "gravestones as blocks" if parameters.criterion == "rigid" else "gravestones as fitted"
+    citations = papers(stones, "intensity of a velocity")
     return STONES.document(parameters, found, citations=citations, warnings=warnings, contour=list(contour), joint=list(joint))
 
 
 def slid_document(factors: Factors, **chosen: Any) -> Document:
     """Return the document of every factor at which an object slides so far; `chosen` are the parameters."""
-    return SLID.document(SlidParameters(**chosen), _found(factors), citations=("Fujino1978",))
+    return SLID.document(SlidParameters(**chosen), _found(factors), citations=papers("sliding"))
 
 
 def jumped_document(factors: Factors, block: TwoLayerBlock, contact: Contact, **chosen: Any) -> Document:
     """Return the document of every factor at which a two-layer block is displaced so far; `chosen` are the other parameters."""
     parameters = JumpedParameters(**chosen, block=two_layer_entry(block), contact=contact)
-    return JUMPED.document(parameters, _found(factors), citations=("Sugimoto2017",))
+    return JUMPED.document(parameters, _found(factors), citations=papers("jump"))
 
 
 def _found(factors: Factors) -> Any:

@@ -10,6 +10,7 @@ from msgspec import UNSET, Meta, Struct, UnsetType
 from seisblock.present.documents.entry import COMPONENT, entry_of, entry_type, outcome_of
 from seisblock.present.documents.kind import Document, Kind, Result
 from seisblock.records import Record
+from seisblock.references import papers
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
 from seisblock.studies.sliding import SlidePoint
@@ -93,7 +94,7 @@ def document(responses: Sequence[Response[SlideOutcome]], sweep: Sequence[SlideP
 def study_document(parameters: Mapping[str, Any], points: Iterable[tuple[Record, SlidePoint]], warnings: Sequence[str]) -> Document:
     """Return the document of a study, point by point."""
     found = ((record, point_entry(point)) for record, point in points)
-    return STUDY.document(SlideStudyParameters(**_scaled(parameters)), found, citations=("Fujino1978",), warnings=warnings)
+    return STUDY.document(SlideStudyParameters(**_scaled(parameters)), found, citations=papers("sliding"), warnings=warnings)
 
 
 def point_entry(point: SlidePoint) -> Result:

@@ -12,6 +12,7 @@ from seisblock.bodies.block import Restitution
 from seisblock.bodies.inset import Inset
 from seisblock.present.documents.kind import Document, Kind, Result
 from seisblock.records import Motion
+from seisblock.references import papers
 from seisblock.studies.rocking.spectra import RockingSpectrum
 from seisblock.studies.sliding import SlidePoint
 
@@ -119,7 +120,7 @@ def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, optio
         )
         for motion, each in spectra
     )
-    return ROCKING.document(RockingParameters(kind=kind, gravity_m_s2=gravity, **options), found, citations=("Housner1963", "Zhang2001"))
+    return ROCKING.document(RockingParameters(kind=kind, gravity_m_s2=gravity, **options), found, citations=papers("rocking"))
 
 
 def sliding_document(curves: Sequence[tuple[Motion, Sequence[SlidePoint]]], *, gravity: float, vertical: bool) -> Document:
@@ -137,4 +138,4 @@ def sliding_document(curves: Sequence[tuple[Motion, Sequence[SlidePoint]]], *, g
         for motion, points in curves
     )
     parameters = SlidingParameters(kind="sliding", gravity_m_s2=gravity, vertical=vertical)
-    return SLIDING.document(parameters, found, citations=("Fujino1978",))
+    return SLIDING.document(parameters, found, citations=papers("sliding"))

@@ -14,6 +14,7 @@ from seisblock.present.documents.bodies import PileContactEntry, PileEntry, pile
 from seisblock.present.documents.entry import COMPONENT, entry_type, outcome_of
 from seisblock.present.documents.kind import Document, Kind, Result
 from seisblock.records import Record
+from seisblock.references import papers
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.studies.agreement import Agreement
@@ -176,4 +177,4 @@ def study_document(
     parameters = StudyParameters(
         points=points, gravity_m_s2=gravity, criterion=True, grid=grid, contact=pile_contact_entry(contact), pile=pile_entry(pile)
     )
-    return STUDY.document(parameters, [(None, result)], records=records, citations=("Furukawa2009",))
+    return STUDY.document(parameters, [(None, result)], records=records, citations=papers("pile"))

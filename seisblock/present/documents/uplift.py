@@ -12,6 +12,7 @@ from seisblock.bodies.spring_block import SpringBlock
 from seisblock.present.documents.bodies import SpringBlockEntry, spring_block_entry
 from seisblock.present.documents.entry import COMPONENT, entry_type, outcome_of
 from seisblock.present.documents.kind import Document, Kind, Result
+from seisblock.references import papers
 from seisblock.results import Response
 from seisblock.solvers.uplift.minima import UpliftMinimum
 from seisblock.solvers.uplift.solve import UpliftOutcome
@@ -146,7 +147,7 @@ def harmonic_document(regions: Sequence[UpliftRegion]) -> Document:
         corner=regions[0].corner,
         block=spring_block_entry(regions[0].body) if len(regions) == 1 else None,
     )
-    return HARMONIC.document(parameters, ((None, _harmonic_result(region)) for region in regions), citations=("Okumura1987",))
+    return HARMONIC.document(parameters, ((None, _harmonic_result(region)) for region in regions), citations=papers("uplift"))
 
 
 def _harmonic_result(region: UpliftRegion) -> HarmonicResult:

@@ -16,6 +16,7 @@ from seisblock.dynamics.status import STOPPED
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
 from seisblock.records.given import check_call
+from seisblock.references import papers
 from seisblock.results import Response
 from seisblock.solvers.jump import modes as flying
 from seisblock.solvers.jump import rocking
@@ -180,7 +181,7 @@ def solve_jump(
         block.rocking_threshold(gravity),
         ratio,
     )
-    citations = ("Sugimoto2017",) if landing == "paper" else ("Sugimoto2017", "WangMason1992", "Moreau1988")
+    citations = papers("jump", *(() if landing == "paper" else ("landing with friction",)))
     bare = Response(
         "jump", outcome, motion, block, np.empty(0), options=options, warnings=warnings_of(motion, chains, contact.mu), citations=citations
     )

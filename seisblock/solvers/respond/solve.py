@@ -8,6 +8,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_call
+from seisblock.references import papers
 from seisblock.results import Channel, Response
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.curves import curves
@@ -17,8 +18,6 @@ from seisblock.solvers.respond.setting import Body, Initial, Setting, gains, sta
 from seisblock.solvers.respond.tale import event_log, warnings
 from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
-
-CITATIONS = ("ShentonJones1991", "Shenton1996", "Housner1963", "WangMason1992", "Moreau1988", "GenotBrogliato1999")
 
 NUDGE = 1e-6
 """Change of the input, as a share, that must not change a verdict."""
@@ -114,6 +113,7 @@ def solve_respond(
         tenon=tenon, further_points=further_points,
     )  # fmt: skip
     check_settling(settle_s)
+    citations = papers("all modes", *(("two-layer body",) if isinstance(block, TwoLayerBlock) else ()))
     factors = gains(motion, vertical)
     found = run(setting, motion, factors, initial, settle_s)
     sensitive = is_sensitive(found, setting, motion, factors, initial, settle_s) if sensitivity else None
@@ -126,7 +126,7 @@ def solve_respond(
     time, channels = _channels(found, setting, motion, factors)
     return Response(
         "respond", outcome, motion, block, motion.start_s + time, channels, phases(outcome.events, outcome.end_s),
-        event_log(found, motion.start_s), options, status(found), warnings(found, setting, outcome.end_s, settle_s), CITATIONS,
+        event_log(found, motion.start_s), options, status(found), warnings(found, setting, outcome.end_s, settle_s), citations,
     )  # fmt: skip
 
 

@@ -9,14 +9,13 @@ from seisblock.dynamics import Trajectory, follow
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.records.given import Factor
+from seisblock.references import papers
 from seisblock.results import Channel, Event, Response, Status
 from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate, fate, sides
 from seisblock.solvers.rock.outcome import RockOutcome, event_name, gather, phases, warnings
 from seisblock.solvers.rock.rocker import Rocker, rocker
 from seisblock.units import STANDARD_GRAVITY
-
-CITATIONS = ("Housner1963", "Zhang2001", "Ishiyama1982")
 
 
 def solve_rock(
@@ -99,7 +98,7 @@ def solve_rock(
         {"restitution": restitution, "linear": linear, "vertical": one.vertical, "gravity_m_s2": gravity},
         Status(trajectory.status),
         warnings(one, outcome),
-        CITATIONS,
+        papers("rocking"),
     )
 
 

@@ -14,6 +14,7 @@ from seisblock.dynamics import Change, Trajectory, follow
 from seisblock.errors import ParameterError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import UP, Motion
+from seisblock.references import papers
 from seisblock.results import Channel, Event, Phase, Response, Status
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
@@ -151,7 +152,7 @@ def solve_slide(
         options,
         Status(trajectory.status),
         tuple(_warnings(outcome, motion)),
-        ("Fujino1978", "Newmark1965") if base.one_way else ("Fujino1978",),
+        papers("sliding", *(("one-way sliding",) if base.one_way else ())),
     )
 
 

@@ -15,6 +15,7 @@ from seisblock.dynamics.halt import heed
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import ACROSS, UP, Motion
+from seisblock.references import papers
 from seisblock.results import Event, Phase, Response, Status
 from seisblock.solvers.stack.arguments import KEPT_ROWS, PLACE, SAMPLE, STEPS_LEFT, PileCursor, PileKept, PileMemory, PileSettings
 from seisblock.solvers.stack.arrays import PileArrays, pile_arrays
@@ -143,7 +144,7 @@ def solve_stack(
             "contact": asdict(contact),
         },
         status=status,
-        citations=("Furukawa2009",),
+        citations=papers("pile"),
     )
 
 

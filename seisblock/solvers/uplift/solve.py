@@ -11,6 +11,7 @@ from seisblock.bodies.spring_block import SpringBlock
 from seisblock.dynamics.model import Trajectory, follow
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import Motion
+from seisblock.references import papers
 from seisblock.results import Channel, Event, Phase, Response, Status
 from seisblock.solvers.uplift.model import GLUED, UPLIFT, UPLIFT_AGAIN, WHOLE_BASE, F, U, X, Y, at_rest, contact_name, parameters, rotations
 from seisblock.solvers.uplift.modes import natural_modes
@@ -189,7 +190,7 @@ def solve_uplift(
         options={"vertical": gains[2], "gravity_m_s2": gravity},
         status=Status(trajectory.status),
         warnings=_warnings(motion, lean, _highest(trajectory), _highest(again)),
-        citations=("Okumura1987",),
+        citations=papers("uplift"),
     )
 
 

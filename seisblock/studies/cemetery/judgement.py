@@ -13,6 +13,7 @@ from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import WORN, Inset
 from seisblock.criteria.gravestones import DOWELLED, DOWELLED_REMARK, PLAIN, GravestoneFit, outside_fit
 from seisblock.measures import FilterRange
+from seisblock.references import papers
 from seisblock.studies.agreement import RateOpinion, rates_by_model
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
 from seisblock.studies.cemetery.rate import CONFIDENCE, CURVE_PGA, FREQUENCIES, CurvePoint, rate_curve, rate_of, remarks, threshold_ratio
@@ -62,7 +63,7 @@ class Method:
     @property
     def citations(self) -> tuple[str, ...]:
         """Keys of the papers relied on."""
-        return ("Furukawa2009",) if self.criterion == "furukawa" else ("Furukawa2009", "Housner1963")
+        return papers("gravestones as fitted" if self.criterion == "furukawa" else "gravestones as blocks")
 
 
 @dataclass(frozen=True)
