@@ -60,7 +60,7 @@ class Channel:
         Identifier (``rotation``), also the column's name in files together with the unit.
     unit : str
         SI unit, ``1`` when it has none.
-    values : (n,) array
+    values : (n,) array, in `unit`
         One value per entry of the response's time axis.
     symbol : str
         The paper's letter, for axis labels.

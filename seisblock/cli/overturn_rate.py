@@ -104,7 +104,7 @@ def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
     default=0.95,
     show_default=True,
     callback=checked(partial(checks.within, interval="(0, 1)")),
-    help="Level of the interval of a rate.",
+    help="Level of the interval of a rate, 0 to 1.",
 )
 @gravity_option
 @output_options

@@ -33,7 +33,7 @@ KINDS = ("rocking", "overturning", "sliding")
     show_default=True,
     help="Largest lean over alpha; overturning alone; or the largest slip against friction.",
 )
-@option("--mu", type=FLOATS, section="Body", metavar="LIST|RANGE", help="Friction, for --kind sliding. [default: 0.02 to 0.8]")
+@option("--mu", type=FLOATS, section="Body", metavar="LIST|RANGE", help="Friction, 1, for --kind sliding. [default: 0.02 to 0.8]")
 @option("--sizes", type=LENGTHS, section="Body", metavar="LIST|RANGE", help="Diagonals 2R, m or with units. [default: 0.2 to 8, geometric]")
 @option("--frequency-parameter", type=FLOATS, section="Body", metavar="LIST|RANGE", help="p = sqrt(3g/4R), rad/s, instead of --sizes.")
 @option("--height-over-width", type=FLOATS, section="Body", metavar="LIST|RANGE", help="H/B of the blocks, 1. [default: 1.5 to 10]")

@@ -47,15 +47,15 @@ def _ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
     section="Body",
     help="omega_V / 2 pi on the springs, Hz; instead of --stiffness. [default: 1 with --harmonic, else required]",
 )
-@option("--beta", type=FLOATS, section="Body", help="Horizontal over vertical frequency. [default: 0.707, the paper's]")
+@option("--beta", type=FLOATS, section="Body", help="Horizontal over vertical frequency, 1. [default: 0.707, the paper's]")
 @option(
     "--damping",
     type=FLOATS,
     section="Body",
     help="Damping ratio: zeta of each corner dashpot, with --harmonic h of each mode. [default: 0.05]",
 )
-@option("--alpha", type=FLOATS, section="Body", help="With --harmonic: height over depth H/b, instead of sizes. [default: 1]")
-@option("--gamma", type=FLOATS, section="Body", help="With --harmonic: width over depth a/b. [default: 1]")
+@option("--alpha", type=FLOATS, section="Body", help="With --harmonic: height over depth H/b, 1, instead of sizes. [default: 1]")
+@option("--gamma", type=FLOATS, section="Body", help="With --harmonic: width over depth a/b, 1. [default: 1]")
 @option("--harmonic", is_flag=True, help="Steady state under harmonic shaking: no record; lists of parameters are combined.")
 @option("--phi", type=FLOATS, help="With --harmonic: azimuth of the shaking from x to y, degrees. [default: 0]")
 @option("--rho", type=FLOATS, help="With --harmonic: angle of the shaking from the vertical, degrees. [default: 90]")

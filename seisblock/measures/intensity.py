@@ -126,7 +126,7 @@ def jma_class(intensity: float) -> str:
 
     Parameters
     ----------
-    intensity : float
+    intensity : float, 1
         Instrumental intensity.
 
     Returns

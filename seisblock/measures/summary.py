@@ -54,7 +54,7 @@ class ComponentMeasures:
         Above the threshold.
     arias_m_s, significant_duration_s : float, m/s and s
         Arias intensity, and the time between 5 and 95 % of it.
-    jma_intensity : float or None
+    jma_intensity : float or None, 1
         Of the whole record, repeated here so that nobody misses it.
     usual_highpass : FilterRange or None
         How far PGV and PGA/(2 pi PGV) move with the usual filters; None when by no more than 5 %.
@@ -113,7 +113,7 @@ class RecordMeasures:
     ----------
     components : tuple of ComponentMeasures
         In the order asked.
-    jma_intensity, jma_class : float and str, or None
+    jma_intensity, jma_class : float and str, or None, 1
         Instrumental intensity (not rounded) and its class.
     horizontal : HorizontalPeak or None
         The longest horizontal vector and its azimuth.

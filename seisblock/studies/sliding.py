@@ -35,13 +35,13 @@ class SlidePoint:
     Parameters
     ----------
     component : str
-    mu, mu_kinetic, kappa, slope_deg, vertical : float
+    mu, mu_kinetic, kappa, slope_deg, vertical : float, 1
     holds_at_rest : bool
         Whether static friction holds without shaking; if not nothing was computed, and what follows is None.
     slips : bool
     slip_start_s, max_slip_m, max_slip_time_s, residual_slip_m, final_slip_m, slip_count, fell_off_slope, lifted_off, slides_at_end
         As in :class:`seisblock.solvers.slide.solve.SlideOutcome`.
-    beta : float or None
+    beta : float or None, 1
         Largest slip over that of the horizontal motion alone; None without vertical motion, or when nothing slips without it.
     """
 
@@ -83,7 +83,7 @@ def slide_study(
 
     Parameters
     ----------
-    mu, mu_kinetic, kappa, slope_deg, vertical : float or sequence
+    mu, mu_kinetic, kappa, slope_deg, vertical : float or sequence, 1
         As of :func:`seisblock.bodies.sliding_base.sliding_base`, and the factor on the vertical ground motion; every combination is
         computed. A combination in which static friction does not hold at rest, or kinetic exceeds static friction, is listed with
         nothing computed.

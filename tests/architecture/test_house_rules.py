@@ -1,4 +1,4 @@
-"""The rules of the house that a machine can check: citations, docstrings, help, imports, the size of files."""
+"""The rules of the house that a machine can check: citations, docstrings, imports, the size of files."""
 
 import ast
 import inspect
@@ -8,11 +8,9 @@ import sys
 import warnings
 from pathlib import Path
 
-import click
 import pytest
 
 import seisblock
-from seisblock.cli import COMMANDS, main
 from seisblock.references import REFERENCES
 
 PACKAGE = Path(seisblock.__file__).parent
@@ -166,39 +164,6 @@ def test_the_public_api_says_what_goes_in_and_what_comes_out(name):
         assert missing == []
     says = "Returns\n-------" in text or re.search(r"\b[Rr]eturns?\b|\bYield", text) or function.__annotations__.get("return") is not None
     assert says, f"{name} does not say what it returns"
-
-
-def every_option():
-    """Return (command, option) for every option of every command."""
-    context = click.Context(main)
-    pairs = []
-    for name in COMMANDS:
-        command = main.get_command(context, name)
-        pairs += [(name, option) for option in command.params if isinstance(option, click.Option)]
-    return pairs
-
-
-UNITS = re.compile(
-    r"\bm\b|\bs\b|\bHz\b|\bgal\b|\bkg\b|\bN/m\b|m/s|\bPa\b|\bdeg(rees)?\b|\brad\b|, 1[;.,) ]|\b1\b|%|share|ratio|factor|times|number"
-    r"|how many|count|seed|repeat|points?|steps?|runs|threads|order",
-    re.IGNORECASE,
-)
-
-
-def test_every_option_is_described():
-    """Each has a help text that ends like a sentence."""
-    assert [f"{name} {option.opts[0]}" for name, option in every_option() if not option.help] == []
-
-
-def test_numbers_have_a_unit_or_a_default():
-    """The help of each option that takes numbers names the unit, or says what is taken when it is left out."""
-    silent = []
-    for name, option in every_option():
-        if option.is_flag or isinstance(option.type, (click.Choice, click.Path)) or option.type.name == "text":
-            continue
-        if not (option.show_default or "[default" in option.help or "[required]" in option.help or UNITS.search(option.help)):
-            silent.append(f"{name} {option.opts[0]}: {option.help}")
-    assert silent == []
 
 
 @pytest.mark.parametrize("module", LIGHT)

@@ -23,7 +23,7 @@ class Pile:
         Names of stones held together as one body ([Furukawa2009]_ section 3(6)).
     fixed : tuple of str
         Stones that move with the ground.
-    mu : float
+    mu : float, 1
         Friction of the joints that have none of their own; 0.438 is that of [Furukawa2009]_ table 2.
 
     Raises

@@ -30,7 +30,7 @@ class PileStone:
     on : str
         The stone it stands on, or ``ground``.
     density : float, kg/m^3
-    mu : float or None
+    mu : float or None, 1
         Friction of the joint under it; None: that of the pile.
     bottom : float or None, m
         Height of its lower face above the ground; None: the upper face of the stone it stands on.

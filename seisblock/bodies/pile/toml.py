@@ -29,7 +29,7 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
         On top: ``name``, ``mu``, ``density``, ``fixed`` (list of names), ``reinforced`` (list of lists of names that dowels hold).
     reinforced : bool
         Whether the dowels of the file are in place.
-    mu : float or None
+    mu : float or None, 1
         Friction of every joint; None: what the file says.
 
     Raises

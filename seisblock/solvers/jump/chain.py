@@ -63,7 +63,7 @@ class Chain:
         Leading: on the side towards which the block jumps.
     slid : bool
         Whether the landed foot slipped ([Sugimoto2017]_ eq. (14)).
-    friction_needed_at_landing : float
+    friction_needed_at_landing : float, 1
         Largest P_x/P_y of its landings; infinite where the ground would have to pull.
     landing_energy_j : two floats, J
         Kinetic energy before and after the landing that keeps the largest share of it.

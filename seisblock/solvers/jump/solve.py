@@ -50,7 +50,7 @@ class JumpOutcome:
         Where the centroid is in the end, relative to where it stood; that of the total unless it toppled.
     landing : "paper" or "friction"
         The rule by which a corner that lands is stopped.
-    friction_needed_at_landing : float or None
+    friction_needed_at_landing : float or None, 1
         Largest P_x/P_y that its landings need, infinite where the ground would have to pull; None when it never landed.
     rocking_threshold_m_s2 : float
         [Sugimoto2017]_ eq. (2).

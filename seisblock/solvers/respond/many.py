@@ -66,7 +66,7 @@ def respond_many(
     motion : Motion
     gains : (3,) or (m, 3) array
         Factors on the motion's rows along, across and up: (s cos, s sin, s_v) turns it by an angle and scales it.
-    initial : six floats or None
+    initial : six floats or None, m, rad, m/s, rad/s
         As in :func:`seisblock.solvers.respond.solve.solve_respond`, the same for all.
     settle_s : float, s
     workers : int or None

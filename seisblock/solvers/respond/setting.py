@@ -113,9 +113,9 @@ class Setting:
     Parameters
     ----------
     stand : Stand
-    mu, mu_kinetic : float
+    mu, mu_kinetic : float, 1
         Static and kinetic friction; kinetic inside impacts.
-    restitution : float
+    restitution : float, 1
         Poisson's, of one corner's impact.
     rocking_restitution : float or None
         Ratio of angular velocities in a rocking impact, in place of the impact law.

@@ -44,7 +44,7 @@ class RockOutcome:
         ``+x``, ``-x``, or empty.
     decided_after_record : bool
         Whether the record ended while the block was rocking, so that energy decided.
-    slenderness_rad, frequency_parameter_rad_s, restitution : float
+    slenderness_rad, frequency_parameter_rad_s, restitution : float, 1
         alpha, p and e of the side to which the block falls more easily.
     threshold_m_s2 : float
         Horizontal ground acceleration above which rocking starts without vertical motion.

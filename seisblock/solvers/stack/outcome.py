@@ -76,7 +76,7 @@ class StackOutcome:
     stones : tuple of StoneFate
     ground_work_j, lost_j, created_j : float
         Work of the shaking; what friction and dashpots took; what the stepping created, which should be zero.
-    momentum_error : float
+    momentum_error : float, 1
         Momentum less impulse, over weight times duration.
     step_s : float
     """

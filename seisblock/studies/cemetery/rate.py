@@ -37,13 +37,13 @@ class Rate:
 
     Parameters
     ----------
-    rate : float
+    rate : float, 1
         Fallen over all.
-    rate_interval : two floats
+    rate_interval : two floats, 1
         Clopper-Pearson interval for a cemetery of which these stones are a random sample; it holds what so few stones leave open,
         not what the criterion does.
     fallen, stones : int
-    confidence : float
+    confidence : float, 1
         Level of the interval.
     """
 
@@ -78,7 +78,7 @@ def overturning_rate(
         Frequency of a sine, or equivalent frequency of a record.
     limits : callable
         The criterion, see :mod:`seisblock.studies.cemetery.limits`.
-    confidence : float
+    confidence : float, 1
         Level of the interval, between 0 and 1.
 
     Returns
@@ -137,7 +137,7 @@ def rate_of(falls: BoolArray, confidence: float = CONFIDENCE) -> Rate:
     ----------
     falls : (n,) array of bool
         At least one stone.
-    confidence : float
+    confidence : float, 1
         Level of the interval, between 0 and 1.
     """
     fallen, stones = int(np.count_nonzero(falls)), int(falls.size)
@@ -151,7 +151,7 @@ def clopper_pearson(fallen: int, stones: int, confidence: float = CONFIDENCE) ->
     ----------
     fallen, stones : int
         0 <= fallen <= stones, at least one stone.
-    confidence : float
+    confidence : float, 1
         Level, between 0 and 1.
 
     Raises

@@ -44,7 +44,7 @@ class ShakingEstimate:
         The same for PGV = PGA/(2 pi f).
     threshold_ratio, threshold_ratio_interval
         The H/B above which such stones fell; for all stones, that of those without a dowel.
-    jma_intensity, jma_intensity_interval : float or None, two of them
+    jma_intensity, jma_intensity_interval : float or None, two of them, 1
         From PGV, the scatter of that relation included.
     jma_classes : two str or None
         Classes of that interval's ends.

@@ -64,7 +64,7 @@ class Margin:
         The smallest factor at which it was found to fall.
     falls_above_first : float or None
         Share of the factors looked at from there to the limit at which it falls.
-    step, limit : float
+    step, limit : float, 1
         Of the scan.
     """
 

@@ -68,7 +68,7 @@ class Perturbation:
     runs, overturned : int
     probability : float
         Their ratio.
-    probability_interval : (float, float)
+    probability_interval : (float, float), 1
         Wilson's interval at 95 %: what so few runs leave open of this model's own scatter, and no more.
     spread : Spread
     seed : int

@@ -45,7 +45,7 @@ class Versions:
     inset : float
         Largest inset per side, a share of the width: versions are worn from sharp edges to this. Where the body is worn by more than
         half of it, from its own less to its own plus half of it.
-    restitution : float
+    restitution : float, 1
         How much more than the given one it may be.
     azimuth_deg : float
         Half width, degrees; without effect where the record's second horizontal is unknown.
@@ -80,7 +80,7 @@ class Probability:
     runs : int
     overturned, moved : float
         Shares that fall, and that end more than `moved_m` from where they stood, or fall.
-    interval : (float, float)
+    interval : (float, float), 1
         Clopper-Pearson's, 95 %, of the former: what so many runs leave open, not what is not known of the object.
     moved_m : float, m
     final_displacement_m : dict
