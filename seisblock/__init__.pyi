@@ -53,7 +53,8 @@ from .solvers.stack.solve import solve_stack
 from .solvers.uplift.harmonic import uplift_thresholds
 from .solvers.uplift.minima import UpliftMinimum, uplift_minima
 from .solvers.uplift.modes import natural_modes
-from .solvers.uplift.solve import UpliftOutcome, solve_uplift
+from .solvers.uplift.outcome import UpliftOutcome
+from .solvers.uplift.solve import solve_uplift
 from .studies.cemetery.rate import Rate, overturning_rate, rate_curve
 from .studies.gravestone_criterion import CriterionStudy, criterion_study
 from .studies.inverse.assumptions import Assumptions

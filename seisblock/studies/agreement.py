@@ -16,6 +16,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import SHARP, WORN
 from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.top import rigid_top
 from seisblock.criteria.gravestones import DOWELLED, FITTED_RATIO, PLAIN, GravestoneFit, overturning_pga
 from seisblock.criteria.overturning import ishiyama_acceleration, ishiyama_velocity
 from seisblock.criteria.pulses import half_sine_acceleration
@@ -28,7 +29,6 @@ from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
 from seisblock.studies.cemetery.simulated import simulated_overturns
-from seisblock.studies.gravestone_criterion import rigid_top
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted
 

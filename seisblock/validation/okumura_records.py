@@ -11,7 +11,8 @@ from seisblock.records.motion import Motion
 from seisblock.results import Response
 from seisblock.solvers.uplift.harmonic import shaking_direction, uplift_thresholds
 from seisblock.solvers.uplift.modes import natural_modes
-from seisblock.solvers.uplift.solve import UpliftOutcome, solve_uplift
+from seisblock.solvers.uplift.outcome import UpliftOutcome
+from seisblock.solvers.uplift.solve import solve_uplift
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.validation.okumura_modes import COUNT, dimensionless
 

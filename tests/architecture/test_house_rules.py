@@ -5,7 +5,6 @@ import inspect
 import re
 import subprocess
 import sys
-import warnings
 from pathlib import Path
 
 import pytest
@@ -214,12 +213,9 @@ def test_public_names_are_where_the_package_says():
 
 
 def test_files_answer_one_question():
-    """Files beyond about 300 lines are named in a warning; twice as long is too long."""
+    """No file is longer than one person reads in one go."""
     lengths = {path.relative_to(PACKAGE).as_posix(): len(path.read_text(encoding="utf-8").splitlines()) for path in sources()}
-    long = {name: count for name, count in lengths.items() if count > LONGEST}
-    if long:
-        warnings.warn(f"files of more than {LONGEST} lines: {long}", stacklevel=1)
-    assert max(lengths.values()) < 2 * LONGEST
+    assert {name: count for name, count in lengths.items() if count > LONGEST} == {}
 
 
 def test_one_name_means_one_thing():

@@ -8,6 +8,7 @@ import pytest
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
+from seisblock.bodies.pile.top import rigid_top
 from seisblock.criteria.gravestones import PLAIN, overturning_level
 from seisblock.errors import ParameterError, RecordFormatError
 from seisblock.records import Motion
@@ -21,7 +22,6 @@ from seisblock.studies.gravestone_criterion import (
     fitted_levels,
     record_thresholds,
     rigid_levels,
-    rigid_top,
     sine_base,
     with_top,
 )

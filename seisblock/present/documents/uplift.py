@@ -15,7 +15,7 @@ from seisblock.present.documents.kind import Document, Kind, Result
 from seisblock.references import papers
 from seisblock.results import Response
 from seisblock.solvers.uplift.minima import UpliftMinimum
-from seisblock.solvers.uplift.solve import UpliftOutcome
+from seisblock.solvers.uplift.outcome import UpliftOutcome
 from seisblock.studies.uplift_regions import UpliftRegion
 
 RATIOS = {"alpha": "alpha", "gamma": "gamma", "beta": "beta", "damping": "damping", "phi": "phi_deg", "rho": "rho_deg"}

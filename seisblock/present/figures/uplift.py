@@ -16,7 +16,7 @@ from seisblock.results import Phase, Response
 from seisblock.words import tell
 
 if TYPE_CHECKING:
-    from seisblock.solvers.uplift.solve import UpliftOutcome
+    from seisblock.solvers.uplift.outcome import UpliftOutcome
 
 COLOURS = (canvas.ACCENT, canvas.SECOND, "#2e7d4f", "#8a6d1f", "#6b4c8a", "0.25")
 LIFTED = canvas.BANDS[0]

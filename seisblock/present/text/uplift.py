@@ -7,7 +7,7 @@ from typing import Any
 
 from seisblock.present.text.tables import line, record_line, seconds, table
 from seisblock.results import Response
-from seisblock.solvers.uplift.solve import SMALL, UpliftOutcome
+from seisblock.solvers.uplift.outcome import SMALL, UpliftOutcome
 from seisblock.words import noted, tell
 
 Uplifts = Sequence[Response[UpliftOutcome]]

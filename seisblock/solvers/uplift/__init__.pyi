@@ -1,7 +1,8 @@
 from .harmonic import uplift_thresholds
 from .minima import UpliftMinimum, uplift_minima
 from .modes import Modes, natural_modes
-from .solve import CornerOutcome, UpliftOutcome, solve_uplift
+from .outcome import CornerOutcome, UpliftOutcome
+from .solve import solve_uplift
 
 __all__ = [
     "CornerOutcome",

@@ -2,117 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.spring_block import SpringBlock
-from seisblock.dynamics.model import Trajectory, follow
+from seisblock.dynamics.model import follow
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
-from seisblock.results import Channel, Event, Phase, Response, Status
-from seisblock.solvers.uplift.model import GLUED, UPLIFT, UPLIFT_AGAIN, WHOLE_BASE, F, U, X, Y, at_rest, contact_name, parameters, rotations
-from seisblock.solvers.uplift.modes import natural_modes
-from seisblock.typing import BoolArray, FloatArray
+from seisblock.results import Channel, Event, Response, Status
+from seisblock.solvers.uplift.model import GLUED, UPLIFT, UPLIFT_AGAIN, WHOLE_BASE, F, U, X, Y, at_rest, parameters, rotations
+from seisblock.solvers.uplift.outcome import UpliftOutcome, gather, highest, phases, warnings
 from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import said
-
-SMALL = 0.1
-"""Largest slenderness times rotation for which leaving the weight's lever out (P-delta) is defensible."""
-
-REPEATABLE = 1e-3
-"""Largest share by which two integrations may differ in the largest uplift before that is said."""
 
 ROUND_OFF = 1e-12
 """A corner that rises by less than this share of the static settlement has not moved."""
-
-
-@dataclass(frozen=True)
-class CornerOutcome:
-    """What one corner did.
-
-    Parameters
-    ----------
-    corner : int
-        1 (+x, +y), 2 (+x, -y), 3 (-x, +y), 4 (-x, -y).
-    uplifts : bool
-    first_uplift_s : float or None
-    uplift_duration_s, longest_uplift_s : float
-        Total time in the air, and longest stretch of it.
-    max_uplift_m, max_uplift_time_s : float
-        Highest position above the spring's natural length (negative: never lifted, and by this much), and when.
-    max_contact_force_n, max_contact_force_time_s : float
-        Largest force of its vertical spring and dashpot, and when.
-    """
-
-    corner: int
-    uplifts: bool
-    first_uplift_s: float | None
-    uplift_duration_s: float
-    longest_uplift_s: float
-    max_uplift_m: float
-    max_uplift_time_s: float
-    max_contact_force_n: float
-    max_contact_force_time_s: float
-
-
-@dataclass(frozen=True)
-class UpliftOutcome:
-    """What a block on corner springs did under a record.
-
-    Parameters
-    ----------
-    natural_frequencies_hz : tuple of 6 floats
-        With all corners in contact, ascending.
-    uplifts : bool
-    first_uplift_s : float or None
-        When a corner first leaves its spring, s from the record's first sample.
-    max_uplift_m : float
-        Largest height of a corner above its spring, 0 without uplift.
-    corner : int or None
-        The corner that lifts first, 1 to 4 as in :class:`CornerOutcome`; of several that lift together, the lowest number.
-    first_corners : tuple of int
-        All that lift first, at one instant.
-    uplift_duration_s : float
-        Time during which at least one corner is in the air.
-    max_contact_force_n, max_contact_force_ratio : float
-        Largest force at a corner, and over the static m g / 4.
-    contact_changes : int
-        How many times a corner lifted or landed.
-    share_on_corners : dict
-        Share of the time on 4, 3, 2, 1 and 0 corners.
-    uplift_scale : float or None
-        Factor on the record at which a corner just lifts: below it the response is linear.
-    max_rotation_rad : float
-        Largest rotation about x or y, at samples and contact changes.
-    lean_ratio : float
-        The same over the slenderness of that side.
-    within_model : bool
-        Whether that stays below 0.1, so that leaving out the weight's lever is defensible; where it does not, sizes and times of the
-        motion are no answers, only the first uplift is.
-    static_settlement_m : float
-    corners : tuple of CornerOutcome
-    """
-
-    natural_frequencies_hz: tuple[float, ...]
-    uplifts: bool
-    first_uplift_s: float | None
-    max_uplift_m: float
-    corner: int | None
-    first_corners: tuple[int, ...]
-    uplift_duration_s: float
-    max_contact_force_n: float
-    max_contact_force_ratio: float
-    contact_changes: int
-    share_on_corners: dict[str, float]
-    uplift_scale: float | None
-    max_rotation_rad: float
-    lean_ratio: float
-    within_model: bool
-    static_settlement_m: float
-    corners: tuple[CornerOutcome, ...]
 
 
 def solve_uplift(
@@ -163,11 +67,11 @@ def solve_uplift(
     theta_x, theta_y = rotations(states, body)
     lean = float(max(body.height / body.depth * np.abs(theta_x).max(), body.height / body.width * np.abs(theta_y).max()))
     settlement = body.static_settlement(gravity)
-    risen = _highest(linear) + settlement
+    risen = highest(linear) + settlement
     rotation = float(max(np.abs(theta_x).max(), np.abs(theta_y).max()))
     return Response(
         model="uplift",
-        outcome=_outcome(body, motion, trajectory, gravity, settlement / risen if risen > ROUND_OFF * settlement else None, rotation, lean),
+        outcome=gather(body, motion, trajectory, gravity, settlement / risen if risen > ROUND_OFF * settlement else None, rotation, lean),
         motion=motion,
         body=body,
         time=motion.start_s + time,
@@ -180,7 +84,7 @@ def solve_uplift(
             Channel("rotation", "rad", theta_y, "theta_y"),
             Channel("rotation_across", "rad", -theta_x, "-theta_x"),
         ),
-        phases=_phases(motion, trajectory),
+        phases=phases(motion, trajectory),
         events=tuple(
             Event(f"corner {i + 1} {'lands' if c.target >> i & 1 else 'lifts'}", motion.start_s + c.time, c.before, c.after)
             for c in trajectory.changes
@@ -189,114 +93,6 @@ def solve_uplift(
         ),
         options={"vertical": gains[2], "gravity_m_s2": gravity},
         status=Status(trajectory.status),
-        warnings=_warnings(motion, lean, _highest(trajectory), _highest(again)),
+        warnings=warnings(motion, lean, highest(trajectory), highest(again)),
         citations=papers("uplift"),
     )
-
-
-def _highest(trajectory: Trajectory) -> float:
-    """Return the highest position of any corner, m."""
-    return float(trajectory.extrema[U : U + 4, 0].max())
-
-
-def _contacts(trajectory: Trajectory) -> tuple[FloatArray, BoolArray]:
-    """Return the lengths of the contact states, (m,), s, and which corners are in the air in each, (m, 4)."""
-    edges = np.array([0.0, *(change.time for change in trajectory.changes), trajectory.end_time])
-    modes = np.array([WHOLE_BASE, *(change.target for change in trajectory.changes)])
-    return np.diff(edges), (modes[:, None] >> np.arange(4) & 1) == 0
-
-
-def _outcome(
-    body: SpringBlock, motion: Motion, trajectory: Trajectory, gravity: float, scale: float | None, rotation: float, lean: float
-) -> UpliftOutcome:
-    """Return the numbers a user asks for."""
-    lengths, in_air = _contacts(trajectory)
-    corners = tuple(_corner(i, body, motion, trajectory, lengths, in_air[:, i]) for i in range(4))
-    first = min((c for c in corners if c.first_uplift_s is not None), key=lambda c: c.first_uplift_s or 0.0, default=None)
-    force = max(c.max_contact_force_n for c in corners)
-    held = 4 - in_air.sum(axis=1)
-    return UpliftOutcome(
-        natural_frequencies_hz=natural_modes(body).frequencies_hz,
-        uplifts=first is not None,
-        first_uplift_s=None if first is None else first.first_uplift_s,
-        max_uplift_m=max(0.0, *(c.max_uplift_m for c in corners)),
-        corner=None if first is None else first.corner,
-        first_corners=() if first is None else tuple(c.corner for c in corners if c.first_uplift_s == first.first_uplift_s),
-        uplift_duration_s=float(lengths[held < 4].sum()),
-        max_contact_force_n=force,
-        max_contact_force_ratio=force / body.static_corner_force(gravity),
-        contact_changes=sum((c.source ^ c.target).bit_count() for c in trajectory.changes),
-        share_on_corners={str(n): float(lengths[held == n].sum() / lengths.sum()) for n in (4, 3, 2, 1, 0)},
-        uplift_scale=scale,
-        max_rotation_rad=rotation,
-        lean_ratio=lean,
-        within_model=lean <= SMALL,
-        static_settlement_m=body.static_settlement(gravity),
-        corners=corners,
-    )
-
-
-def _corner(i: int, body: SpringBlock, motion: Motion, trajectory: Trajectory, lengths: FloatArray, in_air: BoolArray) -> CornerOutcome:
-    """Return what one corner did."""
-    lifts = [motion.start_s + c.time for c in trajectory.changes if c.source >> i & 1 and not c.target >> i & 1]
-    # one stretch in the air may hold many changes of the other corners
-    stretch = np.cumsum(np.append(False, in_air[1:] & ~in_air[:-1]))
-    stretches = np.bincount(stretch[in_air], lengths[in_air]) if in_air.any() else np.zeros(1)
-    highest, highest_at = trajectory.extrema[U + i, :2]
-    force, force_at = trajectory.extrema[F + i, :2]
-    return CornerOutcome(
-        corner=i + 1,
-        uplifts=bool(lifts),
-        first_uplift_s=lifts[0] if lifts else None,
-        uplift_duration_s=float(lengths[in_air].sum()),
-        longest_uplift_s=float(stretches.max()),
-        max_uplift_m=float(highest),
-        max_uplift_time_s=float(motion.start_s + highest_at),
-        max_contact_force_n=float(body.mass * force),
-        max_contact_force_time_s=float(motion.start_s + force_at),
-    )
-
-
-def _phases(motion: Motion, trajectory: Trajectory) -> tuple[Phase, ...]:
-    """Return the contact states in the order of time."""
-    edges = [0.0, *(change.time for change in trajectory.changes), trajectory.end_time]
-    modes = [WHOLE_BASE, *(change.target for change in trajectory.changes)]
-    return tuple(
-        Phase(contact_name(mode), motion.start_s + start, motion.start_s + end)
-        for mode, start, end in zip(modes, edges[:-1], edges[1:], strict=True)
-    )
-
-
-def _warnings(motion: Motion, lean: float, highest: float, again: float) -> tuple[str, ...]:
-    """Return what the user should know before believing the numbers."""
-    found = []
-    if motion.record is not None and motion.record.vertical is None:
-        found.append(said("the record has no vertical component: solved with zero vertical motion"))
-    if motion.record is not None and len(motion.record.horizontals) < 2:
-        found.append(said("the record has one horizontal component: solved with zero motion across it"))
-    if lean > 1.0:
-        found.append(
-            said(
-                "the block leans beyond its slenderness, where it would fall and this model, which has no P-delta and never overturns, "
-                "does not hold: use 'seisblock rock'"
-            )
-        )
-    elif lean > SMALL:
-        found.append(
-            said(
-                "the block leans to {lean:.2f} of its slenderness, beyond {small}, where this model, which has no P-delta and never "
-                "overturns, no longer holds: use 'seisblock rock'",
-                lean=lean,
-                small=SMALL,
-            )
-        )
-    if abs(highest - again) > REPEATABLE * max(abs(highest), abs(again)):
-        found.append(
-            said(
-                "the largest uplift is {one:.4g} or {other:.4g} mm by round-off alone: after so many contact changes the motion no longer "
-                "follows from the record; trust its beginning, and the order of magnitude",
-                one=highest * 1e3,
-                other=again * 1e3,
-            )
-        )
-    return tuple(found)
