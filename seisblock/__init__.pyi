@@ -66,6 +66,7 @@ from .studies.rocking.perturb import Perturbation, Spread, perturb
 from .studies.rocking.spectra import RockingSpectrum, rocking_spectrum
 from .studies.sliding import SlidePoint, slide_study
 from .studies.standing.azimuths import AzimuthFate, respond_directions
+from .studies.standing.mode_map import ModeMap, mode_map
 from .studies.standing.probability import Probability, Versions, respond_probability
 
 __version__: str
@@ -115,6 +116,8 @@ __all__ = [
     "measure",
     "measures",
     "Motion",
+    "mode_map",
+    "ModeMap",
     "motion_of",
     "natural_modes",
     "OutputError",

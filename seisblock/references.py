@@ -263,7 +263,7 @@ CITED: dict[str, tuple[str, ...]] = {
     "uplift": papers("uplift"),
     "respond": papers("all modes", "two-layer body"),
     "criteria": papers("overturning criteria"),
-    "spectrum": papers("rocking", "sliding"),
+    "spectrum": papers("rocking", "sliding", "all modes"),
     "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),
     "infer": papers("gravestones as fitted", "gravestones as blocks", "intensity of a velocity", "sliding", "jump"),
     "stack": papers("pile"),

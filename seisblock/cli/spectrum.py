@@ -1,10 +1,13 @@
-"""``seisblock spectrum``: one record, and blocks of all sizes and slendernesses."""
+"""``seisblock spectrum``: one record, and blocks of all sizes, slendernesses and frictions."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.cli.bodies.options import rocking_options
@@ -14,7 +17,10 @@ from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.types import FLOATS, INSET, LENGTHS
 from seisblock.errors import ParameterError
 
-KINDS = ("rocking", "overturning", "sliding")
+KINDS = ("rocking", "overturning", "sliding", "modes")
+
+SMALLEST_REACH, LARGEST_REACH = 0.2, 1.5
+"""Friction and b/h to which a map reaches that is not told how far, at least and at most."""
 
 
 @click.command(
@@ -23,6 +29,7 @@ KINDS = ("rocking", "overturning", "sliding")
         "seisblock spectrum --component NS --plot spectrum.png",
         "seisblock spectrum record.csv --kind overturning --sizes 0.2:4:0.1 --height-over-width 2:8:0.25 --csv falls.csv",
         "seisblock spectrum record.csv --kind sliding --mu 0.05:0.6:0.01 --plot sliding.png",
+        "seisblock spectrum record.csv --kind modes --sizes 1m --plot modes.png",
     ),
 )
 @record_options
@@ -31,12 +38,31 @@ KINDS = ("rocking", "overturning", "sliding")
     type=click.Choice(KINDS),
     default="rocking",
     show_default=True,
-    help="Largest lean over alpha; overturning alone; or the largest slip against friction.",
+    help="Largest lean over alpha; overturning alone; the largest slip against friction; or which mode governs, over friction and shape "
+    "or size.",
 )
-@option("--mu", type=FLOATS, section="Body", metavar="LIST|RANGE", help="Friction, 1, for --kind sliding. [default: 0.02 to 0.8]")
-@option("--sizes", type=LENGTHS, section="Body", metavar="LIST|RANGE", help="Diagonals 2R, m or with units. [default: 0.2 to 8, geometric]")
+@option(
+    "--mu",
+    type=FLOATS,
+    section="Body",
+    metavar="LIST|RANGE",
+    help="Friction, 1, for --kind sliding and modes. [default: 0.02 to 0.8; or what the record can move]",
+)
+@option(
+    "--sizes",
+    type=LENGTHS,
+    section="Body",
+    metavar="LIST|RANGE",
+    help="Diagonals 2R, m or with units. [default: 0.2 to 8, geometric; for modes 1]",
+)
 @option("--frequency-parameter", type=FLOATS, section="Body", metavar="LIST|RANGE", help="p = sqrt(3g/4R), rad/s, instead of --sizes.")
-@option("--height-over-width", type=FLOATS, section="Body", metavar="LIST|RANGE", help="H/B of the blocks, 1. [default: 1.5 to 10]")
+@option(
+    "--height-over-width",
+    type=FLOATS,
+    section="Body",
+    metavar="LIST|RANGE",
+    help="H/B of the blocks, 1. [default: 1.5 to 10; for modes what the record can move]",
+)
 @option(
     "--slenderness-rad", type=FLOATS, section="Body", metavar="LIST|RANGE", help="alpha = atan(B/H), rad, instead of --height-over-width."
 )
@@ -70,9 +96,13 @@ def spectrum(
 ) -> None:
     """Largest lean of rectangular blocks over their alpha, against size and slenderness, for each component.
 
-    Overturning is not monotone: look for islands in the figure. With --kind sliding, the largest slip against friction.
+    Overturning is not monotone: look for islands in the figure. With --kind sliding, the largest slip against friction. With --kind modes,
+    what a free-standing block does, as respond tells it, over its friction and its shape, or over its friction and its size for one
+    shape; the vertical component acts where there is one, and --restitution is Poisson's, 0 unless given.
     """
     source = along(source, azimuth)
+    _one_of(sizes, "--sizes", frequency_parameter, "--frequency-parameter")
+    _one_of(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
     if kind == "sliding":
         given = {
             "sizes": sizes,
@@ -86,18 +116,24 @@ def spectrum(
         _refuse(kind, given)
         _sliding(source, output, gravity, mu, vertical)
         return
+    from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum, size_of, slenderness_of
+
+    diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else None)
+    alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else None)
+    if kind == "modes":
+        _refuse(kind, {"linear": linear})
+        asked = click.get_current_context().get_parameter_source("vertical") is not ParameterSource.DEFAULT
+        _modes(source, output, gravity, (mu, diagonals, alphas, steps), restitution or 0.0, inset or SHARP, vertical if asked else None)
+        return
     _refuse(kind, {"mu": mu})
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import load, motions
     from seisblock.cli.progress import progress
     from seisblock.present.documents.spectrum import document
     from seisblock.present.text import spectrum as shown
-    from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum, size_of, slenderness_of
 
-    _one_of(sizes, "--sizes", frequency_parameter, "--frequency-parameter")
-    _one_of(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
-    diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else default_sizes(steps))
-    alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else default_slendernesses(steps))
+    diagonals = default_sizes(steps) if diagonals is None else diagonals
+    alphas = default_slendernesses(steps) if alphas is None else alphas
     options: dict[str, Any] = {"restitution": restitution, "linear": linear, "vertical": vertical, "inset": inset or SHARP}
     found = []
     for record in load(source):
@@ -108,7 +144,7 @@ def spectrum(
     emit(
         document(found, kind, options, gravity=gravity),
         output,
-        tables=lambda: shown.tables(found, kind, f"; edges worn by {inset.share:g} B + {inset.length_m:g} m per side" if inset else ""),
+        tables=lambda: shown.tables(found, kind, _worn(inset)),
         csv=lambda path: shown.write(path, found),
         figure=lambda: _draw(found, kind, gravity),
     )
@@ -145,6 +181,57 @@ def _sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ..
     )
 
 
+def _modes(
+    source: Source, output: Output, gravity: float, grid: tuple[Any, Any, Any, int], restitution: float, inset: Inset, vertical: bool | None
+) -> None:
+    """Answer ``--kind modes``; `grid` holds frictions, diagonals and slendernesses, None where not given, and the steps of an axis."""
+    from seisblock.cli.emit import emit
+    from seisblock.cli.inputs import load, motions
+    from seisblock.cli.progress import progress
+    from seisblock.present.documents.spectrum import modes_document
+    from seisblock.present.text import mode_map as shown
+    from seisblock.studies.standing.mode_map import mode_map
+
+    shaken = [motion for record in load(source) for motion in motions(record, source)]
+    for motion in shaken:
+        need_vertical(motion, bool(vertical))
+    acts = vertical is not False
+    axes = _axes(shaken, grid, gravity, vertical=acts)
+    found = []
+    for motion in shaken:
+        with progress(f"modes {motion.name}") as tell:
+            each = mode_map(*axes, motion, inset=inset, restitution=restitution, vertical=acts, gravity=gravity, progress=tell)
+            found.append((motion, each))
+    emit(
+        modes_document(found, gravity=gravity, restitution=restitution, inset=inset, vertical=acts),
+        output,
+        tables=lambda: shown.tables(found, _worn(inset)),
+        csv=lambda path: shown.write(path, found),
+        figure=lambda: _draw_modes(found),
+    )
+
+
+def _axes(shaken: Sequence[Any], grid: tuple[Any, Any, Any, int], gravity: float, *, vertical: bool) -> tuple[Any, Any, Any]:
+    """Return frictions, diagonals and slendernesses; those not given reach to what the motions can move, no two of them equal."""
+    from seisblock.criteria.initiation import loading
+
+    mu, diagonals, alphas, steps = grid
+    push = max(loading(motion, vertical=vertical, gravity=gravity)[0] for motion in shaken)
+    reach = min(max(math.ceil(12.5 * push) / 10.0, SMALLEST_REACH), LARGEST_REACH) if push < LARGEST_REACH else LARGEST_REACH
+    if mu is None:
+        mu = [round(reach * (i + 0.5) / steps, 12) for i in range(steps)]
+    if alphas is None:
+        if diagonals is not None and len(diagonals) > 1:
+            raise ParameterError("--kind modes over several sizes is of one shape: give one --height-over-width or --slenderness-rad")
+        alphas = [math.atan(round(reach * (i + 1) / steps, 12)) for i in range(steps)]
+    return mu, (1.0,) if diagonals is None else diagonals, alphas
+
+
+def _worn(inset: Inset | None) -> str:
+    """Return a remark on worn edges, empty where there are none."""
+    return f"; edges worn by {inset.share:g} B + {inset.length_m:g} m per side" if inset and inset != SHARP else ""
+
+
 def _one_of(first: Any, name: str, second: Any, other: str) -> None:
     """Refuse two ways of saying the same."""
     if first and second:
@@ -156,6 +243,13 @@ def _draw(*shown: Any) -> Any:
     from seisblock.present.figures.spectrum import figure
 
     return figure(*shown)
+
+
+def _draw_modes(found: Any) -> Any:
+    """Return the figure of maps of modes; matplotlib is loaded only for it."""
+    from seisblock.present.figures.mode_map import figure
+
+    return figure(found)
 
 
 def _draw_sliding(found: Any) -> Any:

@@ -10,6 +10,7 @@ from .gravestones import (
     overturning_pga,
     overturning_ratio,
 )
+from .initiation import first_mode, friction_to_rock, loading
 from .intensity import intensity_from_velocity
 from .overturning import (
     housner_acceleration,
@@ -27,9 +28,11 @@ from .uplift import SquareBaseModes, harmonic_uplift_ratio, square_base_modes
 
 __all__ = [
     "DOWELLED",
+    "first_mode",
     "PLAIN",
     "friction_that_holds",
     "friction_that_stops",
+    "friction_to_rock",
     "GravestoneFit",
     "half_sine_ratio",
     "harmonic_uplift_ratio",
@@ -39,6 +42,7 @@ __all__ = [
     "ishiyama_acceleration",
     "ishiyama_velocity",
     "judge",
+    "loading",
     "one_sine_ratio",
     "outside_fit",
     "overturning_card",

@@ -46,8 +46,9 @@ class Cursor(NamedTuple):
     ----------
     place : (7,) array of int
         See ``SAMPLE`` to ``STEPS_LEFT``.
-    clock : (2,) array, s
-        ``TAU``: time after the sample. ``FIRST_EVENT``: time of the first event after sample 0, NaN before it.
+    clock : (3,) array, s
+        ``TAU``: time after the sample. ``FIRST_EVENT``: time of the first event after sample 0, NaN before it. ``SINCE``: that of the last
+        event, or of the start.
     state : (n_states,) array
     """
 
@@ -60,7 +61,7 @@ SAMPLE, MODE, FOUND, AT_ONE_INSTANT, STILL, STARTED, STEPS_LEFT = range(7)
 """A cursor's integers: sample, mode, events so far, events since time last moved, whether the state does not move, whether the
 trajectory has begun, and how many steps may be taken before the loop pauses."""
 
-TAU, FIRST_EVENT = range(2)
+TAU, FIRST_EVENT, SINCE = range(3)
 
 
 class Kept(NamedTuple):
@@ -77,6 +78,8 @@ class Kept(NamedTuple):
         Highest value, its time, lowest value, its time (s after sample 0), of the first states.
     tally : (n_guards, n_modes) array of int
         How often each guard led to each mode; negative modes are counted from the end.
+    stays : (n_modes, 2) array, s
+        How long it was in each mode, in all and at the longest stretch between two events (``TOTAL``, ``LONGEST``).
     """
 
     path: FloatArray
@@ -86,7 +89,10 @@ class Kept(NamedTuple):
     limits: FloatArray
     extrema: FloatArray
     tally: IntArray
+    stays: FloatArray
 
+
+TOTAL, LONGEST = range(2)
 
 EVENT_SAMPLE, EVENT_GUARD, EVENT_FROM, EVENT_TO = range(4)
 
@@ -105,5 +111,5 @@ class Scratch(NamedTuple):
 GROUND = _t.NamedTuple((READ_ONLY_MATRIX, VECTOR, _t.float64), Ground)
 SHAPE = _t.NamedUniTuple(_t.int64, 6, Shape)
 CURSOR = _t.NamedTuple((INTEGERS, VECTOR, VECTOR), Cursor)
-KEPT = _t.NamedTuple((MATRIX, INTEGERS, INTEGER_TABLE, VECTOR, BLOCK, MATRIX, INTEGER_TABLE), Kept)
+KEPT = _t.NamedTuple((MATRIX, INTEGERS, INTEGER_TABLE, VECTOR, BLOCK, MATRIX, INTEGER_TABLE, MATRIX), Kept)
 SCRATCH = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR, VECTOR), Scratch)

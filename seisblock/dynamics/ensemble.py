@@ -40,11 +40,12 @@ class Rows(NamedTuple):
     states: FloatArray
     extrema: FloatArray
     tallies: IntArray
+    stays: FloatArray
     statuses: IntArray
 
 
 _GROUNDS = _t.NamedTuple((READ_ONLY_MATRIX, MATRIX, _t.float64), Grounds)
-_ROWS = _t.NamedTuple((INTEGER_TABLE, MATRIX, MATRIX, BLOCK, INTEGER_BLOCK, INTEGERS), Rows)
+_ROWS = _t.NamedTuple((INTEGER_TABLE, MATRIX, MATRIX, BLOCK, INTEGER_BLOCK, BLOCK, INTEGERS), Rows)
 
 
 @kernel(_t.int64(*POINTERS, _GROUNDS, SHAPE, MATRIX, _ROWS, _t.int64, _t.int64), allocates=True)
@@ -69,7 +70,7 @@ def integrate_rows(series, reset, skip, grounds, shape, parameters, rows, first,
             shape,
             parameters[row],
             Cursor(place, rows.clocks[row], rows.states[row]),
-            Kept(path, modes, events, times, limits, rows.extrema[row], rows.tallies[row]),
+            Kept(path, modes, events, times, limits, rows.extrema[row], rows.tallies[row], rows.stays[row]),
             scratch,
         )
         steps = place[STEPS_LEFT] - 1
@@ -96,6 +97,8 @@ class Ensemble:
         Highest value, its time, lowest value, its time; s after sample 0.
     tally : (m, n_guards, n_modes) array of int
         How often each guard led to each mode.
+    stays : (m, n_modes, 2) array, s
+        How long it was in each mode, in all and at the longest stretch between two events.
     """
 
     model: Model
@@ -107,6 +110,7 @@ class Ensemble:
     first_change: FloatArray
     extrema: FloatArray
     tally: IntArray
+    stays: FloatArray
 
 
 def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: ArrayLike, mode: int, *, gains: ArrayLike) -> Ensemble:
@@ -150,6 +154,7 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
         states,
         np.zeros((m, model.tracked, 4)),
         np.zeros((m, len(model.guards), len(model.modes)), dtype=np.int64),
+        np.zeros((m, len(model.modes), 2)),
         np.zeros(m, dtype=np.int64),
     )
     grounds = Grounds(motion.acceleration, scale, motion.dt)
@@ -172,4 +177,5 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
         rows.clocks[:, FIRST_EVENT],
         rows.extrema,
         rows.tallies,
+        rows.stays,
     )

@@ -37,14 +37,17 @@ from seisblock.dynamics.arguments import (
     FOUND,
     GROUND,
     KEPT,
+    LONGEST,
     MODE,
     SAMPLE,
     SCRATCH,
     SHAPE,
+    SINCE,
     STARTED,
     STEPS_LEFT,
     STILL,
     TAU,
+    TOTAL,
     Scratch,
 )
 from seisblock.dynamics.arrays import VECTOR
@@ -97,6 +100,16 @@ def _keep_limit(kept, event, side, y):
         kept.limits[event, side, i] = y[i]
 
 
+@kernel(_t.void(KEPT, _t.int64, VECTOR, _t.float64), inline=True)
+def _keep_stay(kept, mode, clock, now):
+    """Keep how long a stay in a mode was that ends now, and begin the next."""
+    if kept.stays.shape[0] > 0:
+        stay = now - clock[SINCE]
+        kept.stays[mode, TOTAL] += stay
+        kept.stays[mode, LONGEST] = max(kept.stays[mode, LONGEST], stay)
+    clock[SINCE] = now
+
+
 @kernel(_t.int64(*POINTERS, GROUND, SHAPE, VECTOR, CURSOR, KEPT, SCRATCH))
 def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
     """Follow one trajectory on from its cursor; return a status.
@@ -125,6 +138,7 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
     if place[STARTED] == 0:
         place[STARTED] = 1
         clock[FIRST_EVENT] = np.nan
+        clock[SINCE] = sample * dt + tau
         # a row that is left out stays zero, whatever the trajectory before this one read
         for row in range(f.shape[0]):
             f[row, 0] = f[row, 1] = 0.0
@@ -188,6 +202,7 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
                     keep(extrema, i, y[i], sample * dt + tau)
                 if found == 0:
                     clock[FIRST_EVENT] = sample * dt + tau
+                _keep_stay(kept, mode, clock, sample * dt + tau)
                 if tally.shape[0] > 0:
                     tally[fired, following] += 1
                 found += 1
@@ -211,6 +226,8 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
             tau = 0.0
             if keeps_path:
                 _keep_sample(kept, sample, y, mode)
+    if status == RECORD_ENDED:
+        _keep_stay(kept, mode, clock, sample * dt + tau)
     place[SAMPLE], place[MODE], place[FOUND], place[AT_ONE_INSTANT], place[STEPS_LEFT] = sample, mode, found, repeated, left
     place[STILL] = still
     clock[TAU] = tau

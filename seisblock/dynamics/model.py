@@ -41,7 +41,7 @@ SLICE = 1 << 16
 _FIRST_CAPACITY = 256
 _LAST_CAPACITY = 1 << 18
 
-_NO_TALLY = np.empty((0, 0), dtype=np.int64)
+_NO_TALLY, _NO_STAYS = np.empty((0, 0), dtype=np.int64), np.empty((0, 2))
 
 
 @dataclass(frozen=True)
@@ -237,7 +237,7 @@ def follow(
     while True:
         cursor = cursor_at(start, mode, np.array(initial, dtype=np.float64))
         events, times, limits = np.empty((capacity, 4), dtype=np.int64), np.empty(capacity), np.empty((capacity, 2, n_states))
-        status = follow_on(model, ground, p, cursor, Kept(path, modes, events, times, limits, extrema, _NO_TALLY))
+        status = follow_on(model, ground, p, cursor, Kept(path, modes, events, times, limits, extrema, _NO_TALLY, _NO_STAYS))
         if not (status == TOO_MANY_EVENTS and cursor.place[FOUND] == capacity < _LAST_CAPACITY):
             break
         capacity *= 8
@@ -254,7 +254,7 @@ def follow(
 def cursor_at(start: Instant, mode: int, state: FloatArray) -> Cursor:
     """Return the cursor of a trajectory that is about to begin; the state is moved in place."""
     # sample, mode, events, events at one instant, still, not started, steps
-    return Cursor(np.array([start.sample, mode, 0, 0, 1, 0, 0]), np.array([start.tau, np.nan]), state)
+    return Cursor(np.array([start.sample, mode, 0, 0, 1, 0, 0]), np.array([start.tau, np.nan, 0.0]), state)
 
 
 def follow_on(model: Model, ground: Ground, p: FloatArray, cursor: Cursor, kept: Kept) -> int:

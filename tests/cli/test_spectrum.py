@@ -78,6 +78,11 @@ def test_table_file_and_figure(run, tmp_path, kind):
         (["--mu", "0.2"], "means nothing"),
         (["--kind", "sliding", "--sizes", "1"], "means nothing"),
         (["--kind", "sliding", "--mu", "-0.1"], "friction"),
+        (["--kind", "modes", "--mu", "-0.1"], "friction"),
+        (["--kind", "modes", "--linear"], "means nothing"),
+        (["--kind", "modes", "--sizes", "1,2"], "of one shape"),
+        (["--kind", "modes", "--restitution", "1"], "restitution"),
+        (["--kind", "modes", "--mu", "0:1:1e-5"], "cells"),
     ],
 )
 def test_bad_input_is_one_sentence(run, words, says):
@@ -98,6 +103,40 @@ def test_sliding(run, tmp_path):
     assert found["max_slip_m"][0] > 0 == found["max_slip_m"][-1]
     assert len(list(csv.DictReader((tmp_path / "s.csv").open()))) == 3
     assert (tmp_path / "s.png").stat().st_size > 5_000
+
+
+def test_modes(run, tmp_path):
+    """Each cell is what respond says of the same body; the file holds every cell; the figure is drawn, of shapes and of sizes."""
+    answer = run("--kind", "modes", "--mu", "0.3,0.9", "--height-over-width", "4,1", "--component", "NS", "--json", "--csv", "m.csv")
+    found = json.loads(answer.stdout)["results"][0]
+    assert np.shape(found["mode"]) == np.shape(found["slip_path_m"]) == (2, 2)
+    for i, ratio in enumerate((0.25, 1.0)):
+        assert found["b_over_h"][i] == pytest.approx(ratio)
+        alpha = math.atan(ratio)
+        size = ("--width", repr(math.sin(alpha)), "--height", repr(math.cos(alpha)))
+        for j, mu in enumerate(("0.3", "0.9")):
+            words = ["respond", "--component", "NS", "--mu", mu, *size, "--runs", "0", "--json"]
+            one = json.loads(CliRunner().invoke(main, words).stdout)["results"][0]
+            assert (found["mode"][i][j] == "overturned") == one["overturned"]
+            assert found["slip_path_m"][i][j] == pytest.approx(one["slip_path_m"], rel=1e-9)
+    assert found["initiation"]["acceleration_ratio"] > 1.0
+    assert len(list(csv.DictReader((tmp_path / "m.csv").open()))) == 4
+    for axis in (("--steps", "12"), ("--sizes", "0.5,1,2", "--height-over-width", "3", "--mu", "0.2,0.5"), ("--mu", "0.3", "--steps", "2")):
+        drawn = run("--kind", "modes", *axis, "--plot", "m.png")
+        assert drawn.exit_code == 0, drawn.output
+        assert "bodies" in drawn.stdout and "of the weight" in drawn.stdout
+        assert (tmp_path / "m.png").stat().st_size > 10_000
+
+
+def test_modes_take_the_vertical_motion_where_there_is_one(run):
+    """As respond does: unless it is refused, and never asked of a record without one."""
+    grid = ("--kind", "modes", "--mu", "0.4", "--height-over-width", "2", "--component", "NS", "--json")
+    with_it, without = (json.loads(run(*grid, *more).stdout) for more in ((), ("--no-vertical",)))
+    assert with_it["parameters"]["vertical"] and not without["parameters"]["vertical"]
+    ratios = [each["results"][0]["initiation"]["acceleration_ratio"] for each in (with_it, without)]
+    assert ratios[0] != ratios[1]
+    refused = run("elcentro_1940_ns", "--kind", "modes", "--vertical")
+    assert refused.exit_code == 3 and "vertical" in refused.stderr
 
 
 def test_progress_is_told_and_memory_is_bounded():

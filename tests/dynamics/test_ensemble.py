@@ -51,6 +51,18 @@ def test_tally_counts_guards_by_the_mode_they_lead_to():
     assert many.tally[0].tolist() == [[many.n_changes[0] - 1, 1]]
 
 
+def test_stays_are_the_times_between_events():
+    """The stays in each mode add up to the whole time; the longest is that between two events, or to the end."""
+    motion = Motion.from_arrays(np.zeros(41), 0.01)
+    many = follow_many(BALL, motion, [[9.8, 0.9, 1e-9]], [0.05, 0.0], 0, gains=[1.0, 0.0, 0.0])
+    alone = follow(BALL, motion, [9.8, 0.9, 1e-9], [0.05, 0.0], 0, gains=[1.0, 0.0, 0.0])
+    times = np.array([0.0, *(change.time for change in alone.changes), alone.end_time])
+    assert alone.n_changes >= 2
+    total, longest = many.stays[0, 0]
+    assert total == pytest.approx(0.4, abs=1e-15)
+    assert longest == pytest.approx(np.diff(times).max(), abs=1e-15)
+
+
 def test_failure_names_its_row():
     """A row that has to be given up is an error that says which."""
     with pytest.raises(SolverError, match="row 0"):

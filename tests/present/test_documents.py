@@ -42,6 +42,7 @@ EVERY = (
     "criteria --block gravestone",
     "spectrum --steps 3",
     "spectrum --kind sliding --mu 0.1,0.2 --vertical --component EW",
+    "spectrum --kind modes --mu 0.2,0.5 --height-over-width 1,4 --component EW",
     "overturn-rate --cemetery aoyama.csv",
     "overturn-rate --cemetery aoyama.csv --pga 400 --frequency 1,2",
     "overturn-rate --cemetery aoyama.csv synthetic_jma --both",

@@ -64,7 +64,9 @@ def rocking_options(function: Callable[..., Any]) -> Callable[..., Any]:
                 help="Angular velocity after an impact over that before, 0 to 1. [default: 1 - 1.5 sin^2(alpha), or the body's own]",
             ),
             option("--linear", is_flag=True, help="The linearised equation of slender blocks. [default: the exact one]"),
-            option("--vertical", is_flag=True, help="Let the vertical component act, too. [default: horizontal motion alone]"),
+            option(
+                "--vertical/--no-vertical", default=False, help="Let the vertical component act, too. [default: horizontal motion alone]"
+            ),
             option(
                 "--azimuth",
                 multiple=True,

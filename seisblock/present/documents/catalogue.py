@@ -22,7 +22,7 @@ KINDS: dict[str, tuple[str, ...]] = {
     "uplift": ("uplift:UPLIFT", "uplift:HARMONIC"),
     "stack": ("stack:STACK", "stack:STUDY"),
     "criteria": ("criteria:CRITERIA",),
-    "spectrum": ("spectrum:ROCKING", "spectrum:SLIDING"),
+    "spectrum": ("spectrum:ROCKING", "spectrum:SLIDING", "spectrum:MODES"),
     "overturn-rate": ("overturn_rate:RATE", "overturn_rate:CURVE_ALONE"),
     "infer": ("infer:STONES", "infer:SLID", "infer:JUMPED"),
     "validate": ("validate:VALIDATE",),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -15,6 +16,7 @@ from seisblock.records import Motion
 from seisblock.references import papers
 from seisblock.studies.rocking.spectra import RockingSpectrum
 from seisblock.studies.sliding import SlidePoint
+from seisblock.studies.standing.mode_map import GOVERNING, ModeMap
 
 
 class RockingParameters(Struct, frozen=True, kw_only=True):
@@ -99,6 +101,80 @@ class SlidingResult(Result, frozen=True, kw_only=True):
     residual_slip_m: list[float | None]
 
 
+class ModesParameters(Struct, frozen=True, kw_only=True):
+    """What was chosen.
+
+    Parameters
+    ----------
+    kind : str
+        ``modes``.
+    gravity_m_s2 : float
+    restitution : float
+        Poisson's, of an impact at one corner.
+    vertical : bool
+        Whether the vertical component acts, where the record has one.
+    inset : Inset
+        How far the edges are worn.
+    """
+
+    kind: str
+    gravity_m_s2: float
+    restitution: float
+    vertical: bool
+    inset: Inset
+
+
+class InitiationEntry(Struct, frozen=True, kw_only=True):
+    """Closed-form limits of the motion that begins from rest.
+
+    Parameters
+    ----------
+    acceleration_ratio : float or None
+        Largest horizontal acceleration over the weight per unit mass, abs(a)/(g + a_y); a block rests throughout if neither mu nor b/h
+        is below it; null where the ground falls faster than gravity.
+    time_s : float
+        When.
+    friction_to_rock : list of float or None
+        Friction that the corner of each row's block needs if that comes as a jump: with less it slides while it rocks, or slides; null
+        where the block would not rock.
+    """
+
+    acceleration_ratio: float | None
+    time_s: float
+    friction_to_rock: list[float | None]
+
+
+class ModesResult(Result, frozen=True, kw_only=True):
+    """One direction: axes, and matrices with a row per block and a column per friction.
+
+    Parameters
+    ----------
+    component : str
+    mu : list of float
+        Static and kinetic.
+    size_m, b_over_h : list of float
+        2R, and half of the base that is left over the height of the centre of gravity, of each row's block.
+    mode : matrix of str
+        The worst that one could see: rest, slide, rock, slide-rock, flight, overturned.
+    max_rotation_ratio : matrix of float
+        Largest lean over alpha.
+    slip_path_m, final_displacement_m : matrix of float
+        Length slid, and where it ends, signed.
+    initiation : InitiationEntry
+    """
+
+    component: str
+    mu: list[float]
+    size_m: list[float]
+    b_over_h: list[float]
+    mode: list[list[str]]
+    max_rotation_ratio: list[list[float]]
+    slip_path_m: list[list[float]]
+    final_displacement_m: list[list[float]]
+    initiation: InitiationEntry
+
+
+MODES = Kind("spectrum", ModesParameters, ModesResult, name="modes")
 ROCKING = Kind("spectrum", RockingParameters, RockingResult, name="rocking")
 SLIDING = Kind("spectrum", SlidingParameters, SlidingResult, name="sliding")
 
@@ -139,3 +215,30 @@ def sliding_document(curves: Sequence[tuple[Motion, Sequence[SlidePoint]]], *, g
     )
     parameters = SlidingParameters(kind="sliding", gravity_m_s2=gravity, vertical=vertical)
     return SLIDING.document(parameters, found, citations=papers("sliding"))
+
+
+def modes_document(maps: Sequence[tuple[Motion, ModeMap]], *, gravity: float, restitution: float, inset: Inset, vertical: bool) -> Document:
+    """Return the document of maps of modes, one per direction."""
+    found = (
+        (
+            motion.record,
+            ModesResult(
+                component=motion.name,
+                mu=each.mu.tolist(),
+                size_m=each.size_m.tolist(),
+                b_over_h=each.b_over_h.tolist(),
+                mode=[[GOVERNING[index] for index in row] for row in each.governing],
+                max_rotation_ratio=each.max_rotation_ratio.tolist(),
+                slip_path_m=each.slip_path_m.tolist(),
+                final_displacement_m=each.final_displacement_m.tolist(),
+                initiation=InitiationEntry(
+                    acceleration_ratio=each.loading if math.isfinite(each.loading) else None,
+                    time_s=each.loading_time_s,
+                    friction_to_rock=[None if math.isnan(value) else value for value in each.friction_to_rock.tolist()],
+                ),
+            ),
+        )
+        for motion, each in maps
+    )
+    parameters = ModesParameters(kind="modes", gravity_m_s2=gravity, restitution=restitution, vertical=vertical, inset=inset)
+    return MODES.document(parameters, found, citations=papers("all modes"))

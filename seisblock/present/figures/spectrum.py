@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
 
@@ -22,15 +23,12 @@ def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
     full = ListedColormap([canvas.ACCENT])
     shaded = None
     for axis, (motion, found) in zip(axes, spectra, strict=True):
-        x, y = _edges(np.degrees(found.slenderness_rad)), _log_edges(found.size_m)
+        x, y = edges(np.degrees(found.slenderness_rad)), log_edges(found.size_m)
         lean = np.where(found.overturned, np.nan, found.max_rotation_ratio)
         if kind == "rocking":
             shaded = axis.pcolormesh(x, y, lean, cmap=grey, vmin=0.0, vmax=1.0, rasterized=True)
         axis.pcolormesh(x, y, np.where(found.overturned, 1.0, np.nan), cmap=full, rasterized=True)
-        axis.set_yscale("log")
-        sizes = [size for size in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20) if y.min() <= size <= y.max()]
-        axis.set_yticks(sizes, [f"{size:g}" for size in sizes])
-        axis.set_yticks([], minor=True)
+        log_ticks(axis, y)
         still = math.degrees(math.atan(float(np.abs(motion.horizontal).max()) / gravity))
         if x.min() < still < x.max():
             axis.axvline(still, color=canvas.THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label="PGA = g tan α")
@@ -49,6 +47,14 @@ def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
     return made
 
 
+def log_ticks(axis: Axes, y: FloatArray) -> None:
+    """Let the vertical axis be one of sizes, m, evenly in their logarithm, with plain numbers."""
+    axis.set_yscale("log")
+    sizes = [size for size in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20) if y.min() <= size <= y.max()]
+    axis.set_yticks(sizes, [f"{size:g}" for size in sizes])
+    axis.set_yticks([], minor=True)
+
+
 def _height_over_width(degrees: Any) -> Any:
     """Return H/B of a slenderness in degrees."""
     return 1 / np.tan(np.radians(np.clip(degrees, 1e-3, 89.999)))
@@ -59,7 +65,7 @@ def _degrees(ratio: Any) -> Any:
     return np.degrees(np.arctan(1 / np.clip(ratio, 1e-6, None)))
 
 
-def _edges(values: FloatArray) -> FloatArray:
+def edges(values: FloatArray) -> FloatArray:
     """Return the edges of cells with these middles, in the order of the middles."""
     if values.size == 1:
         return np.array([0.95 * values[0], 1.05 * values[0]])
@@ -67,6 +73,6 @@ def _edges(values: FloatArray) -> FloatArray:
     return np.concatenate([[2 * values[0] - middle[0]], middle, [2 * values[-1] - middle[-1]]])
 
 
-def _log_edges(values: FloatArray) -> FloatArray:
+def log_edges(values: FloatArray) -> FloatArray:
     """Return the edges of cells whose middles are even in their logarithm."""
-    return np.exp(_edges(np.log(values))) if values.size > 1 else _edges(values)
+    return np.exp(edges(np.log(values))) if values.size > 1 else edges(values)

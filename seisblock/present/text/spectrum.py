@@ -30,7 +30,7 @@ def tables(spectra: Spectra, kind: str, worn: str = "") -> Iterator[Any]:
         if motion.record is not None and motion.record is not last:
             last = motion.record
             yield record_line(motion.record)
-        rows, columns = _thin(found.size_m.size, MOST_ROWS), _thin(found.slenderness_rad.size, MOST_COLUMNS)
+        rows, columns = thinned(found.size_m.size, MOST_ROWS), thinned(found.slenderness_rad.size, MOST_COLUMNS)
         what = tell("overturning") if kind == "overturning" else tell("largest lean over alpha")
         heads = [f"{1 / math.tan(found.slenderness_rad[j]):.2f}" for j in columns]
         cells = [[f"{found.size_m[i]:.3g}", *(_cell(found, i, j, kind) for j in columns)] for i in rows]
@@ -49,7 +49,7 @@ def _cell(found: RockingSpectrum, i: int, j: int, kind: str) -> str:
     return "-" if ratio == 0.0 or kind == "overturning" else f"{ratio:.3f}"
 
 
-def _thin(count: int, most: int) -> IntArray:
+def thinned(count: int, most: int) -> IntArray:
     """Return at most so many indices, evenly, with both ends."""
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(np.int64))
 

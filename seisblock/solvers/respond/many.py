@@ -6,21 +6,31 @@ import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
+from threading import Event
 
 import numpy as np
 
 from seisblock.dynamics import Ensemble, follow_many
+from seisblock.dynamics.arguments import LONGEST, TOTAL
+from seisblock.dynamics.halt import halting, heeding
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import check_settling, still_ground
 from seisblock.solvers.respond.setting import Initial, Setting
+from seisblock.solvers.respond.tale import FLIGHT, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, IntArray
+
+AT_ONCE = 8
+"""Rows that a thread takes at a time: some fall at once, others hop for a minute."""
+
+KINDS = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT)
+"""Modes as columns of :attr:`Fates.time_in_mode_s`."""
 
 
 @dataclass(frozen=True, eq=False)
 class Fates:
-    """The ends of many runs, (m,) arrays, one entry per row.
+    """The ends of many runs, arrays with one entry per row, (m,) unless told.
 
     Parameters
     ----------
@@ -34,6 +44,10 @@ class Fates:
     impacts : int
     end_s : s
         After the motion's first sample.
+    time_in_mode_s : (m, 5) array, s
+        At rest, sliding, rocking, sliding while rocking, in flight, up to the end.
+    longest_flight_s : s
+        From one impact to the next.
     """
 
     overturned: BoolArray
@@ -46,6 +60,8 @@ class Fates:
     slip_path_m: FloatArray
     impacts: IntArray
     end_s: FloatArray
+    time_in_mode_s: FloatArray
+    longest_flight_s: FloatArray
 
 
 def respond_many(
@@ -76,17 +92,20 @@ def respond_many(
     if not settings:
         raise ParameterError("an ensemble needs at least one row")
     rows = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (len(settings), 3)))
-    share = -(-len(settings) // (workers or os.cpu_count() or 1))
-    firsts = range(0, len(settings), share)
-    if len(firsts) == 1:
-        return _fates(settings, motion, rows, initial, settle_s)
+    pool, gone = ThreadPoolExecutor(workers or os.cpu_count()), Event()
+    events = (*halting(), gone)
 
     def part(first: int) -> Fates:
-        last = first + share
-        return _fates(settings[first:last], motion, rows[first:last], initial, settle_s)
+        """Follow some rows, as long as anybody waits for them."""
+        last = first + AT_ONCE
+        with heeding(events):
+            return _fates(settings[first:last], motion, rows[first:last], initial, settle_s)
 
-    with ThreadPoolExecutor(len(firsts)) as pool:
-        found = list(pool.map(part, firsts))
+    try:
+        found = list(pool.map(part, range(0, len(settings), AT_ONCE)))
+    finally:
+        gone.set()
+        pool.shutdown(cancel_futures=True)
     return Fates(*(np.concatenate([getattr(each, field.name) for each in found]) for field in fields(Fates)))
 
 
@@ -99,6 +118,7 @@ def _fates(settings: Sequence[Setting], motion: Motion, gains: FloatArray, initi
     )
     final, mode, end = shaken.final.copy(), shaken.final_mode.copy(), shaken.end_time.copy()
     high, low = _extrema(shaken)
+    spent, longest = _stays(shaken)
     moving = (mode >= 0) & (mode % names.HELD != names.REST)
     if settle_s > 0.0 and moving.any():
         ground = still_ground(settle_s)
@@ -110,6 +130,9 @@ def _fates(settings: Sequence[Setting], motion: Motion, gains: FloatArray, initi
             end[rows] = (motion.samples - 1) * motion.dt + after.end_time
             higher, lower = _extrema(after)
             high[rows], low[rows] = np.maximum(high[rows], higher), np.minimum(low[rows], lower)
+            longer = _stays(after)
+            spent[rows] += longer[0]
+            longest[rows] = np.maximum(longest[rows], longer[1])
     fallen = mode == names.OVERTURNED
     return Fates(
         overturned=fallen,
@@ -117,12 +140,22 @@ def _fates(settings: Sequence[Setting], motion: Motion, gains: FloatArray, initi
         gave_up=mode == names.GAVE_UP,
         towards=np.where(fallen, np.sign(final[:, names.THETA]), 0.0).astype(np.int64),
         final_displacement_m=final[:, names.X],
-        max_displacement_m=np.maximum(high[:, names.X], -low[:, names.X]),
-        max_rotation_rad=np.maximum(high[:, names.THETA], -low[:, names.THETA]),
+        max_displacement_m=np.maximum(high[:, names.X], -low[:, names.X]) + 0.0,
+        max_rotation_rad=np.maximum(high[:, names.THETA], -low[:, names.THETA]) + 0.0,
         slip_path_m=final[:, names.PATH],
         impacts=final[:, names.IMPACTS].astype(np.int64),
         end_s=end,
+        time_in_mode_s=spent,
+        longest_flight_s=longest[:, KINDS.index(FLIGHT)],
     )
+
+
+def _stays(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:
+    """Return the time in each mode, in all and at the longest stretch, (m, 5) each, whichever corner and with or without tenons."""
+    columns = [[i for i, mode in enumerate(names.MODES[: 2 * names.HELD]) if mode == kind] for kind in KINDS]
+    total = [ensemble.stays[:, each, TOTAL].sum(axis=1) for each in columns]
+    longest = [ensemble.stays[:, each, LONGEST].max(axis=1) for each in columns]
+    return np.column_stack(total), np.column_stack(longest)
 
 
 def _extrema(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:

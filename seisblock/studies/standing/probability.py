@@ -20,6 +20,7 @@ from seisblock.records.motion import ACROSS
 from seisblock.solvers.respond.many import respond_many
 from seisblock.solvers.respond.setting import Setting
 from seisblock.solvers.respond.solve import make_setting
+from seisblock.studies.cemetery.rate import clopper_pearson
 from seisblock.typing import FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 
@@ -163,7 +164,7 @@ def respond_probability(
         runs,
         count / runs,
         float(np.mean(falls | (np.abs(shift) > moved_m))),
-        _clopper_pearson(count, runs),
+        clopper_pearson(count, runs, CONFIDENCE),
         moved_m,
         {f"q{round(100 * share):02d}": float(value) for share, value in zip(QUANTILES, standing, strict=False)},
         versions,
@@ -197,11 +198,3 @@ def _gains(motion: Motion, versions: Versions, draws: FloatArray, vertical: bool
     amplitude = 1.0 + versions.amplitude * draws[:, 4]
     angle = np.radians(versions.azimuth_deg) * draws[:, 5] * bool(motion.acceleration[ACROSS].any())
     return np.column_stack([amplitude * np.cos(angle), -amplitude * np.sin(angle), amplitude * float(vertical)])
-
-
-def _clopper_pearson(count: int, runs: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
-    """Return the exact interval of a share."""
-    from scipy.stats import binomtest
-
-    found = binomtest(count, runs).proportion_ci(confidence, method="exact")
-    return float(found.low), float(found.high)

@@ -26,12 +26,16 @@ def test_rows_are_single_runs():
     many = respond_many([make_setting(block, **options) for block, options in rows], MOTION)
     assert 0 < many.overturned.sum() < len(rows)
     for row, (block, options) in enumerate(rows):
-        one = solve_respond(block, MOTION, sensitivity=False, **options).outcome
+        response = solve_respond(block, MOTION, sensitivity=False, **options)
+        one = response.outcome
         assert many.overturned[row] == one.overturned
         assert many.settled[row] == one.settled
         assert many.towards[row] == {"+x": 1, "-x": -1, None: 0}[one.overturned_towards]
         for name in ("final_displacement_m", "max_displacement_m", "max_rotation_rad", "slip_path_m", "impacts", "end_s"):
             assert getattr(many, name)[row] == getattr(one, name), name
+        assert many.time_in_mode_s[row] == pytest.approx(list(one.time_in_mode_s.values()), abs=1e-9)
+        flights = [phase.duration_s for phase in response.phases if phase.name == "flight"]
+        assert many.longest_flight_s[row] <= max(flights, default=0.0) + 1e-12
 
 
 def test_threads_do_not_matter():

@@ -1,0 +1,101 @@
+"""Which motion begins from rest: closed forms for a rigid block on Coulomb friction, derived here for any block ([Shenton1996]_).
+
+Let A be the ground's horizontal acceleration over the weight per unit mass, g + a_y; b the distance, to the side, from the centre of
+gravity to the corner about which the block would turn; h the centre's height and k its radius of gyration. The block rests while A <= mu
+and A <= b/h. If A reaches one of these slowly, the block slides where mu < b/h and rocks where not. If A comes as a jump, it rocks without
+slip only where friction holds the corner: its angular acceleration is g q, its centre moves away from the push with h g q and up with
+b g q, so that the corner needs the friction (A - h q)/(1 + b q); with less it slides where mu < b/h and slides while it rocks where not.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.bodies.block import Block
+from seisblock.records import Motion
+from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
+
+REST, SLIDE, ROCK, SLIDE_ROCK = noted("rest"), noted("slide"), noted("rock"), noted("slide-rock")
+"""Modes that begin from rest."""
+
+
+def loading(motion: Motion, *, vertical: bool = True, gravity: float = STANDARD_GRAVITY) -> tuple[float, float]:
+    """Return the largest A = abs(a)/(g + a_y) of a motion, 1, and its time, s ([Shenton1996]_).
+
+    A block rests throughout if, and only if, neither mu nor b/h is below it: between samples both sides of the conditions of rest
+    are straight lines. Infinite where the ground falls faster than gravity.
+
+    Parameters
+    ----------
+    motion : Motion
+    vertical : bool
+        Whether its vertical component acts.
+    gravity : float, m/s^2
+
+    Examples
+    --------
+    >>> loading(Motion.from_arrays([0.0, 2.0, -3.0], 0.1, vertical=[0.0, 0.0, -4.0]), gravity=10.0)
+    (0.5, 0.2)
+    """
+    checks.gravity(gravity)
+    weight = gravity + motion.vertical * float(vertical)
+    with np.errstate(divide="ignore"):
+        ratio = np.where(weight > 0.0, np.abs(motion.horizontal) / weight, math.inf)
+    largest = int(np.argmax(ratio))
+    return float(ratio[largest]), float(motion.time[largest])
+
+
+def friction_to_rock(block: Block, ratio: float) -> float | None:
+    """Return the friction that a corner needs under a jump to A, 1, None where the block would not rock ([Shenton1996]_).
+
+    (A - h q)/(1 + b q) with q = (h A - b)/(k^2 + h^2 + b^2), for the nearer corner; it rises from b/h to (k^2 + b^2)/(b h).
+
+    Parameters
+    ----------
+    block : Block
+    ratio : float
+        A, 1.
+
+    Examples
+    --------
+    >>> block = Block(0.3, 1.0)
+    >>> friction_to_rock(block, 0.2), round(friction_to_rock(block, 0.6), 4)
+    (None, 0.3706)
+    """
+    ratio = checks.not_negative("the ratio of accelerations A", ratio)
+    b, h = min(block.arms), block.centre
+    if ratio <= b / h:
+        return None
+    q = (h * ratio - b) / (block.gyration_squared + h * h + b * b)
+    return (ratio - h * q) / (1.0 + b * q)
+
+
+def first_mode(block: Block, mu: float, ratio: float) -> str:
+    """Return the mode that begins when A jumps from zero: rest, slide, rock or slide-rock ([Shenton1996]_).
+
+    Static and kinetic friction are the same.
+
+    Parameters
+    ----------
+    block : Block
+    mu : float
+        Friction coefficient, 0 or more.
+    ratio : float
+        A, 1.
+
+    Examples
+    --------
+    >>> [first_mode(Block(0.3, 1.0), mu, 0.6) for mu in (0.2, 0.31, 0.5, 0.7)]
+    ['slide', 'slide-rock', 'rock', 'rock']
+    """
+    mu = checks.not_negative("the friction coefficient mu", mu)
+    needed = friction_to_rock(block, ratio)
+    if needed is None:
+        return REST if ratio <= mu else SLIDE
+    if mu >= needed:
+        return ROCK
+    return SLIDE if mu * block.centre <= min(block.arms) else SLIDE_ROCK

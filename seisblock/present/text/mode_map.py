@@ -1,0 +1,112 @@
+"""How a map of modes is told: what happens to how many, the limits in closed form, a thinned map, and all cells as CSV."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from seisblock.present.files import write_table
+from seisblock.present.text.respond import percent
+from seisblock.present.text.spectrum import MOST_ROWS, thinned
+from seisblock.present.text.tables import line, record_line, table
+from seisblock.records import Motion
+from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
+from seisblock.studies.standing.mode_map import GOVERNING, ModeMap
+from seisblock.words import listed, noted, strung, tell
+
+Maps = Sequence[tuple[Motion, ModeMap]]
+
+MOST_COLUMNS = 8
+
+CELLS = {
+    REST: "-", SLIDE: noted("slides"), ROCK: noted("rocks"), SLIDE_ROCK: noted("both"), FLIGHT: noted("flies"),
+    OVERTURNED: noted("falls"),
+}  # fmt: skip
+"""What a cell of the table says."""
+
+SHARES = {
+    REST: noted("{share} stand still"), SLIDE: noted("{share} slide"), ROCK: noted("{share} rock"),
+    SLIDE_ROCK: noted("{share} slide and rock"), FLIGHT: noted("{share} leave the ground"), OVERTURNED: noted("{share} fall"),
+}  # fmt: skip
+
+
+def tables(maps: Maps, worn: str = "") -> Iterator[Any]:
+    """Yield, per component, what happens to how many, the limits of initiation, and a table of at most 12 bodies and 8 frictions."""
+    last = None
+    for motion, found in maps:
+        if motion.record is not None and motion.record is not last:
+            last = motion.record
+            yield record_line(motion.record)
+        yield line(verdict(motion, found), "bold")
+        yield line("  " + limits(found))
+        rows, columns = thinned(found.size_m.size, MOST_ROWS)[::-1], thinned(found.mu.size, MOST_COLUMNS)
+        cells = [[told(found, i), *(tell(CELLS[GOVERNING[found.governing[i, j]]]) for j in columns)] for i in rows]
+        yield table(_title(motion, found) + tell(worn), [f"{symbol(found)} \\ μ", *(f"{found.mu[j]:.3g}" for j in columns)], cells)
+        yield line()
+
+
+def verdict(motion: Motion, found: ModeMap) -> str:
+    """Return what happens to how many of the bodies."""
+    shares = [(mode, found.share(mode)) for mode in GOVERNING]
+    parts = [tell(SHARES[mode], share=percent(share)) for mode, share in shares if share > 0.0]
+    return tell("{name}: of {all} bodies {parts}.", name=motion.name or "x", all=found.governing.size, parts=listed(parts))
+
+
+def limits(found: ModeMap) -> str:
+    """Return below which friction and slenderness something moves, and what begins."""
+    if math.isinf(found.loading):
+        return tell("The ground falls faster than gravity at {time:.2f} s: nothing stays where it is.", time=found.loading_time_s)
+    parts = [
+        tell("At {time:.2f} s the ground pushes with {ratio:.3f} of the weight.", time=found.loading_time_s, ratio=found.loading),
+        tell("What has more friction and a larger b/h rests; else it slides where mu is below b/h, and rocks where not."),
+    ]
+    return strung(parts)
+
+
+def by_size(found: ModeMap) -> bool:
+    """Whether the rows are sizes of one shape, rather than shapes."""
+    return bool(found.b_over_h.size > 1 and found.b_over_h.max() - found.b_over_h.min() < 1e-9 * found.b_over_h.max())
+
+
+def symbol(found: ModeMap) -> str:
+    """Return what the rows differ in."""
+    return "2R" if by_size(found) else "b/h"
+
+
+def told(found: ModeMap, i: int) -> str:
+    """Return what tells a row from the others."""
+    return f"{found.size_m[i]:.3g}" if by_size(found) else f"{found.b_over_h[i]:.3f}"
+
+
+def _title(motion: Motion, found: ModeMap) -> str:
+    """Return what the table shows."""
+    if by_size(found):
+        text = noted(
+            "{name}: down 2R (m) of blocks with b/h {ratio:.3g}, across the friction; both: slides while it rocks; -: stands still"
+        )
+    else:
+        text = noted("{name}: down b/h of blocks with 2R {size:.3g} m, across the friction; both: slides while it rocks; -: stands still")
+    return tell(text, name=motion.name, size=found.size_m[0], ratio=found.b_over_h[0])
+
+
+def write(path: Path, maps: Maps) -> None:
+    """Write every cell as a row of CSV, SI."""
+    header = ["component", "size_m", "b_over_h", "mu", "mode", "max_rotation_ratio", "slip_path_m", "final_displacement_m"]
+    rows = (
+        [
+            motion.name,
+            float(found.size_m[i]),
+            float(found.b_over_h[i]),
+            float(mu),
+            GOVERNING[found.governing[i, j]],
+            float(found.max_rotation_ratio[i, j]),
+            float(found.slip_path_m[i, j]),
+            float(found.final_displacement_m[i, j]),
+        ]
+        for motion, found in maps
+        for i in range(found.size_m.size)
+        for j, mu in enumerate(found.mu)
+    )
+    write_table(path, header, rows)

@@ -1,0 +1,177 @@
+"""Maps of what happens: one record, and rectangular blocks of all frictions and all slendernesses, or all sizes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.bodies.block import Block
+from seisblock.bodies.inset import SHARP, Inset
+from seisblock.criteria.initiation import friction_to_rock, loading
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.solvers.respond.many import KINDS, Fates, respond_many
+from seisblock.solvers.respond.setting import Setting
+from seisblock.solvers.respond.solve import make_setting
+from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
+from seisblock.typing import ArrayLike, FloatArray, IntArray, Progress
+from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
+
+GOVERNING = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT, OVERTURNED)
+"""Modes from the mildest to the worst; a body is told by the worst that one could see."""
+
+SEEN_M = 5e-4
+"""Slip of a rocking body, or rise of one that flies, that one could see, m."""
+
+AT_ONCE = 200
+"""Cells between two reports of progress."""
+
+MOST_CELLS = 1_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class ModeMap:
+    """Which mode governs over a grid of bodies (rows) and frictions (columns).
+
+    Parameters
+    ----------
+    size_m : (n,) array, m
+        2R, the diagonal of each row's block as drawn.
+    b_over_h : (n,) array
+        Half of its base, less what is worn, over the height of its centre of gravity.
+    mu : (k,) array
+    governing : (n, k) array of int
+        The worst mode, an index into ``GOVERNING``: overturned; flight, where one lasted as long as a rise of half a millimetre takes;
+        slide-rock, where it rocked and slid half a millimetre in all; rock; slide; rest, where nothing moved at all.
+    max_rotation_ratio : (n, k) array
+        Largest lean over alpha.
+    slip_path_m, final_displacement_m : (n, k) arrays, m
+        Length slid, and where it ends, signed.
+    loading, loading_time_s : float, 1 and s
+        Largest abs(a)/(g + a_y) of the motion, and when: a block rests if neither mu nor b/h is below it.
+    friction_to_rock : (n,) array
+        Friction that a corner needs if that comes as a jump, NaN where the block would not rock.
+    """
+
+    size_m: FloatArray
+    b_over_h: FloatArray
+    mu: FloatArray
+    governing: IntArray
+    max_rotation_ratio: FloatArray
+    slip_path_m: FloatArray
+    final_displacement_m: FloatArray
+    loading: float
+    loading_time_s: float
+    friction_to_rock: FloatArray
+
+    def share(self, mode: str) -> float:
+        """Return the share of the cells in which a mode governs."""
+        return float(np.mean(self.governing == GOVERNING.index(mode)))
+
+
+def mode_map(
+    frictions: ArrayLike,
+    sizes: ArrayLike,
+    slendernesses: ArrayLike,
+    motion: Motion,
+    *,
+    inset: Inset = SHARP,
+    restitution: float = 0.0,
+    vertical: bool = True,
+    gravity: float = STANDARD_GRAVITY,
+    settle_s: float = 60.0,
+    progress: Progress | None = None,
+) -> ModeMap:
+    """Return which mode governs the motion of rectangular blocks under a record, with the limits of initiation ([Shenton1996]_).
+
+    Parameters
+    ----------
+    frictions : (k,) array
+        Static and kinetic friction, 0 or more.
+    sizes, slendernesses : (n,) and (1,), (1,) and (n,), or (n,) and (n,) arrays, m and rad
+        Diagonals 2R and alpha = atan(B/H) of the blocks as drawn.
+    motion : Motion
+    inset : Inset
+        How far the edges are worn, per side.
+    restitution : float
+        Poisson's, in [0, 1).
+    vertical : bool
+        Whether the vertical component acts.
+    gravity : float, m/s^2
+    settle_s : float, s
+        How long bodies are followed after the record.
+    progress : callable
+        Told the number of runs done and the number in all.
+
+    Raises
+    ------
+    ParameterError
+        If a number is out of its range, or there are no or too many cells.
+    """
+    mu = np.array([checks.not_negative(noted("the friction coefficient mu"), value) for value in np.atleast_1d(frictions)])
+    blocks = _blocks(sizes, slendernesses, inset)
+    cells = len(blocks) * mu.size
+    if not 0 < cells <= MOST_CELLS:
+        raise ParameterError("a map needs 1 to {most} cells, found {cells}", most=MOST_CELLS, cells=cells)
+    settings = (make_setting(block, mu=float(m), restitution=restitution, gravity=gravity) for block in blocks for m in mu)
+    ratio, time = loading(motion, vertical=vertical, gravity=gravity)
+    seen_s = math.sqrt(8.0 * SEEN_M / gravity)
+    table = np.empty((cells, 4))
+    first = 0
+    for part in _parts(settings):
+        fates = respond_many(part, motion, gains=(1.0, 0.0, float(vertical)), settle_s=settle_s)
+        last = first + len(part)
+        lean = fates.max_rotation_rad / [min(setting.stand.slendernesses) for setting in part]
+        table[first:last] = np.column_stack([_worst(fates, seen_s), lean, fates.slip_path_m, fates.final_displacement_m])
+        first = last
+        if progress is not None:
+            progress(last, cells)
+    worst, lean, path, end = table.T.reshape(4, len(blocks), mu.size)
+    needed = [None if math.isinf(ratio) else friction_to_rock(block, ratio) for block in blocks]
+    return ModeMap(
+        np.array([math.hypot(block.width, block.height) for block in blocks]),
+        np.array([min(block.arms) / block.centre for block in blocks]),
+        mu, worst.astype(np.int64), lean, path, end, ratio, time,
+        np.array([math.nan if each is None else each for each in needed]),
+    )  # fmt: skip
+
+
+def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: Inset) -> list[Block]:
+    """Return one block per row."""
+    diagonals, alphas = (np.atleast_1d(np.asarray(values, dtype=np.float64)) for values in (sizes, slendernesses))
+    for value in diagonals:
+        checks.positive(noted("each size 2R"), float(value), "m")
+    for value in alphas:
+        checks.within(noted("each slenderness alpha"), float(value), f"(0, {math.pi / 2:.4g})", "rad")
+    if diagonals.size != alphas.size and 1 not in (diagonals.size, alphas.size):
+        raise ParameterError("a map has rows of many sizes or of many slendernesses, not of both: give one size, or one slenderness")
+    pairs = np.broadcast(diagonals, alphas)
+    return [Block(d * math.sin(a), d * math.cos(a)).worn(inset) for d, a in ((float(d), float(a)) for d, a in pairs)]
+
+
+def _parts(settings: Iterator[Setting]) -> Iterator[Sequence[Setting]]:
+    """Yield some settings at a time."""
+    part: list[Setting] = []
+    for setting in settings:
+        part.append(setting)
+        if len(part) == AT_ONCE:
+            yield part
+            part = []
+    if part:
+        yield part
+
+
+def _worst(fates: Fates, seen_s: float) -> IntArray:
+    """Return the worst mode of each run that one could see, as an index into ``GOVERNING``."""
+    _, slid, rocked, skidded, flew = (fates.time_in_mode_s[:, i] > 0.0 for i in range(len(KINDS)))
+    turned = rocked | skidded | flew
+    return np.select(
+        [fates.overturned, fates.longest_flight_s >= seen_s, turned & (fates.slip_path_m >= SEEN_M), turned, slid],
+        [GOVERNING.index(mode) for mode in (OVERTURNED, FLIGHT, SLIDE_ROCK, ROCK, SLIDE)],
+        GOVERNING.index(REST),
+    )
