@@ -40,7 +40,7 @@ def breaks(text: str, width: int) -> list[int]:
     found: list[int] = []
     start = end = 0
     for atom in _ATOM.finditer(text):
-        if end > start and columns(text[start : atom.end()].strip()) > width:
+        if end > start and columns(text[start : atom.end()].rstrip()) > width:
             start = end
             found.append(start)
         end = atom.end()

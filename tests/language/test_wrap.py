@@ -52,6 +52,13 @@ def test_the_console_breaks_japanese_between_letters():
     assert all(36 <= cell_len(found) <= 40 for found in lines[:-1]), lines
 
 
+@pytest.mark.parametrize("width", range(30, 60))
+def test_an_indented_sentence_loses_no_letter(width):
+    """Blanks at the head of a line take room, too: nothing is cut off at the edge of the terminal."""
+    told = shown(line("  " + TEXT * 2), width=width)
+    assert "".join(told.split()) == "".join((TEXT * 2).split())
+
+
 def test_data_neither_marks_up_nor_commands():
     """R15: square brackets of a station are printed as they are, emoji codes too; escapes are spelt out, in titles, headings, cells."""
     hostile = "[red]A[/red] :warning: \x1b[31m"

@@ -1,4 +1,4 @@
-"""How a map of modes is told: what happens to how many, the limits in closed form, a thinned map, and all cells as CSV."""
+"""How a map of modes is told: what happens to how many, the limits in closed form, a map in letters, and all cells as CSV."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 from seisblock.present.files import write_table
 from seisblock.present.text.respond import percent
-from seisblock.present.text.spectrum import MOST_ROWS, thinned
+from seisblock.present.text.spectrum import thinned
 from seisblock.present.text.tables import line, record_line, table
 from seisblock.records import Motion
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
@@ -18,13 +18,9 @@ from seisblock.words import listed, noted, strung, tell
 
 Maps = Sequence[tuple[Motion, ModeMap]]
 
-MOST_COLUMNS = 8
-
-CELLS = {
-    REST: "-", SLIDE: noted("slides"), ROCK: noted("rocks"), SLIDE_ROCK: noted("both"), FLIGHT: noted("flies"),
-    OVERTURNED: noted("falls"),
-}  # fmt: skip
-"""What a cell of the table says."""
+MOST_ROWS, MOST_COLUMNS = 20, 60
+LETTERS = {REST: ".", SLIDE: "s", ROCK: "r", SLIDE_ROCK: "b", FLIGHT: "f", OVERTURNED: "#"}
+"""What stands for a mode on the map."""
 
 SHARES = {
     REST: noted("{share} stand still"), SLIDE: noted("{share} slide"), ROCK: noted("{share} rock"),
@@ -33,7 +29,7 @@ SHARES = {
 
 
 def tables(maps: Maps, worn: str = "") -> Iterator[Any]:
-    """Yield, per component, what happens to how many, the limits of initiation, and a table of at most 12 bodies and 8 frictions."""
+    """Yield, per component, what happens to how many, the limits of initiation, and a map of at most 20 bodies and 60 frictions."""
     last = None
     for motion, found in maps:
         if motion.record is not None and motion.record is not last:
@@ -42,8 +38,11 @@ def tables(maps: Maps, worn: str = "") -> Iterator[Any]:
         yield line(verdict(motion, found), "bold")
         yield line("  " + limits(found))
         rows, columns = thinned(found.size_m.size, MOST_ROWS)[::-1], thinned(found.mu.size, MOST_COLUMNS)
-        cells = [[told(found, i), *(tell(CELLS[GOVERNING[found.governing[i, j]]]) for j in columns)] for i in rows]
-        yield table(_title(motion, found) + tell(worn), [f"{symbol(found)} \\ μ", *(f"{found.mu[j]:.3g}" for j in columns)], cells)
+        cells = [[told(found, i), "".join(LETTERS[GOVERNING[found.governing[i, j]]] for j in columns)] for i in rows]
+        first, last = f"{found.mu[0]:.3g}", f"{found.mu[-1]:.3g}"
+        across = f"{first}{last:>{max(columns.size - len(first), 1)}}" if columns.size > 1 else first
+        yield table(_title(motion, found) + tell(worn), [f"{symbol(found)} \\ μ", across], cells)
+        yield line(tell(". stands still, s slides, r rocks, b slides and rocks, f leaves the ground, # falls"), "dim")
         yield line()
 
 
@@ -83,11 +82,9 @@ def told(found: ModeMap, i: int) -> str:
 def _title(motion: Motion, found: ModeMap) -> str:
     """Return what the table shows."""
     if by_size(found):
-        text = noted(
-            "{name}: down 2R (m) of blocks with b/h {ratio:.3g}, across the friction; both: slides while it rocks; -: stands still"
-        )
+        text = noted("{name}: down 2R (m) of blocks with b/h {ratio:.3g}, across the friction")
     else:
-        text = noted("{name}: down b/h of blocks with 2R {size:.3g} m, across the friction; both: slides while it rocks; -: stands still")
+        text = noted("{name}: down b/h of blocks with 2R {size:.3g} m, across the friction")
     return tell(text, name=motion.name, size=found.size_m[0], ratio=found.b_over_h[0])
 
 
