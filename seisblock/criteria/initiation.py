@@ -24,7 +24,7 @@ REST, SLIDE, ROCK, SLIDE_ROCK = noted("rest"), noted("slide"), noted("rock"), no
 
 
 def loading(motion: Motion, *, vertical: bool = True, gravity: float = STANDARD_GRAVITY) -> tuple[float, float]:
-    """Return the largest A = abs(a)/(g + a_y) of a motion, 1, and its time, s ([Shenton1996]_).
+    """Return the largest A = abs(a)/(g + a_y) of a motion, 1, and its time, s (derived here, as in [Shenton1996]_).
 
     A block rests throughout if, and only if, neither mu nor b/h is below it: between samples both sides of the conditions of rest
     are straight lines. Infinite where the ground falls faster than gravity.
@@ -52,7 +52,7 @@ def loading(motion: Motion, *, vertical: bool = True, gravity: float = STANDARD_
 def friction_to_rock(block: Block, ratio: float) -> float | None:
     """Return the friction that a corner needs under a jump to A, 1, None where the block would not rock ([Shenton1996]_).
 
-    (A - h q)/(1 + b q) with q = (h A - b)/(k^2 + h^2 + b^2), for the nearer corner; it rises from b/h to (k^2 + b^2)/(b h).
+    Derived here: (A - h q)/(1 + b q) with q = (h A - b)/(k^2 + h^2 + b^2), for the nearer corner; it rises from b/h to (k^2 + b^2)/(b h).
 
     Parameters
     ----------

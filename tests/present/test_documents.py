@@ -59,11 +59,11 @@ EVERY = (
 
 PURE_NUMBERS = re.compile(
     r"""^(
-      .*_?(ratio|ratios|count|counts|rate|interval|probability|confidence|scale|limit|steps?|index|corners?|changes|stones|points|friction_demand|friction_needed_at_landing)
+      .*_?(ratio|ratios|count|counts|rate|interval|probability|confidence|scale|limit|steps?|index|corners?|changes|stones|points|friction_demand|friction_to_rock|friction_needed_at_landing)
     | (ratio|rate|probability|threshold_ratio|jma_intensity)_(interval|range|reinforced)
     | (first|last|nearest_flip|flips|first_fall|falls_above_first|largest_at_scale|factor|spread)  # factors on a record
     | (size|slenderness|amplitude|inset|share|(rocking_)?restitution(_[xy])?)  # shares, and ratios of velocities
-    | (alpha|beta|gamma|kappa|mu|mu_kinetic|damping|r|over_omega_v|height_over_width)
+    | (alpha|beta|gamma|kappa|mu|mu_kinetic|damping|r|over_omega_v|height_over_width|b_over_h)
     | (common_error|stone_error|bias)_ln_pga | frequency_error_ln_f | momentum_error | jma_intensity | share_on_corners | counts_by_kind
     | (falls|models|runs|samples|seed|impacts|reversals|flights|jams|ratios_lowered|initial|year)
     | (fallen|standing|stones_saved|overturned|moved|agreement|grid)

@@ -30,11 +30,11 @@ SHARES = {
 
 def tables(maps: Maps, worn: str = "") -> Iterator[Any]:
     """Yield, per component, what happens to how many, the limits of initiation, and a map of at most 20 bodies and 60 frictions."""
-    last = None
+    record = None
     for motion, found in maps:
-        if motion.record is not None and motion.record is not last:
-            last = motion.record
-            yield record_line(motion.record)
+        if motion.record is not None and motion.record is not record:
+            record = motion.record
+            yield record_line(record)
         yield line(verdict(motion, found), "bold")
         yield line("  " + limits(found))
         rows, columns = thinned(found.size_m.size, MOST_ROWS)[::-1], thinned(found.mu.size, MOST_COLUMNS)

@@ -42,9 +42,9 @@ class ModeMap:
     ----------
     size_m : (n,) array, m
         2R, the diagonal of each row's block as drawn.
-    b_over_h : (n,) array
+    b_over_h : (n,) array, 1
         Half of its base, less what is worn, over the height of its centre of gravity.
-    mu : (k,) array
+    mu : (k,) array, 1
     governing : (n, k) array of int
         The worst mode, an index into ``GOVERNING``: overturned; flight, where one lasted as long as a rise of half a millimetre takes;
         slide-rock, where it rocked and slid half a millimetre in all; rock; slide; rest, where nothing moved at all.
@@ -54,7 +54,7 @@ class ModeMap:
         Length slid, and where it ends, signed.
     loading, loading_time_s : float, 1 and s
         Largest abs(a)/(g + a_y) of the motion, and when: a block rests if neither mu nor b/h is below it.
-    friction_to_rock : (n,) array
+    friction_to_rock : (n,) array, 1
         Friction that a corner needs if that comes as a jump, NaN where the block would not rock.
     """
 
@@ -91,7 +91,7 @@ def mode_map(
 
     Parameters
     ----------
-    frictions : (k,) array
+    frictions : (k,) array, 1
         Static and kinetic friction, 0 or more.
     sizes, slendernesses : (n,) and (1,), (1,) and (n,), or (n,) and (n,) arrays, m and rad
         Diagonals 2R and alpha = atan(B/H) of the blocks as drawn.
