@@ -13,6 +13,7 @@ from seisblock.records import Motion
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome, solve_slide
 from seisblock.validation.case import CONVERGED, EXACT, Case
+from seisblock.validation.edge import edge
 
 G = 9.8
 """Gravity in the paper, m/s^2."""
@@ -69,24 +70,22 @@ def _event(number: int) -> Callable[[], float]:
 
 def _steepest_that_stops() -> float:
     """Return by bisection the static friction at which a slide, once started, just stops."""
-    low, high = math.tan(math.radians(TH)), 1.0
-    for _ in range(60):
-        mu = 0.5 * (low + high)
-        stops = solve_slide(sliding_base(mu, kappa=KAPPA, slope_deg=TH), constant(-9.0), gravity=G).outcome.final_slip_m is not None
-        low, high = (low, mu) if stops else (mu, high)
-    return high
+
+    def stops(mu: float) -> bool:
+        return solve_slide(sliding_base(mu, kappa=KAPPA, slope_deg=TH), constant(-9.0), gravity=G).outcome.final_slip_m is not None
+
+    return edge(stops, math.tan(math.radians(TH)), 1.0)
 
 
 def _least_that_holds(along: float, up: float, slope: float) -> float:
     """Return by bisection the static friction at which a triangular pulse just sets nothing in motion."""
     pulse = np.array([0.0, 1.0, 0.0])
     motion = Motion.from_arrays(along * G * pulse, 0.1, vertical=up * G * pulse)
-    low, high = math.tan(math.radians(slope)), 5.0
-    for _ in range(60):
-        mu = 0.5 * (low + high)
-        slips = solve_slide(sliding_base(mu, slope_deg=slope), motion, vertical=1.0, gravity=G).outcome.slips
-        low, high = (mu, high) if slips else (low, mu)
-    return high
+
+    def slips(mu: float) -> bool:
+        return solve_slide(sliding_base(mu, slope_deg=slope), motion, vertical=1.0, gravity=G).outcome.slips
+
+    return edge(slips, math.tan(math.radians(slope)), 5.0)
 
 
 def _equation_15(alpha: float, ratio: float, slope: float) -> float:

@@ -15,6 +15,7 @@ from seisblock.solvers.rock.solve import solve_rock
 from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.validation.case import CONVERGED, Case, same
+from seisblock.validation.edge import edge
 
 ALPHA, P, ETA = 0.25, 2.14, 0.9
 """The block of [Zhang2001]_: slenderness, rad, frequency parameter, rad/s, restitution."""
@@ -38,14 +39,7 @@ def simulated_threshold(w: float, halves: int, low: float, high: float) -> float
     block = from_slenderness(ALPHA, P)
     pulse = sine_pulse(1.0, w, halves)
 
-    def overturns(x: float) -> bool:
-        return rock_verdict(block, pulse, scale=x, restitution=ETA, linear=True).overturned
-
-    above = overturns(high)
-    while high - low > 1e-8:
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if overturns(middle) == above else (middle, high)
-    return 0.5 * (low + high)
+    return edge(lambda x: rock_verdict(block, pulse, scale=x, restitution=ETA, linear=True).overturned, low, high, within=1e-8)
 
 
 def free_period(share: float) -> float:
@@ -60,14 +54,7 @@ def rectangle_threshold(duration: float) -> float:
     """Return the X of a rectangular pulse at which the linear solver's verdict changes."""
     block = from_slenderness(ALPHA, P)
     pulse = Motion.from_arrays(STANDARD_GRAVITY * ALPHA * (np.arange(4003) <= 4000), duration / 4000.5)
-    low, high = 1.0, 10.0
-    while high - low > 1e-8:
-        middle = 0.5 * (low + high)
-        if rock_verdict(block, pulse, scale=middle, restitution=ETA, linear=True).overturned:
-            high = middle
-        else:
-            low = middle
-    return 0.5 * (low + high)
+    return edge(lambda x: rock_verdict(block, pulse, scale=x, restitution=ETA, linear=True).overturned, 1.0, 10.0, within=1e-8)
 
 
 def _ratio(acceleration: float) -> float:

@@ -132,6 +132,8 @@ def _momentum_by_quadrature(side: str) -> float:
 
 def _flight_to_floor(ground_case: int) -> float:
     """Return the flight time to floor level that belongs to a case's flight time to the ground, by eqs. (8a), (9b), (11)."""
+    from scipy.optimize import brentq
+
     _, side, drop, _, impact, landing = TABLE_1[ground_case][:6]
     block, ratio, restitution = _block(side), SPIN[side], _contact().restitution_y
     half = block.width / 2
@@ -141,16 +143,8 @@ def _flight_to_floor(ground_case: int) -> float:
         sunk = block.centroid_height * (math.cos(turned) - 1) + half * math.sin(turned)
         return restitution * omega * half * t - GRAVITY * t * t / 2 - sunk
 
-    omega = _bisect(lambda omega: corner(landing - impact, omega) + drop, 0.0, 3.0)
-    return _bisect(lambda t: -corner(t, omega), 1e-6, landing - impact)
-
-
-def _bisect(function, low: float, high: float) -> float:  # type: ignore[no-untyped-def]
-    """Return the root between two values at which a function rises through zero."""
-    for _ in range(80):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if function(middle) < 0.0 else (low, middle)
-    return 0.5 * (low + high)
+    omega = brentq(lambda omega: corner(landing - impact, omega) + drop, 0.0, 3.0, xtol=1e-15)
+    return float(brentq(corner, 1e-6, landing - impact, args=(omega,), xtol=1e-15))
 
 
 def _geometry() -> list[Case]:

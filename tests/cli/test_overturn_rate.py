@@ -16,7 +16,7 @@ from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.cli import main
 from seisblock.criteria.gravestones import DOWELLED, overturning_ratio
 from seisblock.readers import sample_path
-from seisblock.studies.cemetery.rate import clopper_pearson
+from seisblock.studies.intervals import clopper_pearson
 
 AOYAMA = read_cemetery("aoyama.csv")
 KEYS = {"pga_m_s2", "equivalent_frequency_hz", "threshold_ratio", "rate", "rate_interval"}

@@ -2,10 +2,11 @@
 
 import logging
 import warnings
+from dataclasses import replace
 
 import pytest
 from click.testing import CliRunner
-from matplotlib.font_manager import FontEntry, fontManager
+from matplotlib.font_manager import fontManager
 
 from seisblock.cli import main
 from seisblock.present.figures import canvas, fonts
@@ -31,7 +32,7 @@ def installed(monkeypatch):
 
 def entry(family, weight):
     """Return a font of a family and weight; its file is one that is there."""
-    return FontEntry(SERIF[0].fname, 0, family, "normal", "normal", weight, "normal", "scalable")
+    return replace(SERIF[0], name=family, weight=weight)
 
 
 def test_a_family_of_regular_weight_comes_before_a_better_one_that_is_bold(installed):

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
@@ -12,7 +13,7 @@ from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
-from seisblock.solvers.stack.outcome import CREATED_AT_MOST
+from seisblock.solvers.stack.outcome import CREATED_AT_MOST, Track, inverse, rotated, tilt_of, turn_of
 from seisblock.solvers.stack.solve import solve_stack
 from seisblock.units import STANDARD_GRAVITY as G
 
@@ -253,3 +254,18 @@ def test_stones_that_fall_on_each_other_create_no_energy():
             outcome = solve_stack(load_pile(name), motion).outcome
             assert outcome.created_j < 1e-4 * outcome.lost_j
             assert outcome.overturned_any
+
+
+def test_turns_of_stones_are_those_of_scipy():
+    """Turned vectors, tilt and turn about the vertical, from quaternions, against rotation matrices."""
+    quaternions = np.random.default_rng(3).normal(size=(50, 4))
+    quaternions /= np.linalg.norm(quaternions, axis=1)[:, None]
+    matrices = Rotation.from_quat(np.roll(quaternions, -1, axis=1)).as_matrix()
+    vectors = np.random.default_rng(4).normal(size=(50, 3))
+    np.testing.assert_allclose(rotated(quaternions, vectors), np.einsum("nij,nj->ni", matrices, vectors), atol=1e-14)
+    np.testing.assert_allclose(rotated(inverse(quaternions), rotated(quaternions, vectors)), vectors, atol=1e-14)
+    track = Track(np.arange(50.0), np.zeros((50, 1, 3)), quaternions[:, None, :])
+    np.testing.assert_allclose(tilt_of(track, 0), np.arccos(matrices[:, 2, 2]), atol=1e-12)
+    # about the vertical alone, whatever the tilt: the turn that brings the stone nearest to where it is
+    nearest = np.arctan2(matrices[:, 1, 0] - matrices[:, 0, 1], matrices[:, 0, 0] + matrices[:, 1, 1])
+    np.testing.assert_allclose(np.exp(1j * turn_of(track, 0)), np.exp(1j * nearest), atol=1e-12)

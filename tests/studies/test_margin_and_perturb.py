@@ -12,7 +12,7 @@ from seisblock.records import Motion
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.studies.rocking.margin import find_margin, flagged, flips_nearby
-from seisblock.studies.rocking.perturb import Spread, perturb, wilson_interval
+from seisblock.studies.rocking.perturb import Spread, perturb
 from seisblock.studies.runs import CHUNK, in_threads
 from seisblock.units import STANDARD_GRAVITY as G
 
@@ -143,12 +143,6 @@ def test_resized_block_keeps_its_shape():
     assert double.frequency_parameter() == pytest.approx(block.frequency_parameter() / math.sqrt(2))
     wider = resized(block, slenderness=1.1)
     assert math.tan(wider.slenderness) == pytest.approx(1.1 * math.tan(block.slenderness))
-
-
-@pytest.mark.parametrize(("count", "runs", "low", "high"), [(0, 10, 0.0, 0.2775), (5, 10, 0.2366, 0.7634), (10, 10, 0.7225, 1.0)])
-def test_wilson_interval(count, runs, low, high):
-    """The printed values of Wilson's interval at 95 %."""
-    assert wilson_interval(count, runs) == pytest.approx((low, high), abs=5e-5)
 
 
 @pytest.mark.parametrize("spread", [{"size": 1.0}, {"amplitude": -0.1}, {"slenderness": math.nan}, {"azimuth_deg": 200.0}, {"inset": 0.5}])

@@ -15,7 +15,7 @@ from seisblock.bodies.inset import SHARP
 from seisblock.criteria.gravestones import DOWELLED, PLAIN, overturning_ratio
 from seisblock.errors import ParameterError
 from seisblock.studies.cemetery.limits import rigid_limits
-from seisblock.studies.cemetery.rate import clopper_pearson, overturning_rate, overturns, rate_curve, remarks, stones_saved, threshold_ratio
+from seisblock.studies.cemetery.rate import overturning_rate, overturns, rate_curve, remarks, stones_saved, threshold_ratio
 
 AOYAMA = read_cemetery("aoyama.csv")
 
@@ -55,17 +55,6 @@ def test_stones_of_both_kinds_are_judged_each_by_its_own_criterion():
     assert overturns(pair, between, 0.0).tolist() == [True, False, False]
 
 
-def test_the_interval_is_clopper_and_pearsons():
-    """Each end is where the binomial tail holds half of what is left out; none and all have one-sided closed forms."""
-    from scipy.stats import binom
-
-    low, high = clopper_pearson(35, 100)
-    assert binom.sf(34, 100, low) == pytest.approx(0.025, rel=1e-9)
-    assert binom.cdf(35, 100, high) == pytest.approx(0.025, rel=1e-9)
-    assert clopper_pearson(0, 50) == (0.0, pytest.approx(1.0 - 0.025**0.02))
-    assert clopper_pearson(50, 50) == (pytest.approx(0.025**0.02), 1.0)
-
-
 def test_curves_agree_with_single_rates():
     """Each point of a curve is the rate at its PGA and frequency."""
     for point in rate_curve(AOYAMA, [1.0, 4.0, 7.25, 13.0], [0.5, 2.75]):
@@ -99,10 +88,3 @@ def test_what_the_user_should_know_is_said():
     assert "gal is meant" in remarks(AOYAMA, 0.055, 2.0)[0]
     assert "4.5 Hz" in remarks(AOYAMA, 5.0, 4.5)[0]
     assert remarks(AOYAMA, 5.0, 2.0) == ()
-
-
-@pytest.mark.parametrize(("fallen", "stones", "level"), [(3, 2, 0.9), (-1, 2, 0.9), (0, 0, 0.9), (1, 2, 1.0)])
-def test_impossible_counts_are_refused(fallen, stones, level):
-    """Counts that make no rate, and a level outside (0, 1), are one sentence."""
-    with pytest.raises(ParameterError, match=r"a rate needs|the confidence must"):
-        clopper_pearson(fallen, stones, level)

@@ -126,7 +126,7 @@ def rotated(q: FloatArray, v: FloatArray) -> FloatArray:
     return v + 2.0 * np.cross(u, np.cross(u, v) + w * v)
 
 
-def _inverse(q: FloatArray) -> FloatArray:
+def inverse(q: FloatArray) -> FloatArray:
     """Return the inverse turns."""
     return q * np.array([1.0, -1.0, -1.0, -1.0])
 
@@ -142,17 +142,17 @@ def _slip(pile: PileArrays, track: Track, i: int) -> FloatArray:
     foot = track.centres[:, i] + rotated(track.quaternions[:, i], np.array([0.0, 0.0, -pile.boxes[i, 2]]))
     below = _under(pile, i)
     if below >= 0:
-        foot = rotated(_inverse(track.quaternions[:, below]), foot - track.centres[:, below])
+        foot = rotated(inverse(track.quaternions[:, below]), foot - track.centres[:, below])
     return foot - foot[0]
 
 
-def _tilt(track: Track, i: int) -> FloatArray:
+def tilt_of(track: Track, i: int) -> FloatArray:
     """Return the angle between a stone's axis and the vertical, (rows,), rad."""
     q = track.quaternions[:, i]
     return 2.0 * np.arctan2(np.hypot(q[:, 1], q[:, 2]), np.hypot(q[:, 0], q[:, 3]))
 
 
-def _turn(track: Track, i: int) -> FloatArray:
+def turn_of(track: Track, i: int) -> FloatArray:
     """Return a stone's turn about the vertical, (rows,), rad."""
     q = track.quaternions[:, i]
     return 2.0 * np.arctan2(q[:, 3], q[:, 0]) * np.where(np.hypot(q[:, 0], q[:, 3]) > 0.0, 1.0, np.nan)
@@ -164,7 +164,7 @@ def channels(pile: PileArrays, track: Track) -> tuple[Channel, ...]:
     for i, name in enumerate(pile.body.names):
         slip = _slip(pile, track, i)
         made += [
-            Channel(f"{name}_tilt", "rad", _tilt(track, i), "θ"),
+            Channel(f"{name}_tilt", "rad", tilt_of(track, i), "θ"),
             Channel(f"{name}_slip", "m", np.hypot(slip[:, 0], slip[:, 1]), "s"),
             *(Channel(f"{name}_{axis}", "m", track.centres[:, i, k], axis) for k, axis in enumerate("xyz")),
             *(Channel(f"{name}_q{axis}", "1", track.quaternions[:, i, k], f"q{axis}") for k, axis in enumerate("wxyz")),
@@ -218,7 +218,7 @@ def stack_outcome(
 
 def _fate(pile: PileArrays, track: Track, i: int, kept: PileKept, start: float, ended: float) -> StoneFate:
     """Return what became of one stone."""
-    slip, turn = _slip(pile, track, i)[-1], _turn(track, i)
+    slip, turn = _slip(pile, track, i)[-1], turn_of(track, i)
     b = int(pile.owner[i])
     fates = kept.fates
     turned = float(turn[-1] - turn[0])
@@ -233,7 +233,7 @@ def _fate(pile: PileArrays, track: Track, i: int, kept: PileKept, start: float, 
         name=pile.body.names[i],
         state=state,
         max_tilt_rad=float(math.acos(min(1.0, max(-1.0, fates[b, LEAST_COSINE])))),
-        residual_tilt_rad=float(_tilt(track, i)[-1]),
+        residual_tilt_rad=float(tilt_of(track, i)[-1]),
         residual_slip_m=distance,
         residual_slip_x_m=float(slip[0]),
         residual_slip_y_m=float(slip[1]),

@@ -16,8 +16,9 @@ from seisblock.measures import FilterRange
 from seisblock.references import papers
 from seisblock.studies.agreement import RateOpinion, rates_by_model
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
-from seisblock.studies.cemetery.rate import CONFIDENCE, CURVE_PGA, FREQUENCIES, CurvePoint, rate_curve, rate_of, remarks, threshold_ratio
+from seisblock.studies.cemetery.rate import CURVE_PGA, FREQUENCIES, CurvePoint, rate_curve, rate_of, remarks, threshold_ratio
 from seisblock.studies.cemetery.shaking import Shaking
+from seisblock.studies.intervals import CONFIDENCE
 from seisblock.typing import BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted

@@ -10,13 +10,10 @@ import numpy as np
 from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.criteria.gravestones import outside_fit
-from seisblock.errors import ParameterError
 from seisblock.studies.cemetery.limits import Limits, fitted_limits
+from seisblock.studies.intervals import CONFIDENCE, clopper_pearson
 from seisblock.typing import ArrayLike, BoolArray
 from seisblock.units import GAL
-
-CONFIDENCE = 0.95
-"""Default level of the interval of a rate."""
 
 FREQUENCIES = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
 """Frequencies of the curves of [Furukawa2009]_ figs. 16, 17, Hz."""
@@ -142,38 +139,6 @@ def rate_of(falls: BoolArray, confidence: float = CONFIDENCE) -> Rate:
     """
     fallen, stones = int(np.count_nonzero(falls)), int(falls.size)
     return Rate(fallen / stones, clopper_pearson(fallen, stones, confidence), fallen, stones, confidence)
-
-
-def clopper_pearson(fallen: int, stones: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
-    """Return the exact binomial interval of a rate.
-
-    Parameters
-    ----------
-    fallen, stones : int
-        0 <= fallen <= stones, at least one stone.
-    confidence : float, 1
-        Level, between 0 and 1.
-
-    Raises
-    ------
-    ParameterError
-        If the counts or the level make no sense.
-
-    Examples
-    --------
-    >>> low, high = clopper_pearson(35, 100)
-    >>> round(low, 4), round(high, 4)
-    (0.2573, 0.4518)
-    """
-    from scipy.special import betaincinv
-
-    if not (0 <= fallen <= stones and stones > 0):
-        raise ParameterError(f"a rate needs 0 <= fallen <= stones and at least one stone, found {fallen} of {stones}")
-    checks.within("the confidence", confidence, "(0, 1)")
-    tail = (1.0 - confidence) / 2.0
-    low = float(betaincinv(fallen, stones - fallen + 1, tail)) if fallen else 0.0
-    high = float(betaincinv(fallen + 1, stones - fallen, 1.0 - tail)) if fallen < stones else 1.0
-    return low, high
 
 
 def rate_curve(

@@ -99,13 +99,13 @@ def _quantiles(grid: FloatArray, value: FloatArray, level: float) -> tuple[float
 
 def _agreement(values: FloatArray, grid: FloatArray) -> float:
     """Return the probability of a likelihood ratio as large as that of one shaking against one for each (chi-squared)."""
-    from scipy.stats import chi2
+    from scipy.special import chdtrc
 
     if values.shape[0] == 1:
         return 1.0
     with np.errstate(divide="ignore"):
         together = np.log(values).sum(axis=0)
-    return float(chi2.sf(-2.0 * float(together.max()), values.shape[0] - 1))
+    return float(chdtrc(values.shape[0] - 1, -2.0 * float(together.max())))
 
 
 def _meet(first: Interval, second: Interval) -> bool:

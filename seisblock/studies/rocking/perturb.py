@@ -15,11 +15,10 @@ from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.records.motion import ACROSS
 from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
+from seisblock.studies.intervals import wilson_interval
 from seisblock.studies.rocking.verdicts import all_verdicts
 from seisblock.typing import FloatArray, Progress
 from seisblock.words import noted
-
-CONFIDENCE = 0.95
 
 OWN_SCATTER = noted("this model's own scatter")
 """What a share of perturbed runs, and its interval, are of."""
@@ -138,14 +137,3 @@ def perturb(
     found = all_verdicts([one for one, _ in versions], motion, [gains for _, gains in versions], progress=progress)
     count = int(found.overturned.sum())
     return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)
-
-
-def wilson_interval(count: int, runs: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
-    """Return Wilson's score interval of a share."""
-    from scipy.special import ndtri
-
-    z = float(ndtri(0.5 + confidence / 2))
-    share = count / runs
-    middle = (share + z * z / (2 * runs)) / (1 + z * z / runs)
-    half = z / (1 + z * z / runs) * math.sqrt(share * (1 - share) / runs + z * z / (4 * runs * runs))
-    return max(middle - half, 0.0) if count else 0.0, min(middle + half, 1.0) if count < runs else 1.0

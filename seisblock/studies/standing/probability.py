@@ -20,13 +20,12 @@ from seisblock.records.motion import ACROSS
 from seisblock.solvers.respond.many import respond_many
 from seisblock.solvers.respond.setting import Setting
 from seisblock.solvers.respond.solve import make_setting
-from seisblock.studies.cemetery.rate import clopper_pearson
+from seisblock.studies.intervals import clopper_pearson
 from seisblock.typing import FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 
 RUNS = 200
 MOVED_M = 0.01
-CONFIDENCE = 0.95
 QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 ROUGHEST = 0.95
 """Restitutions of versions stay below this: hops near 1 have no end."""
@@ -164,7 +163,7 @@ def respond_probability(
         runs,
         count / runs,
         float(np.mean(falls | (np.abs(shift) > moved_m))),
-        clopper_pearson(count, runs, CONFIDENCE),
+        clopper_pearson(count, runs),
         moved_m,
         {f"q{round(100 * share):02d}": float(value) for share, value in zip(QUANTILES, standing, strict=False)},
         versions,

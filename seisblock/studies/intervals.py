@@ -1,0 +1,69 @@
+"""Intervals of a share, from how often something happened in so many runs.
+
+The quantiles are those of :mod:`scipy.special`: `scipy.stats`, which holds both intervals, takes half a second to load and a thousand times
+as long for each.
+"""
+
+from __future__ import annotations
+
+import math
+
+from seisblock import checks
+from seisblock.errors import ParameterError
+
+CONFIDENCE = 0.95
+"""Level of an interval unless another is asked for."""
+
+
+def clopper_pearson(count: int, runs: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
+    """Return the exact binomial interval of a share.
+
+    Parameters
+    ----------
+    count, runs : int
+        0 <= count <= runs, at least one run.
+    confidence : float, 1
+        Level, between 0 and 1.
+
+    Raises
+    ------
+    ParameterError
+        If the counts or the level make no sense.
+
+    Examples
+    --------
+    >>> low, high = clopper_pearson(35, 100)
+    >>> round(low, 4), round(high, 4)
+    (0.2573, 0.4518)
+    """
+    from scipy.special import betaincinv
+
+    tail = (1.0 - _checked(count, runs, confidence)) / 2.0
+    low = float(betaincinv(count, runs - count + 1, tail)) if count else 0.0
+    high = float(betaincinv(count + 1, runs - count, 1.0 - tail)) if count < runs else 1.0
+    return low, high
+
+
+def wilson_interval(count: int, runs: int, confidence: float = CONFIDENCE) -> tuple[float, float]:
+    """Return Wilson's score interval of a share; parameters and errors as for :func:`clopper_pearson`.
+
+    Examples
+    --------
+    >>> low, high = wilson_interval(35, 100)
+    >>> round(low, 4), round(high, 4)
+    (0.2636, 0.4475)
+    """
+    from scipy.special import ndtri
+
+    z = float(ndtri(0.5 + _checked(count, runs, confidence) / 2))
+    share = count / runs
+    middle = (share + z * z / (2 * runs)) / (1 + z * z / runs)
+    half = z / (1 + z * z / runs) * math.sqrt(share * (1 - share) / runs + z * z / (4 * runs * runs))
+    return max(middle - half, 0.0) if count else 0.0, min(middle + half, 1.0) if count < runs else 1.0
+
+
+def _checked(count: int, runs: int, confidence: float) -> float:
+    """Return the level, or refuse counts and levels that make no sense."""
+    if not (0 <= count <= runs and runs > 0):
+        raise ParameterError("a share needs 0 <= count <= runs and at least one run, found {count} of {runs}", count=count, runs=runs)
+    return checks.within("the confidence", confidence, "(0, 1)")
