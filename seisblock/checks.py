@@ -7,7 +7,7 @@ float, or refuses it. Nothing is worded before it is refused: bodies are built i
 from __future__ import annotations
 
 import math
-from numbers import Real
+from numbers import Integral, Real
 from typing import Any
 
 from seisblock.errors import InputError, ParameterError
@@ -15,6 +15,12 @@ from seisblock.words import said
 
 Refusal = type[InputError]
 """The class of error that says so."""
+
+SMALLEST, LARGEST = 1e-100, 1e100
+"""Sizes between which squares and cubes stay in the range of numbers; nothing on earth is beyond."""
+
+LONGEST_SHOWN = 200
+"""How much is shown of what is no number."""
 
 
 def finite(what: str, value: Any, /, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
@@ -44,7 +50,7 @@ def finite(what: str, value: Any, /, unit: str = "", *, error: Refusal = Paramet
     number = _number(what, value, error, names)
     if not math.isfinite(number):
         raise error("{what} must be a finite number, found {found}", what=said(what, **names), found=_found(number, unit))
-    return number
+    return _in_range(what, number, unit, error, names)
 
 
 def positive(what: str, value: Any, /, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
@@ -59,7 +65,7 @@ def positive(what: str, value: Any, /, unit: str = "", *, error: Refusal = Param
     number = _number(what, value, error, names)
     if not 0.0 < number < math.inf:
         raise error("{what} must be positive, found {found}", what=said(what, **names), found=_found(number, unit))
-    return number
+    return _in_range(what, number, unit, error, names, least=SMALLEST)
 
 
 def not_negative(what: str, value: Any, /, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
@@ -67,7 +73,7 @@ def not_negative(what: str, value: Any, /, unit: str = "", *, error: Refusal = P
     number = _number(what, value, error, names)
     if not 0.0 <= number < math.inf:
         raise error("{what} must be zero or more, found {found}", what=said(what, **names), found=_found(number, unit))
-    return number
+    return _in_range(what, number, unit, error, names)
 
 
 def within(what: str, value: Any, /, interval: str, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
@@ -106,13 +112,39 @@ def gravity(value: Any) -> float:
     return positive("gravity", value, "m/s^2")
 
 
+def seed(value: Any) -> int:
+    """Return a seed of dice: a whole number, zero or more.
+
+    Examples
+    --------
+    >>> seed(-1)
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: the seed must be a whole number, zero or more, found -1
+    """
+    if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < 0:
+        raise ParameterError("the seed must be a whole number, zero or more, found {found}", found=repr(value)[:LONGEST_SHOWN])
+    return int(value)
+
+
 def _number(what: str, value: Any, error: Refusal, names: dict[str, Any]) -> float:
     """Return what is a number as one."""
     if isinstance(value, float):
         return value
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise error("{what} must be a number, found {value}", what=said(what, **names), value=repr(value))
-    return float(value)
+        raise error("{what} must be a number, found {value}", what=said(what, **names), value=repr(value)[:LONGEST_SHOWN])
+    try:
+        return float(value)
+    except OverflowError:  # a whole number of more than 308 digits
+        return math.inf if value > 0 else -math.inf  # type: ignore[operator]
+
+
+def _in_range(what: str, number: float, unit: str, error: Refusal, names: dict[str, Any], *, least: float = 0.0) -> float:
+    """Return a number of which squares and cubes can be taken."""
+    if abs(number) > LARGEST or 0.0 < number < least:
+        what = said(what, **names)
+        text = said("{what} lies outside all that can be computed with, found {found}", what=what, found=_found(number, unit))
+        raise error(text)
+    return number
 
 
 def _found(number: float, unit: str) -> str:

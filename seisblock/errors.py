@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from seisblock.words import Said, said
+from seisblock.words import Said, on_a_screen, said
 
 
 class SeisblockError(Exception):
@@ -22,7 +22,7 @@ class SeisblockError(Exception):
 
     def __init__(self, message: str, /, **values: Any) -> None:
         self.said = message if isinstance(message, Said) and not values else said(message, **values)
-        super().__init__(self.said)
+        super().__init__(on_a_screen(self.said))
 
 
 class InputError(SeisblockError, ValueError):

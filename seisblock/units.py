@@ -6,6 +6,7 @@ import math
 import re
 from itertools import pairwise
 
+from seisblock import checks
 from seisblock.errors import ParameterError, UnitError
 
 STANDARD_GRAVITY = 9.80665
@@ -160,8 +161,8 @@ def _is_bare(text: str) -> bool:
 
 def _parse(text: str | float, table: dict[str, float], default: str, what: str) -> float:
     """Read a number with an optional unit from `table`."""
-    if isinstance(text, (int, float)):
-        value, unit = float(text), ""
+    if not isinstance(text, str):
+        value, unit = checks.finite(what, text), ""
     else:
         match = _NUMBER.match(text)
         if match is None:

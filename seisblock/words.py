@@ -33,6 +33,9 @@ _COMMAS = {"en": ", ", "ja": "、"}
 _BLANKS = {"en": " ", "ja": ""}
 """What stands between two sentences."""
 
+MOST_SHOWN = 1200
+"""Longest message, in letters."""
+
 _asked: ContextVar[str | None] = ContextVar("language asked for", default=None)
 
 
@@ -156,6 +159,16 @@ def plain_text(text: str) -> str:
     'K-NET\\x1b[31m'
     """
     return text if text.isprintable() else "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)
+
+
+def on_a_screen(text: str) -> str:
+    """Return a message that fits a screen: the middle of one that quotes half a file is left out.
+
+    Parameters
+    ----------
+    text : str
+    """
+    return text if len(text) <= MOST_SHOWN else f"{text[: MOST_SHOWN - 200]} ... {text[-150:]}"
 
 
 def _told(text: Said, spoken: str) -> str:

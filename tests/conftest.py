@@ -22,6 +22,12 @@ if os.environ.get("CI"):
     hypothesis.settings.load_profile("ci")
 
 
+def pytest_addoption(parser):
+    """Say how long the fuzz shall be: a moment in continuous integration, hours at a developer's desk."""
+    parser.addoption("--fuzz", type=int, default=1, help="how many times its usual length the fuzz is (default 1: about a minute in all)")
+    parser.addoption("--fuzz-from", type=int, default=0, help="the seed of its first accident (default 0)")
+
+
 @functools.cache
 def cases_by_key() -> dict[str, list[Case]]:
     """Return the cases of the papers by their keys: those themselves, not what a test makes of them."""

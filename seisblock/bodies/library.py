@@ -9,16 +9,15 @@ from typing import Any
 from seisblock.bodies.block import Block
 from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.bodies.pile.toml import load_pile
-from seisblock.bodies.toml import length, read_table
+from seisblock.bodies.toml import length, mass, number, read_table, refuse_unknown, shown, source_of, text
 from seisblock.bodies.two_layer import contact, two_layer_block
-from seisblock.errors import BodyError, ParameterError
-from seisblock.units import parse_length, parse_mass
+from seisblock.errors import BodyError
 from seisblock.words import said
 
 _LENGTHS = ("width", "height", "depth", "centroid_height", "centroid_offset")
 _NUMBERS = ("density", "centroid_inertia")
 _FRICTION = ("mu", "mu_kinetic")
-_KEYS = {"kind", "source", "name", "mass", "restitution", "inset", *_FRICTION, *_LENGTHS, *_NUMBERS}
+_KEYS = {"kind", "name", "mass", "restitution", "inset", *_FRICTION, *_LENGTHS, *_NUMBERS}
 
 
 def load_block(name: str | Path, *, side: str = "short") -> Block:
@@ -48,33 +47,28 @@ def load_block(name: str | Path, *, side: str = "short") -> Block:
 
 def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
     """Return the block that a TOML table describes; see :func:`load_block`."""
-    where = table.get("source", "body")
+    where = source_of(table)
     kind = table.get("kind")
     if kind == "two-layer":
         return two_layer_block(table, side).as_block()
     if kind == "pile":
         return load_pile(where).as_block()
     if kind != "block":
-        raise BodyError(f'{where}: expected kind = "block", "two-layer" or "pile", found {kind!r}')
-    unknown = set(table) - _KEYS
-    if unknown:
-        raise BodyError(f"{where}: unknown entries {', '.join(sorted(unknown))}; a block has {', '.join(sorted(_KEYS - {'source'}))}")
+        raise BodyError(f'{where}: expected kind = "block", "two-layer" or "pile", found {shown(kind)}')
+    refuse_unknown(table, _KEYS)
     given: dict[str, Any] = {"width": length(table, "width"), "height": length(table, "height")}
-    for key in _LENGTHS[2:]:
-        if key in table:
-            given[key] = parse_length(table[key], what=f"{where}: {key}")
+    given |= {key: length(table, key) for key in _LENGTHS[2:] if key in table}
+    given |= {key: number(table, key) for key in _NUMBERS if key in table}
     if "mass" in table:
-        given["mass"] = parse_mass(table["mass"], what=f"{where}: mass")
-    for key in _NUMBERS:
-        if key in table:
-            given[key] = number(table[key], f"{where}: {key}")
-    block = Block(**given, name=str(table.get("name", where)))
-    return block.worn(_inset(table["inset"], f"{where}: inset")) if "inset" in table else block
+        given["mass"] = mass(table, "mass")
+    block = Block(**given, name=text(table, "name", where))
+    return block.worn(_inset(table)) if "inset" in table else block
 
 
-def _inset(value: Any, what: str) -> Inset:
+def _inset(table: Mapping[str, Any]) -> Inset:
     """Return the inset of a table: a text with a length or a share, or a share of the width per side."""
-    return parse_inset(value) if isinstance(value, str) else Inset(share=number(value, what))
+    value = table["inset"]
+    return parse_inset(value) if isinstance(value, str) else Inset(share=number(table, "inset") or 0.0)
 
 
 def edges(block: Block) -> str:
@@ -90,19 +84,11 @@ def edges(block: Block) -> str:
 
 def restitution_of(table: Mapping[str, Any], name: str) -> float | None:
     """Return the restitution that a body's file brings along, or None."""
-    own = table.get("restitution")
-    return None if own is None else number(own, f"{name}: restitution")
+    return number({**table, "source": name}, "restitution")
 
 
 def friction_of(table: Mapping[str, Any], name: str) -> tuple[float | None, float | None]:
     """Return the static and the kinetic friction that a body's file brings along, None where it is silent."""
     found: Mapping[str, Any] = contact(table) if table.get("kind") == "two-layer" else table
-    mu, kinetic = (None if found.get(key) is None else number(found[key], f"{name}: {key}") for key in _FRICTION)
+    mu, kinetic = (number({**found, "source": name}, key) for key in _FRICTION)
     return mu, kinetic
-
-
-def number(value: Any, what: str) -> float:
-    """Return a number of a table."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ParameterError(f"{what} must be a number, found {value!r}")
-    return float(value)

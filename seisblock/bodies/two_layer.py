@@ -10,7 +10,7 @@ from typing import Any
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.toml import length, lengths, masses, of_kind, read_table
+from seisblock.bodies.toml import length, lengths, masses, number, of_kind, read_table, refuse_unknown, subtable, text
 from seisblock.errors import BodyError, ParameterError
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import said
@@ -23,6 +23,7 @@ _POSITIVE = {
     "upper_mass": (said("upper mass"), "kg"),
     "lower_mass": (said("lower mass"), "kg"),
 }
+_CONTACT = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
 
 
 @dataclass(frozen=True)
@@ -191,7 +192,7 @@ def two_layer_block(table: Mapping[str, Any], side: str = "short") -> TwoLayerBl
     of_kind(table, "two-layer")
     upper_height, lower_height = lengths(table, "heights", 2)
     upper_mass, lower_mass = masses(table, "masses", 2)
-    name = str(table.get("name", table.get("source", "two-layer block")))
+    name = text(table, "name", str(table.get("source", "two-layer block")))
     if "width" in table:
         width, depth = length(table, "width"), length(table, "depth")
     else:
@@ -205,11 +206,9 @@ def two_layer_block(table: Mapping[str, Any], side: str = "short") -> TwoLayerBl
 
 def contact(table: Mapping[str, Any]) -> Mapping[str, float]:
     """Return the friction and restitution that a preset brings along, empty when it brings none."""
-    values = table.get("contact", {})
-    unknown = set(values) - {"mu", "mu_kinetic", "restitution_x", "restitution_y"}
-    if unknown:
-        raise BodyError(f"{table.get('source', 'body')}: [contact] has unknown entries {', '.join(sorted(unknown))}")
-    return {key: float(value) for key, value in values.items()}
+    values = subtable(table, "contact")
+    refuse_unknown(values, _CONTACT)
+    return {key: value for key in _CONTACT if (value := number(values, key)) is not None}
 
 
 def load_two_layer(name: str | Path, *, side: str = "short") -> TwoLayerBlock:

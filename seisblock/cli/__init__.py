@@ -20,10 +20,10 @@ from seisblock.cli.command import lang_option, plainly
 from seisblock.cli.help import Context, rows_of
 from seisblock.cli.language import answering
 from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, printable
-from seisblock.cli.talk import forget, on_a_screen, say
+from seisblock.cli.talk import forget, say
 from seisblock.errors import OutputError, SeisblockError
 from seisblock.ledger import ledger
-from seisblock.words import noted, plain_text, said, tell
+from seisblock.words import noted, on_a_screen, plain_text, said, tell
 
 COMMANDS: dict[str, tuple[str, str]] = {
     "measure": ("seisblock.cli.measure:measure", "What a record is: peaks, velocities, frequencies, durations, intensities."),

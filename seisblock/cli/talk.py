@@ -10,9 +10,6 @@ import click
 
 from seisblock.words import plain_text, said, tell
 
-MOST_SHOWN = 1200
-"""Longest message, in letters."""
-
 _quiet = False
 _warned: set[str] = set()
 """What was warned of in this run: nothing is warned of twice."""
@@ -52,11 +49,6 @@ def warn(text: str, /, **values: Any) -> None:
 def insist(text: str, /, **values: Any) -> None:
     """Say one line although the program was asked to keep silent."""
     click.secho(plain_text(tell("warning: {message}", message=said(text, **values) if values else text)), fg="yellow", err=True)
-
-
-def on_a_screen(text: str) -> str:
-    """Return a message that fits a screen: the middle of one that quotes half a file is left out."""
-    return text if len(text) <= MOST_SHOWN else f"{text[: MOST_SHOWN - 200]} ... {text[-150:]}"
 
 
 def forget() -> None:

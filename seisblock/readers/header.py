@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime, timedelta
+from math import isfinite
 
 JST = timedelta(hours=9)
 """Japan Standard Time ahead of UTC."""
 
+LARGEST_COUNT = 2.0**53
+"""No instrument counts further, and no file holds more samples."""
+
 
 def number(text: str) -> float | None:
-    """Return a number, or None when the text is none."""
+    """Return a finite number, or None when the text is none."""
     try:
-        return float(text)
+        value = float(text)
     except ValueError:
         return None
+    return value if isfinite(value) else None
 
 
 def time_in_japan(text: str) -> datetime | None:

@@ -15,8 +15,10 @@ if TYPE_CHECKING:
 KINDS = {
     "header": "the header contradicts the samples, or cannot be read where it would judge them",
     "count": "the number of samples is not the one that the file states or implies",
+    "clock": "the times in the file are not those of an even clock",
     "cut": "the end of the file looks cut",
     "line": "a line is empty where each stands for a sample",
+    "point": "a number lacks the decimal point that all others of its column have",
     "spike": "a sample stands apart from its neighbours",
     "jump": "a step between two samples stands apart from those around it",
     "held": "a value is held in the midst of shaking, as where a gap was filled",

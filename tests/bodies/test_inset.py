@@ -75,7 +75,7 @@ def test_gravestones_are_worn_and_other_bodies_are_not():
     table = {"kind": "block", "width": 0.4, "height": 1.0}
     assert block_of(table).inset == 0.0
     assert [block_of({**table, "inset": given}).inset for given in (0.05, "2cm", "5%")] == pytest.approx([0.02, 0.02, 0.02])
-    with pytest.raises(ParameterError, match="inset must be a number"):
+    with pytest.raises(BodyError, match="inset must be a number"):
         block_of({**table, "inset": [1]})
 
 

@@ -7,7 +7,7 @@ import pytest
 from seisblock.bodies.block import Block, resized
 from seisblock.bodies.library import block_of, load_block
 from seisblock.cli.bodies.block import choose_block
-from seisblock.errors import BodyError, InputError, ParameterError
+from seisblock.errors import BodyError, InputError
 from seisblock.present.documents.bodies import block_entry
 
 
@@ -67,7 +67,7 @@ def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
     assert choose_block({"block": str(path)}).restitution == 0.8
     assert choose_block({"block": str(path), "restitution": 0.6}).restitution == 0.6
     path.write_text('kind = "block"\nwidth = 0.2\nheight = 1.0\nrestitution = "most"\n')
-    with pytest.raises(ParameterError, match="restitution must be a number"):
+    with pytest.raises(BodyError, match="restitution must be a number"):
         choose_block({"block": str(path)})
 
 

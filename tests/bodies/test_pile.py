@@ -92,10 +92,10 @@ def test_impossible_piles_are_refused(make, message):
     [
         ("kind = 'pile'", "at least one"),
         ("kind = 'block'", "expected kind"),
-        ("kind = 'pile'\ncolour = 1\n[[stone]]\nname = 'a'", "unknown key 'colour'"),
+        ("kind = 'pile'\ncolour = 1\n[[stone]]\nname = 'a'", "unknown entries colour"),
         ("kind = 'pile'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1", "height is missing"),
         ("kind = 'pile'\n[[stone]]\nwidth = 1\ndepth = 1\nheight = 1", "name is missing"),
-        ("kind = 'pile'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1\nheight = 1\noffset = 3", "offset must be a list of two"),
+        ("kind = 'pile'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1\nheight = 1\noffset = 3", "offset must be a list of 2"),
         ("kind = 'pile'\nmu = 'much'\n[[stone]]\nname = 'a'\nwidth = 1\ndepth = 1\nheight = 1", "mu must be a number"),
         ("not toml", "is not a TOML description"),
     ],

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -10,11 +9,13 @@ from typing import Any
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import GRANITE, GROUND, PileStone
-from seisblock.bodies.toml import length, of_kind, read_table
+from seisblock.bodies.toml import length, lengths, number, of_kind, read_table, refuse_unknown, source_of, text, text_groups, texts
 from seisblock.errors import BodyError
-from seisblock.units import parse_length
 
-_PILE_KEYS = {"source", "name", "kind", "mu", "density", "reinforced", "fixed", "stone", "note"}
+MOST_STONES = 200
+"""Stones of the largest pile that is taken for what was meant: every pair of them is looked at."""
+
+_PILE_KEYS = {"name", "kind", "mu", "density", "reinforced", "fixed", "stone", "note"}
 _STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "bottom"}
 
 
@@ -44,60 +45,42 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     """
     table = read_table(name)
     of_kind(table, "pile")
-    source = str(table["source"])
-    _refuse_unknown(table, _PILE_KEYS, source)
+    source = source_of(table)
+    refuse_unknown(table, _PILE_KEYS)
     entries = table.get("stone")
-    if not isinstance(entries, list) or not entries:
+    if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
         raise BodyError(f"{source}: a pile needs at least one [[stone]] table")
+    if len(entries) > MOST_STONES:
+        raise BodyError("{source}: {count} stones, and a pile has at most {most}", source=source, count=len(entries), most=MOST_STONES)
     stones: list[PileStone] = []
-    for number, entry in enumerate(entries, start=1):
+    for rank, entry in enumerate(entries, start=1):
         below = stones[-1].name if stones else GROUND
-        stones.append(_stone({"source": f"{source}: stone {number}", **entry}, below, table))
+        stones.append(_stone({**entry, "source": f"{source}: stone {rank}"}, below, table))
     if mu is not None:
         stones = [replace(stone, mu=None) for stone in stones]
-    dowels = table.get("reinforced", [])
+    dowels = text_groups(table, "reinforced")
     if reinforced and not dowels:
         raise BodyError(f"{source} has no dowels: add reinforced = [[name, name]] to the file, or leave --reinforced out")
-    return Pile(
-        str(table.get("name", Path(source).stem)),
-        tuple(stones),
-        tuple(tuple(str(n) for n in group) for group in dowels) if reinforced else (),
-        tuple(str(n) for n in table.get("fixed", [])),
-        _number(table, "mu", 0.438) if mu is None else mu,
-    )
+    own = number(table, "mu")
+    friction = mu if mu is not None else Pile.mu if own is None else own
+    return Pile(text(table, "name", Path(source).stem), tuple(stones), dowels if reinforced else (), texts(table, "fixed"), friction)
 
 
 def _stone(entry: Mapping[str, Any], below: str, table: Mapping[str, Any]) -> PileStone:
     """Return one stone of a file."""
-    _refuse_unknown(entry, _STONE_KEYS | {"source"}, str(entry["source"]))
+    refuse_unknown(entry, _STONE_KEYS)
     if not isinstance(entry.get("name"), str):
         raise BodyError(f"{entry['source']}: name is missing")
-    offset = entry.get("offset", [0.0, 0.0])
-    if not isinstance(offset, list) or len(offset) != 2:
-        raise BodyError(f"{entry['source']}: offset must be a list of two lengths, along x and y, found {offset!r}")
+    x, y = lengths(entry, "offset", 2) if "offset" in entry else (0.0, 0.0)
+    own, common = number(entry, "density"), number(table, "density")
     return PileStone(
         entry["name"],
         length(entry, "width"),
         length(entry, "depth"),
         length(entry, "height"),
-        (parse_length(offset[0], what="offset"), parse_length(offset[1], what="offset")),
-        str(entry.get("on", below)),
-        _number(entry, "density", _number(table, "density", GRANITE)),
-        _number(entry, "mu", math.nan) if "mu" in entry else None,
+        (x, y),
+        text(entry, "on", below),
+        own if own is not None else GRANITE if common is None else common,
+        number(entry, "mu"),
         length(entry, "bottom") if "bottom" in entry else None,
     )
-
-
-def _number(table: Mapping[str, Any], key: str, default: float) -> float:
-    """Return an optional number."""
-    value = table.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise BodyError(f"{table['source']}: {key} must be a number, found {value!r}")
-    return float(value)
-
-
-def _refuse_unknown(table: Mapping[str, Any], known: set[str], source: str) -> None:
-    """Refuse a key that means nothing, which is a slip of the pen."""
-    unknown = sorted(set(table) - known)
-    if unknown:
-        raise BodyError(f"{source}: unknown key {unknown[0]!r}; known are {', '.join(sorted(known - {'source'}))}")

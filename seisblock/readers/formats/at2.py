@@ -114,8 +114,7 @@ def _values(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
     if not np.isfinite(values).all():
         for offset, line in enumerate(lines):
             for cell in line.split():
-                value = number(cell)
-                if value is None or not np.isfinite(value):
+                if number(cell) is None:
                     fail(name, first_line + offset, f"expected accelerations in g, found {cell!r}")
     return values
 

@@ -13,9 +13,9 @@ import numpy as np
 from seisblock.errors import ParameterError, RecordFormatError, UnitError
 from seisblock.readers.cells import to_si
 from seisblock.readers.directions import Direction, direction_of
-from seisblock.readers.header import number
+from seisblock.readers.formats.generic_doubts import doubts_of_file
 from seisblock.readers.naming import normal_unit
-from seisblock.readers.source import Blob
+from seisblock.readers.source import LONGEST_SHOWN, Blob
 from seisblock.records import Component, Doubt, Record
 from seisblock.words import said
 
@@ -25,8 +25,6 @@ _CRASHING = {"GSE1", "GSE2"}
 """Formats whose decoder in obspy ends the process (segmentation fault) on a damaged file."""
 
 _GSE = re.compile(rb"^WID[12] ", re.MULTILINE)
-_COUNTED = {"SLIST", "TSPAIR"}
-_TIMESERIES = re.compile(r"^TIMESERIES[ \t]+(.*)$", re.MULTILINE)
 _KNOWN = "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, a plain table, a bundle of those, nor a waveform format of obspy"
 _LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
 
@@ -60,35 +58,14 @@ def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) 
         path = Path(directory) / f"record{suffix}"
         path.write_bytes(blob.data)
         name = _recognise(blob.name, path) if waveform is None else waveform.upper()
-        traces = _traces(blob.name, path, name)
-    doubts = _counts_against_headers(blob.data) if name in _COUNTED else ()
+        traces, warned = _traces(blob.name, path, name)
+    doubts = doubts_of_file(blob.data, name, traces, warned)
     if units is None:
         raise UnitError(f"{blob.name} is a {name} file, which does not say the unit of its samples: give --units gal|m/s2|g")
     unit = normal_unit(units)
     if unit is None:
         raise UnitError(f"unknown unit of acceleration {units!r}: give gal, m/s2 or g")
     return [_record(blob.name, trace, name, unit, doubts) for trace in traces]
-
-
-def _counts_against_headers(data: bytes) -> tuple[Doubt, ...]:
-    """Return a doubt for each channel of an SLIST or TSPAIR file whose header states another number of samples than follow it."""
-    found = []
-    pieces = _TIMESERIES.split(data.decode("latin-1"))
-    for head, body in zip(pieces[1::2], pieces[2::2], strict=True):
-        fields = [field.strip() for field in head.split(",")]
-        words = fields[1].split() if len(fields) > 1 else []
-        stated = number(words[0]) if words else None
-        pairs = any(field.upper() == "TSPAIR" for field in fields)
-        count = len(body.split()) // (2 if pairs else 1)
-        if stated is None or stated != count:
-            text = said(
-                "{channel}: the header states {stated} samples, {count} follow",
-                channel=fields[0],
-                stated=words[0][:20] if words else "no",
-                count=count,
-            )
-            found.append(Doubt("count", text))
-    return tuple(found)
 
 
 def _recognise(name: str, path: Path) -> str:
@@ -122,8 +99,8 @@ def _refuse(name: str, waveform: str) -> NoReturn:
     )
 
 
-def _traces(name: str, path: Path, waveform: str) -> list[Any]:
-    """Return the traces of a file, gapless pieces of one channel joined."""
+def _traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[str]]:
+    """Return the traces of a file, gapless pieces of one channel joined, and what obspy warned of."""
     import obspy
     from obspy.core.util.base import ENTRY_POINTS
 
@@ -133,14 +110,15 @@ def _traces(name: str, path: Path, waveform: str) -> list[Any]:
         usable = ", ".join(sorted(set(ENTRY_POINTS["waveform"]) - _CRASHING - {"PICKLE"}))
         raise ParameterError(f"unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSV, or OBSPY: and one of {usable}")
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", UserWarning)
             stream = obspy.read(str(path), format=waveform).merge()
     except Exception as error:  # obspy's readers raise bare Exceptions
-        raise RecordFormatError(f"{name}: obspy cannot read it as {waveform} ({error or type(error).__name__})") from error
+        why = " ".join(str(error).split())[:LONGEST_SHOWN] or type(error).__name__
+        raise RecordFormatError("{name}: obspy cannot read it as {format} ({why})", name=name, format=waveform, why=why) from error
     if not stream:
         raise RecordFormatError(f"{name}: obspy finds no samples in it")
-    return list(stream)
+    return list(stream), [str(warning.message) for warning in caught if issubclass(warning.category, UserWarning)]
 
 
 def _record(name: str, trace: Any, waveform: str, unit: str, doubts: tuple[Doubt, ...]) -> Record:

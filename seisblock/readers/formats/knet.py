@@ -11,7 +11,7 @@ import numpy as np
 
 from seisblock.errors import RecordFormatError
 from seisblock.readers.cells import fail
-from seisblock.readers.header import number, time_in_japan
+from seisblock.readers.header import LARGEST_COUNT, number, time_in_japan
 from seisblock.readers.naming import code_of
 from seisblock.readers.source import Blob, decode
 from seisblock.records import Component, Doubt, Record
@@ -148,7 +148,7 @@ def _counts(name: str, values: Sequence[str], lines: Sequence[str]) -> FloatArra
     except (ValueError, IndexError, TypeError) as error:
         _name_the_line(name, body)
         raise RecordFormatError(f"{name}: obspy cannot decode this K-NET file ({error})") from error
-    if not np.isfinite(counts).all():
+    if not (np.abs(counts) < LARGEST_COUNT).all():
         _name_the_line(name, body)
     return counts
 
@@ -170,14 +170,14 @@ def _name_the_line(name: str, body: Sequence[str]) -> None:
     for offset, line in enumerate(body):
         for cell in line.split():
             value = number(cell)
-            if value is None or not np.isfinite(value):
+            if value is None or not abs(value) < LARGEST_COUNT:
                 fail(name, len(_LABELS) + 1 + offset, f"expected counts, found {cell!r}")
 
 
 def _check_length(name: str, count: int, text: str, rate: float) -> tuple[Doubt, ...]:
     """Refuse a file that ends before its header says, and doubt one that is longer or does not say."""
     duration = number(text)
-    if duration is None or not duration > 0:
+    if duration is None or not 0 < duration * rate < LARGEST_COUNT:
         found = said("the header's Duration Time is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
         return (Doubt("header", found),)
     promised = round(duration * rate)
@@ -199,7 +199,7 @@ def _check_length(name: str, count: int, text: str, rate: float) -> tuple[Doubt,
 def _check_maximum(code: str, text: str, gal: FloatArray) -> tuple[Doubt, ...]:
     """Doubt samples whose largest distance from their mean is not the header's own maximum."""
     told, peak = number(text), float(np.abs(gal - gal.mean()).max())
-    if told is None or not np.isfinite(told):
+    if told is None:
         found = said(
             "{component}: the header's Max. Acc. is no number ({text!r}): the samples cannot be checked", component=code, text=text[:20]
         )

@@ -10,7 +10,8 @@ from itertools import pairwise
 from seisblock.errors import RecordFormatError
 from seisblock.readers.cells import columns_of, fail, to_si
 from seisblock.readers.clock import even_dt
-from seisblock.readers.header import number, time_in_japan
+from seisblock.readers.decimals import doubts_of_decimals
+from seisblock.readers.header import LARGEST_COUNT, number, time_in_japan
 from seisblock.readers.naming import TIME, code_of
 from seisblock.readers.source import Blob, decode
 from seisblock.records import Component, Doubt, Record
@@ -49,7 +50,7 @@ def read_knet_csv(blob: Blob) -> list[Record]:
     if rate and abs(1.0 / rate - dt) > 1e-6:
         raise RecordFormatError(f"{blob.name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged")
     start = _start(blob.name, lines[body], body + 1, float(columns[clock][0]))
-    doubts = _doubts(header, columns[clock].size, rate or 1.0 / dt)
+    doubts = _doubts(header, columns[clock].size, rate or 1.0 / dt) + doubts_of_decimals(lines[body:], body + 1, ",")
     records = []
     for level, codes in sensors.items():
         rows = {code: columns[i] for code, i in codes.items()}
@@ -72,7 +73,7 @@ def _doubts(header: Sequence[str], samples: int, rate: float) -> tuple[Doubt, ..
     """Return what speaks against the count of samples: the header's duration is another, or no number."""
     text = _after(header, "DurationTime(s)")
     duration = number(text)
-    if duration is None or not duration > 0:
+    if duration is None or not 0 < duration * rate < LARGEST_COUNT:
         found = said("the header's DurationTime is no number ({text!r}): the count of samples cannot be checked", text=text[:20])
         return (Doubt("header", found),)
     promised = round(duration * rate)

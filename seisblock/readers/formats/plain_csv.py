@@ -13,6 +13,7 @@ from seisblock.errors import ParameterError, RecordFormatError, UnitError
 from seisblock.readers.cells import columns_of, to_si
 from seisblock.readers.clock import even_dt
 from seisblock.readers.columns import Column, Columns, columns_of_header, means_something
+from seisblock.readers.decimals import doubts_of_decimals
 from seisblock.readers.naming import TIME
 from seisblock.readers.source import Blob, decode
 from seisblock.records import Component, Doubt, Record
@@ -20,6 +21,7 @@ from seisblock.typing import FloatArray
 from seisblock.words import said
 
 FORMAT = "CSV"
+_QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
 _WIDTH_TOLERANT = {",", ";", "\t"}
 
 
@@ -79,7 +81,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     if layout.decimal_comma:
         body = [line.replace(",", ".") for line in body]
     if any('"' in line for line in body[:3]):
-        body = [line.replace('"', "") for line in body]
+        body = [_QUOTED.sub(r"\1", line) for line in body]
     named = any(layout.names)
     told = columns_of_header(blob.name, layout.names, units) if named else _unnamed(len(layout.names))
     labels = {c.label if layout.names.count(c.label) == 1 else f"number {c.index + 1}": c.index for c in told.read}
@@ -99,7 +101,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     if not components:
         raise RecordFormatError(f"{blob.name} holds a time column and nothing else: expected at least one column of acceleration")
     clocked = any(column.code == TIME for column in told.read)
-    doubts = _doubts(lines, layout.body, clocked=clocked)
+    doubts = _doubts(lines, layout.body, clocked=clocked) + doubts_of_decimals(body, layout.body + 1, layout.separator)
     return Record(tuple(components), dt, source=blob.name, format=FORMAT, history=told.remarks, metadata=metadata, doubts=doubts)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.studies.inverse.assumptions import BAND, Assumptions
 from seisblock.studies.inverse.survey import Survey
 from seisblock.typing import FloatArray
@@ -56,7 +57,7 @@ def plausibility(survey: Survey, assumptions: Assumptions | None = None, *, seed
     observed = float(-2.0 * (falls @ fallen + stands @ standing).max())
     best = int(np.argmax(falls @ fallen + stands @ standing))
     count = (survey.fallen + survey.standing).astype(np.int64)
-    drawn = np.random.default_rng(seed).binomial(count, np.exp(falls[best]), (DRAWS, count.size))
+    drawn = np.random.default_rng(checks.seed(seed)).binomial(count, np.exp(falls[best]), (DRAWS, count.size))
     deviances = -2.0 * (falls @ drawn.T + stands @ (count - drawn).T).max(axis=0)
     return Plausibility(observed, float(np.mean(deviances >= observed)))
 

@@ -118,7 +118,7 @@ def perturb(
         raise ParameterError("a perturbation needs at least 1 run, found {runs}", runs=runs)
     given = rocker(block, motion, **options)
     turns = spread.azimuth_deg if motion.acceleration[ACROSS].any() else 0.0
-    dice = np.random.default_rng(seed)
+    dice = np.random.default_rng(checks.seed(seed))
     draws = np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs)])
     deepest = max(spread.inset, block.inset / block.width) if spread.inset else None
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.block import Block, resized
 from seisblock.bodies.inset import Inset
 from seisblock.errors import ParameterError
@@ -145,7 +146,7 @@ def respond_probability(
         raise ParameterError(f"the displacement that counts as moved must be positive, found {moved_m} m")
     given = {"mu": mu, "mu_kinetic": mu_kinetic, "restitution": restitution}
     same = {"rocking_restitution": rocking_restitution, "gravity": gravity, "tenon": tenon}
-    draws = np.random.default_rng(seed).uniform(-1.0, 1.0, (runs, 6))
+    draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, 6))
     settings = [_version(block, versions, draw, given, same) for draw in draws]
     gains = _gains(motion, versions, draws, vertical)
     fallen, shifts = [], []

@@ -1,0 +1,60 @@
+"""Numbers that lost their decimal point: a column that is printed to so many decimals shows them in every line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from seisblock.records import Doubt
+from seisblock.words import said
+
+LEAST_LINES = 10
+"""Shortest table that shows how it is printed."""
+
+MOST_LOST = 0.02
+"""Share of its lines in which a column may lack the point and still be one of decimals."""
+
+_DECIMALS = re.compile(r"[-+]?\d*\.(\d*)(?:[eEdD][-+]?\d+)?")
+_WHOLE = re.compile(r"[-+]?\d+")
+
+
+def doubts_of_decimals(lines: Sequence[str], first_line: int, separator: str | None) -> tuple[Doubt, ...]:
+    """Return a doubt about a table in which a number has no decimal point though all others of its column have as many decimals.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        The table; blank lines are passed over.
+    first_line : int
+        Number of ``lines[0]`` in the file, counted from 1.
+    separator : str or None
+        Between cells; None is any run of blanks.
+    """
+    filled = [(first_line + i, line) for i, line in enumerate(lines) if line.strip()]
+    if len(filled) < LEAST_LINES or not _some_are_lost(lines, len(filled)):
+        return ()
+    found: list[tuple[int, str, int]] = []
+    for cells in zip(*(line.split(separator) for _, line in filled), strict=False):
+        tidy = [cell.strip() for cell in cells]
+        decimals = {len(match[1]) for cell in tidy if (match := _DECIMALS.fullmatch(cell))}
+        whole = [i for i, cell in enumerate(tidy) if _WHOLE.fullmatch(cell)]
+        if len(decimals) == 1 and max(decimals) > 0 and 0 < len(whole) <= max(1.0, MOST_LOST * len(filled)):
+            found += [(filled[i][0], tidy[i], max(decimals)) for i in whole]
+    if not found:
+        return ()
+    line, cell, decimals_printed = min(found)
+    text = said(
+        "{count} number(s) have no decimal point (the first in line {line}: {cell}) where all others of the column have {decimals} "
+        "decimals: the point may be lost",
+        count=len(found),
+        line=line,
+        cell=cell[:40],
+        decimals=decimals_printed,
+    )
+    return (Doubt("point", text),)
+
+
+def _some_are_lost(lines: Sequence[str], filled: int) -> bool:
+    """Return whether the number of points in a table is a little short of a whole number of columns: counting costs next to nothing."""
+    short = -sum(line.count(".") for line in lines) % filled
+    return 0 < short <= max(1.0, MOST_LOST * filled) * 8

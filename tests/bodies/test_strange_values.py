@@ -1,0 +1,123 @@
+"""A file of a body may hold anything: a list, a date, a truth, a text or 1e308 where a number belongs is one sentence (FINDINGS R12)."""
+
+from __future__ import annotations
+
+import os
+import time
+
+import pytest
+
+from seisblock.bodies.library import friction_of, load_block, restitution_of
+from seisblock.bodies.pile.toml import MOST_STONES, load_pile
+from seisblock.bodies.toml import read_table
+from seisblock.bodies.two_layer import load_contact, load_two_layer
+from seisblock.errors import BodyError, InputError
+from seisblock.samples import sample_path
+
+NO_NUMBERS = ("true", "[1]", "{ a = 1 }", "2020-01-01", "07:32:00", '"x"', "nan", "inf", "9" * 400, "1e308", "-1")
+NO_SIZES = (*NO_NUMBERS, "1e-320")
+STONE = 'kind = "pile"\n[[stone]]\nname = "a"\nwidth = 1\ndepth = 1\nheight = 1\n'
+
+
+def written(tmp_path, text):
+    """Return a file."""
+    path = tmp_path / "body.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("value", NO_SIZES)
+@pytest.mark.parametrize("key", ["width", "height", "depth", "mass", "centroid_height", "centroid_inertia", "density"])
+def test_a_block(key, value, tmp_path):
+    """Its sizes, mass and inertia: ``width = true`` was 1 m."""
+    entries = {"width": "0.3", "height": "1.0", key: value}
+    path = written(tmp_path, 'kind = "block"\n' + "".join(f"{name} = {text}\n" for name, text in entries.items()))
+    with pytest.raises(InputError, match=key.split("_")[-1].replace("height", "(height|centre)")):
+        load_block(path)
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS[:9])
+@pytest.mark.parametrize("key", ["mu", "mu_kinetic"])
+def test_friction_and_restitution(key, value, tmp_path):
+    """What the commands look up beside the block."""
+    table = read_table(written(tmp_path, f'kind = "block"\nwidth = 0.3\nheight = 1\n{key} = {value}\nrestitution = {value}\n'))
+    with pytest.raises(BodyError, match=key):
+        friction_of(table, "body.toml")
+    with pytest.raises(BodyError, match="restitution"):
+        restitution_of(table, "body.toml")
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS)
+@pytest.mark.parametrize("key", ["width", "density", "mu", "offset", "bottom", "on", "name"])
+def test_a_stone_of_a_pile(key, value, tmp_path):
+    """Every entry of a stone, and one that is no table at all."""
+    entries = {"name": '"a"', "width": "1", "depth": "1", "height": "1", key: value}
+    if (key, value) in {("on", '"x"'), ("name", '"x"')}:
+        value = entries[key] = "3"
+    path = written(tmp_path, 'kind = "pile"\n[[stone]]\n' + "".join(f"{name} = {text}\n" for name, text in entries.items()))
+    with pytest.raises(InputError):
+        load_pile(path)
+    with pytest.raises(BodyError, match=r"at least one|unknown entries a"):
+        load_pile(written(tmp_path, f'kind = "pile"\nstone = [{value}]\n'))
+
+
+@pytest.mark.parametrize(
+    "line", ["reinforced = 3", "reinforced = [[1]]", 'reinforced = ["ab"]', "fixed = true", "fixed = [[1]]", "name = 3"]
+)
+def test_lists_of_names(line, tmp_path):
+    """A text is no list of its letters."""
+    with pytest.raises(BodyError, match=f"{line.split()[0]} must be a"):
+        load_pile(written(tmp_path, STONE.replace("[[stone]]", f"{line}\n[[stone]]")))
+
+
+@pytest.mark.parametrize("value", [*NO_NUMBERS[:9], "{ mu = 'x' }", "{ mu = [1] }", "{ mu = true }"])
+def test_the_contact_of_two_layers(value, tmp_path):
+    """A table of numbers."""
+    whole = sample_path("chozusha.toml").read_text(encoding="utf-8").split("[contact]")[0]
+    path = written(tmp_path, f"{whole}\ncontact = {value}\n")
+    assert load_two_layer(path).width == 2.08
+    with pytest.raises(BodyError, match="contact"):
+        load_contact(path)
+
+
+def test_a_file_does_not_name_itself(tmp_path):
+    """``source`` is the name of the file, whatever it says."""
+    path = written(tmp_path, 'kind = "block"\nsource = "another"\nwidth = 0.3\n')
+    with pytest.raises(BodyError, match=r"body\.toml: height is missing"):
+        load_block(path)
+
+
+@pytest.mark.parametrize("text", ["a = " + "[" * 5000, "a = 2020-13-45", "\udcff"], ids=["nested", "date", "bytes"])
+def test_no_toml(text, tmp_path):
+    """Lists in lists in lists, a date that is none, bytes that are no text."""
+    path = tmp_path / "body.toml"
+    path.write_bytes(text.encode("utf-8", "surrogateescape"))
+    with pytest.raises(BodyError, match="is not a TOML description"):
+        read_table(path)
+
+
+def test_names_that_no_file_has():
+    """Too long for a file system, or with a NUL: no such body, in a sentence of ordinary length."""
+    for name in ("x" * 5000, "a\0b"):
+        with pytest.raises(BodyError, match="no body file") as caught:
+            read_table(name)
+        assert len(str(caught.value)) < 1000
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")
+def test_a_file_that_may_not_be_read(tmp_path):
+    """The reason of the system."""
+    path = written(tmp_path, STONE)
+    path.chmod(0)
+    with pytest.raises(BodyError, match="Permission denied"):
+        read_table(path)
+
+
+def test_a_pile_of_thousands_is_refused_at_once(tmp_path):
+    """Each pair of stones is looked at: the number is refused with what is allowed."""
+    stone = "[[stone]]\nname = '{i}'\nwidth = 1\ndepth = 1\nheight = 1\n"
+    path = written(tmp_path, "kind = 'pile'\n" + "".join(stone.format(i=i) for i in range(5000)))
+    start = time.process_time()
+    with pytest.raises(BodyError, match=f"5000 stones, and a pile has at most {MOST_STONES}"):
+        load_pile(path)
+    assert time.process_time() - start < 5.0

@@ -1,0 +1,1 @@
+"""What is damaged, mistyped and misunderstood: files, bodies, cemeteries and command lines, spoilt by seeded dice."""

@@ -1,0 +1,195 @@
+"""Whole files of every format, and what each says of itself: how many samples, how large, at what interval. The fuzz spoils them."""
+
+from __future__ import annotations
+
+import io
+import re
+import tempfile
+import zipfile
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import obspy
+
+from seisblock.records import Record
+from tests.readers.files import JMA_HEADER, KNET_CSV, knet, tar
+
+RNG = np.random.default_rng(11)
+SAMPLES = 600
+T = np.arange(SAMPLES) * 0.01
+ROWS = [
+    np.round(100 * np.exp(-(((T - 3) / s) ** 2)) * np.sin(2 * np.pi * f * T) + RNG.standard_normal(SAMPLES), 3)
+    for s, f in ((1.0, 2.0), (1.2, 1.3), (0.8, 4.0))
+]
+"""Three components, gal."""
+
+
+@dataclass(frozen=True)
+class Whole:
+    """A file of one format.
+
+    Parameters
+    ----------
+    data : bytes
+    judge : callable
+        Takes a spoilt file and the record read from it; returns how the file contradicts the record, or nothing.
+    options : dict
+        Of `read`.
+    """
+
+    data: bytes
+    judge: Callable[[bytes, Record], str] = lambda data, record: ""
+    options: dict[str, object] = field(default_factory=dict)
+
+
+_JUDGED = ("Sam", "Dur", "Max")
+"""How the lines of a K-NET header begin that say how many samples follow, and how large."""
+
+
+def judge_knet(data: bytes, record: Record) -> str:
+    """Compare count and maximum with the header's."""
+    text = data.decode("latin-1")
+    rate, duration, maximum = (_number(line[18:].replace("Hz", "")) for line in text.splitlines()[10:15] if line[:3] in _JUDGED)
+    if duration is None or rate is None or maximum is None:
+        return "a header that is no number was believed"
+    if round(duration * rate) != record.samples:
+        return f"{record.samples} samples where the header promises {duration * rate:g}"
+    row = 100 * record.components[0].acceleration
+    peak = float(np.abs(row - row.mean()).max())
+    return f"a peak of {peak:.4f} where the header says {maximum:g}" if abs(peak - maximum) > 0.0012 else ""
+
+
+def judge_knet_csv(data: bytes, record: Record) -> str:
+    """Compare count and interval with the header's."""
+    lines = [line.lstrip("#").strip() for line in data.decode("latin-1").splitlines()]
+    told = {name: _number(lines[lines.index(name) + 1]) for name in ("SamplingFrequency(Hz)", "DurationTime(s)") if name in lines[:-1]}
+    duration, rate = told.get("DurationTime(s)"), told.get("SamplingFrequency(Hz)")
+    if duration is None:
+        return "a duration that is no number was believed"
+    if round(duration / record.dt) != record.samples:
+        return f"{record.samples} samples where the header promises {duration / record.dt:g}"
+    return f"{record.dt} s where the header says {rate} Hz" if rate and abs(1 / rate - record.dt) > 1e-6 else ""
+
+
+def judge_at2(data: bytes, record: Record) -> str:
+    """Compare the count with NPTS."""
+    stated = re.search(rb"NPTS\s*=\s*(\d+)", data, re.IGNORECASE)
+    return "" if stated and int(stated[1]) == record.samples else f"{record.samples} samples, NPTS is another number"
+
+
+def judge_jma(data: bytes, record: Record) -> str:
+    """JMA ends each line and publishes whole seconds."""
+    seconds = record.samples * record.dt
+    if abs(seconds - round(seconds)) > 0.3 * record.dt:
+        return f"{record.samples} samples are no whole number of seconds"
+    return "" if data.endswith((b"\n", b"\r", b",")) or not data.rstrip(b" ,\t") else "the last line has no end"
+
+
+def judge_clock(data: bytes, record: Record) -> str:
+    """Every line of numbers is a sample, at an even time."""
+    rows = [row for line in data.decode("latin-1").splitlines()[1:] if (row := _numbers(line))]
+    times = [row[0] for row in rows]
+    if len(rows) != record.samples:
+        return f"{record.samples} samples from {len(rows)} lines"
+    steps = np.diff(times)
+    return "uneven times were believed" if steps.size and np.abs(steps - np.median(steps)).max() > 2e-6 else ""
+
+
+def judge_sac(data: bytes, record: Record) -> str:
+    """Compare the extremes with the header's: 32-bit words 1 and 2, in mm/s^2."""
+    found = 1e3 * np.array([record.components[0].acceleration.min(), record.components[0].acceleration.max()])
+    orders = [np.frombuffer(data[4:12], f"{order}f4").astype(float) for order in "<>"]
+    near = any(np.allclose(told, found, rtol=0.0, atol=2e-5 * np.abs(found).max()) for told in orders)
+    return "" if near or any(-12345.0 in told for told in orders) else f"extremes {found} are not the header's"
+
+
+def judge_slist(data: bytes, record: Record) -> str:
+    """Compare the counts with the header's."""
+    stated = [int(n) for n in re.findall(rb"TIMESERIES[^,\n]*,\s*(\d+)\s*samples", data)]
+    times = re.findall(rb"^\s*(\d{4}-\S*)", data, re.MULTILINE)
+    if times != sorted(set(times)):
+        return "times out of order were believed"
+    return "" if stated == [record.samples] * len(stated) else f"{record.samples} samples, the headers state {stated}"
+
+
+def _number(text: str) -> float | None:
+    """Return a positive number, or None."""
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if 0 < value < np.inf else None
+
+
+def _numbers(line: str) -> list[float]:
+    """Return the numbers of a line, none when it holds anything else."""
+    try:
+        return [float(cell) for cell in re.split(r"[,\s;]+", line.strip()) if cell]
+    except ValueError:
+        return []
+
+
+def _table(separator: str, header: str, form: str = "{:.3f}", unit: float = 1.0) -> bytes:
+    """Return a plain table of time and three components, in gal or a unit of so many."""
+    rows = zip(T, *(row / unit for row in ROWS), strict=True)
+    return (header + "\n" + "".join(separator.join([f"{t:.2f}", *map(form.format, row)]) + "\n" for t, *row in rows)).encode()
+
+
+def _obspy(waveform: str, rows: int = 1) -> bytes:
+    """Return a file that obspy writes, counts of mm/s^2."""
+    stream = obspy.Stream()
+    for row, letter in list(zip(ROWS, "NEZ", strict=True))[:rows]:
+        header = {"station": "ABC", "channel": f"HN{letter}", "delta": 0.01, "starttime": obspy.UTCDateTime(2020, 1, 1)}
+        data = (row * 10).astype(np.float32 if waveform == "SAC" else np.int32)
+        stream.append(obspy.Trace(data, header=header))
+    with tempfile.TemporaryDirectory() as directory:
+        path = Path(directory) / "a"
+        stream.write(str(path), format=waveform)
+        return path.read_bytes()
+
+
+def _knet_csv() -> bytes:
+    """Return NIED's CSV of six seconds."""
+    head = KNET_CSV.split("2019/01/02 17:47:27.00")[0].replace("#60", "#6")
+    times = [f"2019/01/02 17:47:{27 + t:05.2f},{t:.2f}" for t in T]
+    return (head + "".join(f"{t},{a:.2f},{b:.2f},{c:.2f}\n" for t, a, b, c in zip(times, *ROWS, strict=True))).encode()
+
+
+def _at2() -> bytes:
+    """Return an AT2 file."""
+    cells = [f"{x / 980.665:15.7E}" for x in ROWS[0]]
+    body = "".join("".join(cells[i : i + 5]) + "\n" for i in range(0, SAMPLES, 5))
+    head = f"PEER\nEvent, 1/1/2000, Place, 90\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=  {SAMPLES}, DT=   .0100 SEC\n"
+    return (head + body).encode()
+
+
+def _zip(name: str, data: bytes) -> bytes:
+    """Return a zip of one file."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr(name, data)
+    return buffer.getvalue()
+
+
+KNET = knet([int(x * 1577) + 900 for x in ROWS[0]], duration="6").encode()
+MM = {"units": "mm/s2"}
+FORMATS = {
+    "jma": Whole((JMA_HEADER + "".join(f"{a:.3f},{b:.3f},{c:.3f}\r\n" for a, b, c in zip(*ROWS, strict=True))).encode("cp932"), judge_jma),
+    "knet": Whole(KNET, judge_knet),
+    "kiknet": Whole(knet([int(x * 1577) + 900 for x in ROWS[1]], duration="6", direction="5", station="NGNH31").encode(), judge_knet),
+    "knet-csv": Whole(_knet_csv(), judge_knet_csv),
+    "at2": Whole(_at2(), judge_at2),
+    "comma": Whole(_table(",", "time,NS (gal),EW (gal),UD (gal)"), judge_clock),
+    "blank": Whole(_table(" ", "t(s) ns_gal ew_gal ud_gal"), judge_clock),
+    "semicolon": Whole(_table(";", "time;N10E (m/s2);N80W (m/s2);UD (m/s2)", "{:.5f}", 100.0), judge_clock),
+    "one column": Whole(("NS (gal)\n" + "".join(f"{x:.3f}\n" for x in ROWS[0])).encode(), options={"dt": 0.01}),
+    "slist": Whole(_obspy("SLIST"), judge_slist, MM),
+    "tspair": Whole(_obspy("TSPAIR"), judge_slist, MM),
+    "mseed": Whole(_obspy("MSEED", 3), options=MM),
+    "sac": Whole(_obspy("SAC"), judge_sac, MM),
+    "tar": Whole(tar({"a.NS": KNET}), lambda data, record: judge_knet(data[data.find(b"Origin Time") :], record)),
+    "tar.gz": Whole(tar({"a.NS": KNET}, mode="w:gz")),
+    "zip": Whole(_zip("a/b.NS", KNET)),
+}

@@ -1,0 +1,98 @@
+"""Descriptions of bodies and cemeteries with anything in them: what is read, or one sentence."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.library import friction_of, load_block, restitution_of
+from seisblock.bodies.pile.toml import load_pile
+from seisblock.bodies.subjects import subject
+from seisblock.bodies.toml import read_table
+from seisblock.bodies.two_layer import load_contact, load_two_layer
+from seisblock.errors import InputError
+from seisblock.samples import sample_path
+from tests.fuzz.accidents import spoil
+from tests.fuzz.values import as_toml, mistaken
+
+EACH = 150
+SLOWEST_S = 10.0
+LONGEST_MESSAGE = 1500
+
+SURVEY = (
+    "# 墓地\n竿高さ（cm）,竿幅（cm）,補強,転倒,方位,個数\n62.4,24,無,転倒,90,1\n６３,24,有,残存,,2\n50,25,,,,\n"
+    + "".join(f"{60 + i},2{i % 8},無,{'転倒' if i % 3 else '残存'},{i * 10},{i % 5 + 1}\n" for i in range(20))
+).encode("cp932")
+BODIES = ("gravestone", "chozusha", "wagata", "lantern")
+
+
+def load(path):
+    """Look at a file of a body as every command does."""
+    table = read_table(path)
+    made = [subject(str(path), frequency_vertical=10.0)] if table.get("kind") != "pile" else []
+    restitution_of(table, str(path))
+    friction_of(table, str(path))
+    if table.get("kind") == "two-layer":
+        made += [load_two_layer(path, side="long"), load_contact(path)]
+    if table.get("kind") == "pile":
+        made += [load_pile(path, reinforced=bool(table.get("reinforced"))), load_pile(path, mu=0.5)]
+    return [*made, load_block(path)]
+
+
+def refused_or(use, path, seed):
+    """Return what a file is used for, or None when it is refused in one sentence that names it, in good time."""
+    start = time.perf_counter()
+    try:
+        return use(path)
+    except InputError as error:
+        assert "\n" not in str(error) and len(str(error)) < LONGEST_MESSAGE, seed
+        return None
+    finally:
+        assert time.perf_counter() - start < SLOWEST_S, seed
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_a_body_with_strange_values_is_a_body_or_one_sentence(name, seeds, tmp_path):
+    """Lists, dates, truths, texts and extreme numbers wherever a number, a text or a table belongs; entries lost and invented."""
+    table = read_table(sample_path(f"{name}.toml"))
+    path = tmp_path / "body.toml"
+    read = 0
+    for seed in seeds(EACH):
+        path.write_text(as_toml(mistaken(table, np.random.default_rng(seed))), encoding="utf-8")
+        made = refused_or(load, path, seed)
+        if made:
+            read += 1
+            block = made[-1]
+            sizes = (block.radius, block.total_mass, block.slenderness, *block.restitutions, *block.corner_inertias)
+            assert isinstance(block, Block) and np.isfinite(sizes).all() and block.radius > 0.0, seed
+    assert 0 < read < len(seeds(EACH))
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_a_damaged_body_is_a_body_or_one_sentence(name, seeds, tmp_path):
+    """Bytes lost, cut, repeated and changed."""
+    whole = sample_path(f"{name}.toml").read_bytes()
+    path = tmp_path / "body.toml"
+    for seed in seeds(EACH):
+        path.write_bytes(spoil(whole, np.random.default_rng((seed, 1))))
+        refused_or(load, path, seed)
+
+
+@pytest.mark.parametrize("name", ["aoyama", "survey"])
+def test_a_damaged_cemetery_is_a_cemetery_or_one_sentence(name, seeds, tmp_path):
+    """Every stone that is read has proportions and stands for some stones."""
+    whole = SURVEY if name == "survey" else sample_path("aoyama.csv").read_bytes()
+    path = tmp_path / "cemetery.csv"
+    read = 0
+    for seed in seeds(2 * EACH):
+        path.write_bytes(spoil(whole, np.random.default_rng((seed, 2))))
+        found = refused_or(read_cemetery, path, seed)
+        if found:
+            read += 1
+            assert found.size == sum(stone.count for stone in found.stones) > 0, seed
+            assert np.isfinite(found.ratios).all() and (found.ratios > 0.0).all(), seed
+    assert 0 < read < len(seeds(2 * EACH))

@@ -1,0 +1,102 @@
+"""Command lines that nobody meant: an answer, or one sentence and an exit code; never a traceback, never a run that does not end."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import json
+import signal
+import sys
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import COMMANDS, main
+from tests.fuzz.command_lines import SLOW, line, write_files
+from tests.readers.files import knet
+
+EACH = 8
+SLOWEST_S = 10.0
+"""Processor time, so that a busy machine does not count; a report, which draws a dozen figures, takes some seconds itself."""
+
+LONGER_S = {"report": 40.0}
+CODES = {0, 2, 3, 4}
+"""Answered; click's; bad input; a solver that gave up (DESIGN: errors)."""
+
+LONGEST_LINE = 1500
+OUTPUTS = {"--csv", "--plot", "--animate", "--html", "-o"}
+
+pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGPROF"), reason="a run that does not end is ended by an alarm")
+
+
+class TooSlow(BaseException):
+    """A line that took longer than anybody waits."""
+
+
+@contextlib.contextmanager
+def in_time(command):
+    """End the block when it takes too long."""
+
+    def ring(number, frame):
+        raise TooSlow
+
+    before = signal.signal(signal.SIGPROF, ring)
+    signal.setitimer(signal.ITIMER_PROF, LONGER_S.get(command, SLOWEST_S))
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+
+
+def complaint(words, result):
+    """Return what is wrong with how a command ended, or nothing."""
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        return f"raised {result.exception!r}"
+    if result.exit_code not in CODES:
+        return f"exit code {result.exit_code}"
+    if "Traceback" in result.stderr or "\x1b" in result.stdout + result.stderr:
+        return "a traceback or an escape on the terminal"
+    if result.exit_code and not result.stderr.strip():
+        return f"exit code {result.exit_code} without a word"
+    if any(len(told) > LONGEST_LINE for told in result.stderr.splitlines()):
+        return "a line longer than a screen"
+    if result.exit_code == 0 and "--json" in words and result.stdout.startswith("{"):
+        json.loads(result.stdout, parse_constant=lambda name: pytest.fail(f"{name} in the document of {words}"))
+    return ""
+
+
+def spoilt(words, whole):
+    """Return the files that are not what they were, though they were no output alone; what was written is put back."""
+    written = {after for before, after in itertools.pairwise(words) if before in OUTPUTS}
+    changed = [path for path, data in whole.items() if path.read_bytes() != data]
+    for path in changed:
+        path.write_bytes(whole[path])
+    return [path.name for path in changed if path.name not in written or words.count(path.name) > 1]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Files that the lines name, in a directory of their own."""
+    monkeypatch.chdir(tmp_path)
+    write_files(tmp_path, knet(duration="2"))
+    return tmp_path
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_any_line_is_answered_or_refused_in_a_sentence(command, seeds, folder):
+    """Whatever stands on it."""
+    runner = CliRunner()
+    codes = set()
+    whole = {path: path.read_bytes() for path in folder.iterdir()}
+    for seed in seeds(2 if command in SLOW else EACH):
+        rng = np.random.default_rng([seed, *command.encode()])
+        words = line(command, rng)
+        with in_time(command):
+            result = runner.invoke(main, words, input="1,2\n")
+        codes.add(result.exit_code)
+        assert complaint(words, result) == "", (seed, words, result.output[-500:])
+        assert spoilt(words, whole) == [], (seed, words)
+    assert codes <= CODES
+    assert sys.stdout is not None

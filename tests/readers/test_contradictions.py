@@ -1,0 +1,131 @@
+"""A file that contradicts itself is doubted or refused, in every format that says anything of itself (FINDINGS R7)."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from seisblock.errors import RecordError, RecordFormatError
+from seisblock.readers import read
+from tests.fuzz.formats import FORMATS, MM
+from tests.readers.files import JMA_HEADER, KNET_CSV, knet
+
+
+def doubts(tmp_path, data, **options):
+    """Return the kinds of doubt about a file, and all that is said of them."""
+    path = tmp_path / "spoilt"
+    path.write_bytes(data)
+    found = read(path, **options).doubts
+    return {doubt.kind for doubt in found}, " ".join(doubt.message for doubt in found)
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_whole_files_of_every_format_agree_with_themselves(kind, tmp_path):
+    """Noise of many small steps, and no doubt but those of the samples' kind."""
+    kinds, _ = doubts(tmp_path, FORMATS[kind].data, **FORMATS[kind].options)
+    assert kinds <= {"directions"}
+
+
+@pytest.mark.parametrize("word", [1, 2, 56])
+def test_a_sac_header_with_another_extreme_or_mean(word, tmp_path):
+    """DEPMIN, DEPMAX and DEPMEN are words 1, 2 and 56."""
+    data = bytearray(FORMATS["sac"].data)
+    data[4 * word : 4 * word + 4] = np.float32(4321.0).tobytes()
+    kinds, told = doubts(tmp_path, bytes(data), **MM)
+    assert kinds == {"header"} and "4321" in told
+
+
+def test_a_sac_header_that_says_nothing(tmp_path):
+    """-12345 is SAC's word for not known."""
+    data = bytearray(FORMATS["sac"].data)
+    for word in (1, 2, 56):
+        data[4 * word : 4 * word + 4] = np.float32(-12345.0).tobytes()
+    assert doubts(tmp_path, bytes(data), **MM)[0] == set()
+
+
+def test_a_miniseed_whose_last_sample_is_another(tmp_path):
+    """Steim's own check, of which obspy only warns: a difference in the middle of the block moved all later samples."""
+    data = bytearray(FORMATS["mseed"].data)
+    data[300] ^= 1
+    kinds, told = doubts(tmp_path, bytes(data), **MM)
+    assert "header" in kinds and "integrity" in told
+
+
+@pytest.mark.parametrize("change", [lambda rows: rows[::-1], lambda rows: [*rows[:-1], rows[-2]]])
+def test_times_of_tspair_that_no_clock_has(change, tmp_path):
+    """Lines in another order and a line that stands twice: obspy looks at the first time alone."""
+    head, *rows = FORMATS["tspair"].data.decode().rstrip("\n").split("\n")
+    assert doubts(tmp_path, "\n".join([head, *change(rows)]).encode(), **MM)[0] >= {"clock"}
+
+
+def test_a_count_that_obspy_does_not_check(tmp_path):
+    """SLIST: a number more than the header says."""
+    kinds, told = doubts(tmp_path, FORMATS["slist"].data + b"1\n", **MM)
+    assert "count" in kinds and "601" in told
+
+
+def _rows(count=40):
+    return [f"{0.137 * i:.3f},{-0.011 * i:.3f},{0.003 * i:.3f}" for i in range(count)]
+
+
+def _lost(rows, at=17):
+    """Take the decimal points out of a line."""
+    return [row.replace(".", "") if i == at else row for i, row in enumerate(rows)]
+
+
+LAYOUTS = {
+    "jma": lambda rows: (JMA_HEADER + "".join(row + "\r\n" for row in rows)).encode("cp932"),
+    "table": lambda rows: ("time,NS (gal),EW (gal),UD (gal)\n" + "".join(f"{i / 100:.2f},{row}\n" for i, row in enumerate(rows))).encode(),
+    "blanks": lambda rows: (
+        "time NS_gal EW_gal UD_gal\n" + "".join(f"{i / 100:.2f} {row.replace(',', ' ')}\n" for i, row in enumerate(rows))
+    ).encode(),
+    "knet-csv": lambda rows: (
+        KNET_CSV.split("2019/01/02 17:47:27.00")[0].replace("#60", "#1")
+        + "".join(f"2019/01/02 17:47:{27 + i / 100:05.2f},{i / 100:.2f},{row}\n" for i, row in enumerate(rows))
+    ).encode(),
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_lost_decimal_point(layout, tmp_path):
+    """One line of 100 without points: told with its line, though its samples may be no spikes."""
+    rows = _rows(100)
+    assert "point" not in doubts(tmp_path, LAYOUTS[layout](rows))[0]
+    kinds, told = doubts(tmp_path, LAYOUTS[layout](_lost(rows)))
+    assert "point" in kinds and re.search(r"3 number\(s\) have no decimal point \(the first in line \d+: -0187\)", told)
+
+
+def test_numbers_without_needless_zeros_are_no_lost_points(tmp_path):
+    """Programs that print 12 for 12.000 print 12.5 for 12.500, too."""
+    rows = [f"{i / 100:g},{round(0.125 * i, 3):g}" for i in range(200)]
+    assert "point" not in doubts(tmp_path, ("time,NS (gal)\n" + "\n".join(rows) + "\n").encode())[0]
+
+
+@pytest.mark.parametrize(("rate", "duration"), [("1e999Hz", "2"), ("1e300Hz", "1e300"), ("100Hz", "1e400"), ("100Hz", "inf")])
+def test_a_knet_header_beyond_all_numbers(rate, duration, tmp_path):
+    """A rate or a duration that is no number, or one that no memory holds, is doubted or refused: never multiplied and believed."""
+    path = tmp_path / "spoilt"
+    path.write_text(knet(duration=duration, **{"Sampling Freq(Hz)": rate}))
+    try:
+        assert {doubt.kind for doubt in read(path).doubts} >= {"header"}
+    except RecordError as error:
+        assert "sampling" in str(error)
+
+
+def test_a_knet_count_of_400_digits(tmp_path):
+    """Refused with its line."""
+    path = tmp_path / "spoilt"
+    path.write_text(knet().replace("    1037 ", " " + "9" * 400 + " ", 1))
+    with pytest.raises(RecordFormatError, match="line 18: expected counts"):
+        read(path)
+
+
+def test_a_jma_time_beyond_the_calendar(tmp_path):
+    """The year 9999 ends in Japan nine hours before it does in Greenwich, the year 1 begins so: a sentence, no OverflowError."""
+    path = tmp_path / "spoilt"
+    header = JMA_HEADER.replace("2000 10 06 13 30 10", "9999 12 31 23 59 1e9")
+    path.write_bytes((header + "1,2,3\r\n4,5,6\r\n").encode("cp932"))
+    with pytest.raises(RecordFormatError, match="expected a time such as"):
+        read(path)
