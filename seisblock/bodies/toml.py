@@ -10,6 +10,7 @@ from typing import Any
 from seisblock import checks
 from seisblock.errors import BodyError
 from seisblock.ledger import reading
+from seisblock.samples import sample_directory
 from seisblock.units import parse_length, parse_mass
 from seisblock.words import said
 
@@ -30,8 +31,6 @@ def read_table(name: str | Path) -> dict[str, Any]:
     BodyError
         If there is no such file or bundled body, or it is not TOML.
     """
-    from seisblock.samples import sample_directory
-
     path = Path(name)
     if not _is_there(path):
         bundled = sample_directory() / (path.name if path.suffix == ".toml" else f"{path.name}.toml")

@@ -38,7 +38,7 @@ def load(source: Source, *, vertical_counts: bool = False, whole: bool = False) 
 
 def _tell_doubts(records: list[Record], *, strict: bool) -> None:
     """Say what is doubtful about the records, in one line where silence was asked for, or refuse them."""
-    from seisblock.records.doubts import refuse_doubtful, sentences
+    from seisblock.records.doubtful import refuse_doubtful, sentences
 
     if strict:
         for record in records:

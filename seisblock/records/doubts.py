@@ -2,15 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-from seisblock.errors import RecordError
-from seisblock.words import said
-
-if TYPE_CHECKING:
-    from seisblock.records.record import Record
 
 KINDS = {
     "header": "the header contradicts the samples, or cannot be read where it would judge them",
@@ -53,35 +46,6 @@ class Doubt:
     component: str = ""
 
 
-def sentences(records: Sequence[Record]) -> list[str]:
-    """Return the doubts about some records, a sentence each, with the record's name where there are several.
-
-    Parameters
-    ----------
-    records : sequence of Record
-    """
-    if len(records) == 1:
-        return list(dict.fromkeys(doubt.message for doubt in records[0].doubts))
-    named = (said("{record}: {doubt}", record=r.station or r.source, doubt=doubt.message) for r in records for doubt in r.doubts)
-    return list(dict.fromkeys(named))
-
-
 def settled(doubts: Iterable[Doubt]) -> tuple[Doubt, ...]:
     """Return the doubts that remain after the mean was removed."""
     return tuple(doubt for doubt in doubts if doubt.kind not in REMEDIED)
-
-
-def refuse_doubtful(record: Record) -> None:
-    """Raise where a careful reader would doubt.
-
-    Raises
-    ------
-    RecordError
-        If there are doubts about the record; the message holds them all.
-    """
-    if record.doubts:
-        raise RecordError(
-            "{record} is doubtful, and doubtful records are refused: {doubts}",
-            record=record.source or record.station or "record",
-            doubts=[doubt.message for doubt in record.doubts],
-        )

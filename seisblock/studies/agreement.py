@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
+from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
 from seisblock.bodies.inset import SHARP, WORN
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.top import rigid_top
@@ -27,8 +27,6 @@ from seisblock.records import Motion
 from seisblock.results import Response
 from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.solvers.stack.outcome import StackOutcome
-from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
-from seisblock.studies.cemetery.simulated import simulated_overturns
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted
 
@@ -186,48 +184,6 @@ def _by_formula(block: Block, stone: Block, motion: Motion, pga: float, fit: Gra
 def _formula(model: str, factor: float, *, made_for_it: bool = False) -> Opinion:
     """Return the opinion of a model that has one threshold."""
     return Opinion(model, factor < 1.0, factor, made_for_it)
-
-
-@dataclass(frozen=True)
-class RateOpinion:
-    """Which share of a cemetery falls by one model."""
-
-    model: str
-    rate: float
-
-
-def rates_by_model(
-    cemetery: Cemetery,
-    pga: float,
-    frequency: float,
-    motion: Motion | None = None,
-    *,
-    width: float = PAPER_WIDTH,
-    gravity: float = STANDARD_GRAVITY,
-) -> tuple[RateOpinion, ...]:
-    """Return which share of a cemetery falls by each model of its stones ([Furukawa2009]_ eq. (9), [Housner1963]_).
-
-    Parameters
-    ----------
-    cemetery : Cemetery
-        With reinforced stones only the criterion made for them is asked: a rigid block knows no dowel.
-    pga, frequency : float, m/s^2 and Hz
-        The shaking, for the models that have a closed form.
-    motion : Motion or None
-        The shaking itself, for those that are simulated.
-    width : float, m
-        Of stones whose width is not known.
-    gravity : float, m/s^2
-    """
-    found = [RateOpinion(GRAVESTONES, float(np.mean(pga > fitted_limits(cemetery, frequency))))]
-    if cemetery.reinforced.any():
-        return tuple(found)
-    found.append(RateOpinion(PULSE, float(np.mean(pga > rigid_limits(cemetery, frequency, width=width, gravity=gravity)))))
-    if motion is not None:
-        for model, inset in ((WORN_BLOCK, WORN), (SHARP_BLOCK, SHARP)):
-            falls = simulated_overturns(cemetery, motion, inset=inset, width=width, gravity=gravity)
-            found.append(RateOpinion(model, float(falls.mean())))
-    return tuple(found)
 
 
 def pile_agreement(response: Response[StackOutcome]) -> Agreement | None:

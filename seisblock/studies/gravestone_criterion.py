@@ -20,6 +20,8 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.top import rigid_top
 from seisblock.criteria.gravestones import GravestoneFit
 from seisblock.errors import ParameterError, RecordFormatError
+from seisblock.measures import ground_history
+from seisblock.measures.frequency import pga_pgv_frequency
 from seisblock.records.motion import Motion
 from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.solvers.stack.solve import solve_stack
@@ -225,9 +227,6 @@ def record_thresholds(
     ParameterError
         If the motion has no acceleration along +x.
     """
-    from seisblock.measures import ground_history
-    from seisblock.measures.frequency import pga_pgv_frequency
-
     peak = float(np.abs(motion.horizontal).max())
     frequency = pga_pgv_frequency(peak, float(np.abs(ground_history(motion.horizontal, motion.dt).velocity).max()))
     if frequency is None:

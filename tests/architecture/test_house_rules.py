@@ -1,12 +1,14 @@
 """The rules of the house that a machine can check: citations, docstrings, imports, the size of files."""
 
 import ast
+import graphlib
 import inspect
 import re
 import subprocess
 import sys
 from pathlib import Path
 
+import grimp
 import pytest
 
 import seisblock
@@ -163,6 +165,14 @@ def test_the_public_api_says_what_goes_in_and_what_comes_out(name):
         assert missing == []
     says = "Returns\n-------" in text or re.search(r"\b[Rr]eturns?\b|\bYield", text) or function.__annotations__.get("return") is not None
     assert says, f"{name} does not say what it returns"
+
+
+def test_no_circle_of_imports():
+    """No module imports, even inside a function or for its types only, what imports it."""
+    graph = grimp.build_graph("seisblock", exclude_type_checking_imports=False, cache_dir=None)
+    modules = {module: graph.find_modules_directly_imported_by(module) for module in graph.modules}
+    assert sum(len(imported) for imported in modules.values()) > 1000
+    graphlib.TopologicalSorter(modules).prepare()
 
 
 @pytest.mark.parametrize("module", LIGHT)

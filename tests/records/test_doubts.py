@@ -15,7 +15,8 @@ from seisblock.measures import jma_intensity, measure
 from seisblock.measures.intensity import why_no_intensity
 from seisblock.readers import read
 from seisblock.records import Component, Doubt, Record
-from seisblock.records.doubts import KINDS, refuse_doubtful, sentences
+from seisblock.records.doubtful import refuse_doubtful, sentences
+from seisblock.records.doubts import KINDS
 from seisblock.records.jumps import spikes_and_jumps
 from seisblock.records.process import crop, demean, highpass, scale
 from seisblock.records.signs import examined

@@ -25,8 +25,8 @@ from seisblock.studies.agreement import (
     Opinion,
     agreement,
     pile_agreement,
-    rates_by_model,
 )
+from seisblock.studies.cemetery.models import rates_by_model
 
 RECORD = read("elcentro_1940_ns.csv")
 MOTION = motion_of(RECORD, "NS")

@@ -12,6 +12,7 @@ from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.errors import BodyError, InputError
 from seisblock.ledger import reading
+from seisblock.samples import find_sample, list_samples
 from seisblock.units import LENGTH_UNITS, parse_length
 
 _NAMES = {
@@ -110,8 +111,6 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
 
 def _path(name: str | Path) -> Path:
     """Return the file that a name means: a path, else a bundled cemetery."""
-    from seisblock.samples import find_sample, list_samples
-
     path = Path(name)
     if path.is_dir():
         raise BodyError(f"{name} is a directory: give the CSV file of a cemetery")

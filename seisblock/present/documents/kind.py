@@ -14,7 +14,7 @@ from msgspec import UNSET, Meta, Struct, UnsetType
 from seisblock import __version__
 from seisblock.present.documents.versions import schema_name
 from seisblock.records import Doubt, Record
-from seisblock.records.doubts import sentences
+from seisblock.records.doubtful import sentences
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):

@@ -14,7 +14,7 @@ from seisblock.present.figures.fonts import drawn
 from seisblock.present.page import page
 from seisblock.present.pages import report_words as words
 from seisblock.present.text.tables import NOTHING, history, number, seconds
-from seisblock.records.doubts import sentences as doubts
+from seisblock.records.doubtful import sentences as doubts
 from seisblock.references import REFERENCES
 from seisblock.studies.assessment import Assessment, BodyAssessment, Effect
 from seisblock.studies.criteria_card import Card

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from seisblock.studies.agreement import GRAVESTONES, Agreement, Opinion, RateOpinion
+from seisblock.studies.agreement import GRAVESTONES, Agreement, Opinion
+from seisblock.studies.cemetery.models import RateOpinion
 from seisblock.studies.rocking.perturb import Perturbation
 from seisblock.words import noted, tell
 

@@ -14,8 +14,8 @@ from seisblock.bodies.inset import WORN, Inset
 from seisblock.criteria.gravestones import DOWELLED, DOWELLED_REMARK, PLAIN, GravestoneFit, outside_fit
 from seisblock.measures import FilterRange
 from seisblock.references import papers
-from seisblock.studies.agreement import RateOpinion, rates_by_model
 from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
+from seisblock.studies.cemetery.models import RateOpinion, rates_by_model
 from seisblock.studies.cemetery.rate import CURVE_PGA, FREQUENCIES, CurvePoint, rate_curve, rate_of, remarks, threshold_ratio
 from seisblock.studies.cemetery.shaking import Shaking
 from seisblock.studies.intervals import CONFIDENCE
