@@ -126,6 +126,12 @@ def _name_regions(axis: Axes, found: ModeMap, x: FloatArray, y: FloatArray) -> N
             dark = GOVERNING[index] in (FLIGHT, OVERTURNED)
             middle = math.sqrt(y[i] * y[i + 1]) if by_size(found) else 0.5 * (y[i] + y[i + 1])
             axis.text(
-                0.5 * (x[j] + x[j + 1]), middle, tell(NAMES[GOVERNING[index]]), color="white" if dark else "0.1", fontsize=9,
-                ha="center", va="center", clip_on=True,
-            )  # fmt: skip
+                0.5 * (x[j] + x[j + 1]),
+                middle,
+                tell(NAMES[GOVERNING[index]]),
+                color="white" if dark else "0.1",
+                fontsize=9,
+                ha="center",
+                va="center",
+                clip_on=True,
+            )

@@ -75,7 +75,7 @@ from seisblock.solvers.jump.modes import (
     corner_of,
     kind_of,
     landed,
-)  # fmt: skip
+)
 
 _t = types()
 

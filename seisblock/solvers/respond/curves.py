@@ -54,9 +54,15 @@ def curves(stand: Stand, states: FloatArray, modes: IntArray) -> Curves:
     rate = np.where(flies, states[:, names.RATE_RIGHT], 0.0)
     speed = states[:, names.SPEED]
     return Curves(
-        theta, omega, states[:, names.X], np.where(flies, speed, speed - ry * omega), gap - ry, rate + rx * omega,
-        np.where(flies, np.minimum(states[:, names.GAP_LEFT], states[:, names.GAP_RIGHT]), 0.0), np.where(flies, 0.0, speed),
-    )  # fmt: skip
+        theta,
+        omega,
+        states[:, names.X],
+        np.where(flies, speed, speed - ry * omega),
+        gap - ry,
+        rate + rx * omega,
+        np.where(flies, np.minimum(states[:, names.GAP_LEFT], states[:, names.GAP_RIGHT]), 0.0),
+        np.where(flies, 0.0, speed),
+    )
 
 
 def energy(stand: Stand, gravity: float, states: FloatArray, modes: IntArray) -> FloatArray:

@@ -121,17 +121,30 @@ def run(
     `keep` says whether samples and events are wanted, or the end alone.
     """
     shaken = follow(
-        setting.model, motion, setting.parameters(motion.dt), setting.state(initial), setting.first_mode, gains=gains,
-        start=Instant(), keep_path=keep, keep_events=keep,
-    )  # fmt: skip
+        setting.model,
+        motion,
+        setting.parameters(motion.dt),
+        setting.state(initial),
+        setting.first_mode,
+        gains=gains,
+        start=Instant(),
+        keep_path=keep,
+        keep_events=keep,
+    )
     duration = (motion.samples - 1) * motion.dt
     if not moves_on(shaken.final_mode) or settle_s == 0.0:
         return Run(shaken, None, duration)
     ground = still_ground(settle_s)
     after = follow(
-        setting.model, ground, setting.parameters(ground.dt, still=True), shaken.final, shaken.final_mode,
-        gains=(1.0, 0.0, 1.0), keep_path=keep, keep_events=keep,
-    )  # fmt: skip
+        setting.model,
+        ground,
+        setting.parameters(ground.dt, still=True),
+        shaken.final,
+        shaken.final_mode,
+        gains=(1.0, 0.0, 1.0),
+        keep_path=keep,
+        keep_events=keep,
+    )
     return Run(shaken, after, duration)
 
 

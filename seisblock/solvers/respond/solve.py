@@ -109,9 +109,15 @@ def solve_respond(
     """
     check_call(block, TwoLayerBlock if isinstance(block, TwoLayerBlock) else Block, motion)
     setting = make_setting(
-        block, mu=mu, mu_kinetic=mu_kinetic, restitution=restitution, rocking_restitution=rocking_restitution, gravity=gravity,
-        tenon=tenon, further_points=further_points,
-    )  # fmt: skip
+        block,
+        mu=mu,
+        mu_kinetic=mu_kinetic,
+        restitution=restitution,
+        rocking_restitution=rocking_restitution,
+        gravity=gravity,
+        tenon=tenon,
+        further_points=further_points,
+    )
     check_settling(settle_s)
     citations = papers("all modes", *(("two-layer body",) if isinstance(block, TwoLayerBlock) else ()))
     factors = gains(motion, vertical)
@@ -119,15 +125,32 @@ def solve_respond(
     sensitive = is_sensitive(found, setting, motion, factors, initial, settle_s) if sensitivity else None
     outcome = gather(found, setting, motion.start_s, sensitive)
     options = {
-        "mu": setting.mu, "mu_kinetic": setting.mu_kinetic, "restitution": restitution, "rocking_restitution": rocking_restitution,
-        "vertical": factors[2], "gravity_m_s2": gravity, "initial": None if initial is None else list(initial), "settle_s": settle_s,
-        "tenon_m": tenon, "further_points_m": [list(point) for point in setting.further_points],
-    }  # fmt: skip
+        "mu": setting.mu,
+        "mu_kinetic": setting.mu_kinetic,
+        "restitution": restitution,
+        "rocking_restitution": rocking_restitution,
+        "vertical": factors[2],
+        "gravity_m_s2": gravity,
+        "initial": None if initial is None else list(initial),
+        "settle_s": settle_s,
+        "tenon_m": tenon,
+        "further_points_m": [list(point) for point in setting.further_points],
+    }
     time, channels = _channels(found, setting, motion, factors)
     return Response(
-        "respond", outcome, motion, block, motion.start_s + time, channels, phases(outcome.events, outcome.end_s),
-        event_log(found, motion.start_s), options, status(found), warnings(found, setting, outcome.end_s, settle_s), citations,
-    )  # fmt: skip
+        "respond",
+        outcome,
+        motion,
+        block,
+        motion.start_s + time,
+        channels,
+        phases(outcome.events, outcome.end_s),
+        event_log(found, motion.start_s),
+        options,
+        status(found),
+        warnings(found, setting, outcome.end_s, settle_s),
+        citations,
+    )
 
 
 def make_setting(
@@ -157,9 +180,15 @@ def make_setting(
         If the centre of gravity does not lie above the base.
     """
     return Setting(
-        stand(block), mu, mu if mu_kinetic is None else mu_kinetic, restitution, rocking_restitution, gravity, tenon,
+        stand(block),
+        mu,
+        mu if mu_kinetic is None else mu_kinetic,
+        restitution,
+        rocking_restitution,
+        gravity,
+        tenon,
         tuple((float(ahead), float(above)) for ahead, above in further_points),
-    )  # fmt: skip
+    )
 
 
 def verdict(found: Run) -> tuple[bool, bool]:

@@ -80,9 +80,7 @@ def skidding(rx, ry, spin, push, weight, friction, p):
     return turn, cone, -push - friction * normal + ry * turn - rx * spin
 
 
-@kernel(
-    _t.float64(_t.int64, _t.boolean, _t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR, _t.boolean)
-)  # fmt: skip
+@kernel(_t.float64(_t.int64, _t.boolean, _t.boolean, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR, _t.boolean))
 def slack(kind, left, right, theta, omega, slip, push, weight, p, held):
     """Return the least slack of a mode's conditions, m/s^2; negative: not consistent ([Shenton1996]_, [GenotBrogliato1999]_)."""
     both = left and right
@@ -131,9 +129,7 @@ def slack(kind, left, right, theta, omega, slip, push, weight, p, held):
     return least if slip != 0.0 else min(least, s * sliding)
 
 
-@kernel(
-    _t.int64(_t.boolean, _t.boolean, _t.int64, _t.float64, _t.float64, _t.float64, MATRIX, VECTOR, _t.boolean)
-)  # fmt: skip
+@kernel(_t.int64(_t.boolean, _t.boolean, _t.int64, _t.float64, _t.float64, _t.float64, MATRIX, VECTOR, _t.boolean))
 def following(left, right, ended, theta, omega, slip, f, p, held):
     """Return the mode that follows, or NONE where a slip jams ([Shenton1996]_, [GenotBrogliato1999]_).
 

@@ -136,9 +136,15 @@ def mode_map(
     return ModeMap(
         np.array([math.hypot(block.width, block.height) for block in blocks]),
         np.array([min(block.arms) / block.centre for block in blocks]),
-        mu, worst.astype(np.int64), lean, path, end, ratio, time,
+        mu,
+        worst.astype(np.int64),
+        lean,
+        path,
+        end,
+        ratio,
+        time,
         np.array([math.nan if each is None else each for each in needed]),
-    )  # fmt: skip
+    )
 
 
 def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: Inset) -> list[Block]:

@@ -26,9 +26,15 @@ def program(case: Case):
     body, moves_up = case.body, bool(np.any(case.up))
     motion = Motion.from_arrays(case.along, case.dt, vertical=case.up if moves_up else None)
     return solve_respond(
-        block_of(body), motion, mu=body.mu, mu_kinetic=body.mu_kinetic, restitution=body.restitution,
-        rocking_restitution=body.rocking_restitution, vertical=moves_up, initial=case.initial,
-    )  # fmt: skip
+        block_of(body),
+        motion,
+        mu=body.mu,
+        mu_kinetic=body.mu_kinetic,
+        restitution=body.restitution,
+        rocking_restitution=body.rocking_restitution,
+        vertical=moves_up,
+        initial=case.initial,
+    )
 
 
 def events(response) -> list[tuple]:

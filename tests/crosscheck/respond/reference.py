@@ -29,7 +29,7 @@ from tests.crosscheck.respond.impact import (
     landed_flat,
     rocked,
     struck,
-)  # fmt: skip
+)
 from tests.crosscheck.respond.smooth import AT_ONCE, Ground, equations, first_zero, guards, refined, stepped
 
 OVERTURNED = "overturned"

@@ -22,7 +22,7 @@ from tests.crosscheck.respond.impact import (
     VX,
     VY,
     Y,
-)  # fmt: skip
+)
 
 PARTS = 8
 """Into how many parts a step is divided to look for zeros."""

@@ -86,9 +86,14 @@ def test_a_sideways_landing_that_does_not_trip_stops_flat():
 
 
 @given(
-    u=st.floats(-5.0, -1e-6), v=st.floats(-5.0, 5.0), rx=st.floats(-1.0, 1.0), ry=st.floats(-2.0, -0.05), k2=st.floats(0.02, 2.0),
-    mu=st.floats(0.0, 3.0), e=st.floats(0.0, 0.99),
-)  # fmt: skip
+    u=st.floats(-5.0, -1e-6),
+    v=st.floats(-5.0, 5.0),
+    rx=st.floats(-1.0, 1.0),
+    ry=st.floats(-2.0, -0.05),
+    k2=st.floats(0.02, 2.0),
+    mu=st.floats(0.0, 3.0),
+    e=st.floats(0.0, 0.99),
+)
 @settings(max_examples=300, deadline=None)
 def test_rouths_path_is_physical(u, v, rx, ry, k2, mu, e):
     """The impulse presses, lies in the cone, ends with a separating velocity, and takes energy away."""
@@ -107,9 +112,14 @@ def test_rouths_path_is_physical(u, v, rx, ry, k2, mu, e):
 
 
 @given(
-    omega=st.floats(-3.0, 3.0), rise=st.floats(-3.0, 0.5), speed=st.floats(-3.0, 3.0), width=st.floats(0.2, 2.0),
-    height=st.floats(0.2, 2.0), offset=st.floats(-0.4, 0.4), mu=st.floats(0.0, 1.5),
-)  # fmt: skip
+    omega=st.floats(-3.0, 3.0),
+    rise=st.floats(-3.0, 0.5),
+    speed=st.floats(-3.0, 3.0),
+    width=st.floats(0.2, 2.0),
+    height=st.floats(0.2, 2.0),
+    offset=st.floats(-0.4, 0.4),
+    mu=st.floats(0.0, 1.5),
+)
 @settings(max_examples=300, deadline=None)
 def test_both_corners_never_gain_energy_nor_sink(omega, rise, speed, width, height, offset, mu):
     """Moreau's plastic impact: nothing moves down afterwards and no energy is made, whichever corners stay."""

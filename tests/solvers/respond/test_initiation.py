@@ -43,9 +43,14 @@ def expected(block, push, weight, mu, kinetic):
 
 @settings(max_examples=300, deadline=None)
 @given(
-    width=st.floats(0.1, 2.0), height=st.floats(0.1, 2.0), offset=st.floats(-0.4, 0.4), push=st.floats(-25.0, 25.0),
-    weight=st.floats(2.0, 20.0), mu=st.floats(0.0, 1.2), kappa=st.floats(0.5, 1.0),
-)  # fmt: skip
+    width=st.floats(0.1, 2.0),
+    height=st.floats(0.1, 2.0),
+    offset=st.floats(-0.4, 0.4),
+    push=st.floats(-25.0, 25.0),
+    weight=st.floats(2.0, 20.0),
+    mu=st.floats(0.0, 1.2),
+    kappa=st.floats(0.5, 1.0),
+)
 def test_the_first_mode_is_shentons(width, height, offset, push, weight, mu, kappa):
     """Rest, slide, rock and slide-rock from rest, at unequal corners, with kinetic friction and vertical motion."""
     block = Block(width, height, centroid_offset=offset * width)

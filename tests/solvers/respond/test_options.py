@@ -20,16 +20,25 @@ BLOCK = Block(0.4, 1.0)
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"mu": -0.1}, "friction coefficient mu"), ({"mu": math.nan}, "friction coefficient mu"), ({"mu": math.inf}, "friction"),
-        ({"mu": 0.3, "mu_kinetic": 0.4}, "must not exceed"), ({"mu": 0.3, "mu_kinetic": -0.1}, "kinetic"),
-        ({"mu": 0.3, "restitution": 1.0}, r"\[0, 1\)"), ({"mu": 0.3, "restitution": -0.1}, r"\[0, 1\)"),
-        ({"mu": 0.3, "restitution": math.nan}, r"\[0, 1\)"), ({"mu": 0.3, "rocking_restitution": 1.1}, r"\[0, 1\]"),
-        ({"mu": 0.3, "gravity": 0.0}, "gravity"), ({"mu": 0.3, "tenon": -0.01}, "tenon"), ({"mu": 0.3, "settle_s": -1.0}, "settle"),
-        ({"mu": 0.3, "initial": (0.0, 0.5, 0.0)}, "six numbers"), ({"mu": 0.3, "initial": (0, 0.4, 0, 0, 0, 0)}, "below the ground"),
-        ({"mu": 0.3, "initial": (0, 2.0, 1.6, 0, 0, 0)}, "pi/2"), ({"mu": 0.3, "further_points": [(0.1, -0.6)]}, "above the base"),
+        ({"mu": -0.1}, "friction coefficient mu"),
+        ({"mu": math.nan}, "friction coefficient mu"),
+        ({"mu": math.inf}, "friction"),
+        ({"mu": 0.3, "mu_kinetic": 0.4}, "must not exceed"),
+        ({"mu": 0.3, "mu_kinetic": -0.1}, "kinetic"),
+        ({"mu": 0.3, "restitution": 1.0}, r"\[0, 1\)"),
+        ({"mu": 0.3, "restitution": -0.1}, r"\[0, 1\)"),
+        ({"mu": 0.3, "restitution": math.nan}, r"\[0, 1\)"),
+        ({"mu": 0.3, "rocking_restitution": 1.1}, r"\[0, 1\]"),
+        ({"mu": 0.3, "gravity": 0.0}, "gravity"),
+        ({"mu": 0.3, "tenon": -0.01}, "tenon"),
+        ({"mu": 0.3, "settle_s": -1.0}, "settle"),
+        ({"mu": 0.3, "initial": (0.0, 0.5, 0.0)}, "six numbers"),
+        ({"mu": 0.3, "initial": (0, 0.4, 0, 0, 0, 0)}, "below the ground"),
+        ({"mu": 0.3, "initial": (0, 2.0, 1.6, 0, 0, 0)}, "pi/2"),
+        ({"mu": 0.3, "further_points": [(0.1, -0.6)]}, "above the base"),
         ({"mu": 0.3, "further_points": [(0.1, math.nan)]}, "two lengths"),
     ],
-)  # fmt: skip
+)
 def test_bad_numbers_are_refused_in_a_sentence(options, said):
     """Each names the quantity, what is expected, and what was found."""
     with pytest.raises(ParameterError, match=said) as error:

@@ -16,8 +16,11 @@ from tests.solvers.respond.cases import followed, shaking
 
 BLOCKS = st.builds(
     lambda width, height, offset, centre: Block(width, height, centroid_offset=offset * width, centroid_height=centre * height),
-    st.floats(0.1, 1.5), st.floats(0.1, 1.5), st.floats(-0.35, 0.35), st.floats(0.25, 0.8),
-)  # fmt: skip
+    st.floats(0.1, 1.5),
+    st.floats(0.1, 1.5),
+    st.floats(-0.35, 0.35),
+    st.floats(0.25, 0.8),
+)
 FRICTION = st.fixed_dictionaries({"mu": st.floats(0.0, 1.6), "restitution": st.sampled_from([0.0, 0.0, 0.2, 0.6])})
 RATIO = st.sampled_from([None, None, 0.6, 0.95])
 
@@ -28,7 +31,7 @@ def test_energy_is_accounted_for(block, friction, kappa, ratio, seed, peak):
     """Work of the ground less friction less impacts is the change of kinetic and potential energy, to 1e-9, at every sample and event."""
     setting, run = followed(
         block, shaking(seed, peak, seconds=6.0), mu_kinetic=kappa * friction["mu"], rocking_restitution=ratio, **friction
-    )  # fmt: skip
+    )
     _, states, modes = run.table()
     modes = motion_modes(run, modes)
     have = energy(setting.stand, setting.gravity, states, modes) / setting.stand.mass
