@@ -79,28 +79,28 @@ def _slide(responses: Responses, gal: bool) -> Figure:
     """Draw sliding."""
     from seisblock.present.figures.slide import figure
 
-    return figure(responses)
+    return figure(responses, gal=gal)
 
 
 def _jump(responses: Responses, gal: bool) -> Figure:
     """Draw jumps."""
     from seisblock.present.figures.jump import figure
 
-    return figure(responses)
+    return figure(responses, gal=gal)
 
 
 def _uplift(responses: Responses, gal: bool) -> Figure:
     """Draw uplift under a record."""
     from seisblock.present.figures.uplift import record_figure
 
-    return record_figure(responses)
+    return record_figure(responses, gal=gal)
 
 
 def _stack(responses: Responses, gal: bool) -> Figure:
     """Draw a pile."""
     from seisblock.present.figures.stack import figure
 
-    return figure(responses)
+    return figure(responses, gal=gal)
 
 
 def _film_respond(response: Response[Any], path: Path, filming: Filming) -> None:

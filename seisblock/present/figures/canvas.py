@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import IO, Any
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -15,7 +14,7 @@ from seisblock.errors import OutputError
 from seisblock.present.figures.fonts import set_letters
 from seisblock.present.files import replacing
 from seisblock.results import Phase
-from seisblock.typing import FloatArray
+from seisblock.units import GAL
 from seisblock.words import language, tell
 
 INPUT = "0.45"
@@ -25,16 +24,19 @@ THRESHOLD = "0.15"
 BANDS = ("#f4d9c6", "#cfe3d4", "#d5dcef", "#efe3b8", "#e3d3e8")
 """Colours of phases; light enough that curves stay readable, different in grey."""
 
-MOST_POINTS = 4000
-"""A curve longer than this is reduced to the extrema of its bins, so that no peak is lost."""
+DPI = 200
+"""Dots per inch, unless told otherwise: what a journal asks of a picture with lines."""
+
+SMALLEST_TITLE = 6.5
+"""Points; a longer title is cut."""
 
 SUFFIXES = (".png", ".svg", ".pdf")
 
 
 class Sheet(Figure):
-    """A figure in one language, whose letters are settled whenever it is drawn, whoever draws it."""
+    """A figure in one language, whose letters are settled, and whose title is made to fit, whenever it is drawn, whoever draws it."""
 
-    def __init__(self, width: float, height: float, *, dpi: float = 110) -> None:
+    def __init__(self, width: float, height: float, *, dpi: float = DPI) -> None:
         super().__init__(figsize=(width, height), dpi=dpi, layout="constrained")
         FigureCanvasAgg(self)
         self.spoken = language()
@@ -42,21 +44,41 @@ class Sheet(Figure):
     def draw(self, renderer: Any) -> None:
         """Draw, in fonts that hold the letters."""
         with set_letters(self, self.spoken):
+            self._fit_title(renderer)
             super().draw(renderer)
+
+    def _fit_title(self, renderer: Any) -> None:
+        """Make the title as much smaller as it must be, and cut its end off where that is too small to read."""
+        title = self._suptitle
+        if title is None or not title.get_text():
+            return
+        room = 0.98 * self.bbox.width
+        wide = title.get_window_extent(renderer).width
+        if wide > room:
+            size = float(title.get_fontsize())
+            title.set_fontsize(max(size * room / wide, SMALLEST_TITLE))
+            while title.get_window_extent(renderer).width > room and len(title.get_text()) > 2:
+                title.set_text(title.get_text()[:-2] + "…")
+
+
+def titled(text: str, *, width: float, height: float) -> Sheet:
+    """Return an empty figure under its title, which is text and never mathematics."""
+    made = Sheet(width, height)
+    if text:
+        made.suptitle(text, fontsize=10, x=0.01, ha="left", parse_math=False)
+    return made
 
 
 def new_figure(
     rows: int, *, width: float = 8.0, height: float | None = None, title: str = "", columns: int = 1, **layout: Any
 ) -> tuple[Figure, list[Axes]]:
     """Return a figure with stacked panels that share the time axis unless told otherwise."""
-    figure = Sheet(width, height or 1.2 + 1.75 * rows)
+    figure = titled(title, width=width, height=height or 1.2 + 1.75 * rows)
     share = layout.pop("sharex", columns == 1)
     axes = figure.subplots(rows, columns, sharex=share, squeeze=False, **layout)
     flat = [axis for row in axes for axis in row]
     for axis in flat:
         dress(axis)
-    if title:
-        figure.suptitle(title, fontsize=10, x=0.01, ha="left")
     return figure, flat
 
 
@@ -76,31 +98,14 @@ def label(axis: Axes, x: str = "", y: str = "") -> None:
         axis.set_ylabel(y, fontsize=9)
 
 
-def curve(axis: Axes, time: FloatArray, values: FloatArray, *, longest_gap: float | None = None, **style: Any) -> None:
-    """Draw a curve with every peak in it, however long it is; it is broken where two points are further apart than `longest_gap`."""
-    if longest_gap is not None:
-        after = np.flatnonzero(np.abs(np.diff(time)) > longest_gap) + 1
-        time, values = np.insert(time, after, np.nan), np.insert(values, after, np.nan)
-    axis.plot(*thin(time, values), **{"linewidth": 0.9, **style})
+def panel_title(axis: Axes, text: str) -> None:
+    """Write over a panel, on the left; what a file says there is text, never mathematics."""
+    axis.set_title(text, fontsize=9, loc="left", parse_math=False)
 
 
-def thin(time: FloatArray, values: FloatArray, most: int = MOST_POINTS) -> tuple[FloatArray, FloatArray]:
-    """Return a curve of at most so many points that keeps each bin's minimum and maximum, in their order of time."""
-    n = time.size
-    if n <= most:
-        return time, values
-    bins = most // 2
-    edges = np.linspace(0, n, bins + 1).astype(np.int64)
-    keep = np.empty((bins, 2), dtype=np.int64)
-    for i in range(bins):
-        part = values[edges[i] : edges[i + 1]]
-        if np.isnan(part).all():
-            keep[i] = edges[i]
-            continue
-        low, high = int(np.nanargmin(part)), int(np.nanargmax(part))
-        keep[i] = edges[i] + np.array(sorted((low, high)))
-    index = np.unique(np.concatenate([[0], keep.ravel(), [n - 1]]))
-    return time[index], values[index]
+def acceleration_unit(*, gal: bool) -> tuple[float, str]:
+    """Return the unit in which accelerations are drawn, m/s^2, and its name."""
+    return (GAL, "gal") if gal else (1.0, "m/s²")
 
 
 def shade(axis: Axes, phases: Iterable[Phase], colours: dict[str, str], *, names: bool = False) -> None:

@@ -5,48 +5,55 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
+from seisblock.present.figures.curves import curve
+from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.text.jump import Jumps
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import FLIGHT, LANDED, ROCKING
 from seisblock.solvers.jump.solve import JumpOutcome
-from seisblock.words import tell
+from seisblock.words import noted, tell
 
+QUANTITIES = tuple(map(noted, ("θ (deg)", "rise of G (mm)", "x of G (mm)")))
 COLOURS = {ROCKING: "#f4d9c6", FLIGHT: "#cfe3d4", LANDED: "#d5dcef"}
 
 
-def figure(responses: Jumps) -> Figure:
+def figure(responses: Jumps, *, gal: bool = True) -> Figure:
     """Return the figure: per component the record with its thresholds (fig. 12), tilt, rise and displacement (fig. 14)."""
-    made, axes = canvas.new_figure(4, columns=len(responses), width=4.0 + 4.0 * len(responses), sharex="col")
-    columns = len(responses)
-    for index, response in enumerate(responses):
-        panels = [axes[row * columns + index] for row in range(4)]
-        _column(panels, response)
+    motions = [response.motion for response in responses]
+    made = canvas.titled(heading_of(motions), width=4.0 + 4.0 * len(responses), height=8.2)
+    for panels, response in zip(columns_of(made, motions, [stretch(r) for r in responses], 4), responses, strict=True):
+        _column(panels, response, gal=gal)
     return made
 
 
-def _column(panels: Sequence[Any], response: Response[JumpOutcome]) -> None:
-    """Draw one component's four panels."""
-    import numpy as np
+def stretch(response: Response[JumpOutcome]) -> Stretch:
+    """Return the stretch of time that holds all chains of motion, with a margin, or the strong part of the record when there is none."""
+    if not response.outcome.chains:
+        return strong_stretch(response.motion)
+    first = response.outcome.chains[0].rocking_start_s
+    last = max(phase.end_s for phase in response.phases if phase.name in COLOURS)
+    margin = 0.15 * (last - first) + 0.2
+    return max(first - margin, float(response.motion.time[0])), last + margin
 
+
+def _column(panels: Sequence[Any], response: Response[JumpOutcome], *, gal: bool) -> None:
+    """Draw one component's four panels."""
     motion, outcome = response.motion, response.outcome
-    canvas.curve(panels[0], motion.time, motion.horizontal, color=canvas.INPUT)
-    level = outcome.rocking_threshold_m_s2
-    canvas.threshold(panels[0], [level, -level], "g x_G / y_G")
+    unit, name = canvas.acceleration_unit(gal=gal)
+    curve(panels[0], motion.time, motion.horizontal / unit, color=canvas.INPUT)
+    level = outcome.rocking_threshold_m_s2 / unit
+    canvas.threshold(panels[0], [level, -level], tell("rocks beyond"))
     rise = response["height"] - response.body.centroid_height
     for panel, values in zip(panels[1:], (np.degrees(response["rotation"]), rise * 1e3, response["displacement"] * 1e3), strict=True):
-        canvas.curve(panel, response.time, values, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
+        curve(panel, response.time, values, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
     for panel in panels:
         canvas.shade(panel, response.phases, COLOURS, names=panel is panels[0])
     canvas.legend(panels[0])
-    panels[0].set_title(f"{motion.name}: {tell(response.body.name)}", fontsize=9, loc="left")
-    for panel, text in zip(panels, map(tell, ("z'' (m/s²)", "θ (deg)", "rise of G (mm)", "x of G (mm)")), strict=True):
+    canvas.panel_title(panels[0], f"{motion.name}: {tell(response.body.name)}")
+    for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), *map(tell, QUANTITIES)), strict=True):
         canvas.label(panel, y=text)
-    canvas.label(panels[3], x=tell("t (s)"))
-    if outcome.chains:
-        first = outcome.chains[0].rocking_start_s
-        last = max(phase.end_s for phase in response.phases if phase.name in COLOURS)
-        margin = 0.15 * (last - first) + 0.2
-        panels[3].set_xlim(first - margin, last + margin)

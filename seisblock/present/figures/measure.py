@@ -8,8 +8,11 @@ from matplotlib.figure import Figure
 
 from seisblock.measures import RecordMeasures, fourier_amplitude, ground_history, response_spectrum
 from seisblock.measures.spectra import DAMPING
-from seisblock.present.figures.canvas import ACCENT, INPUT, Sheet, curve, dress, label, legend, thin, threshold
-from seisblock.records import Component, Record
+from seisblock.present.figures.canvas import ACCENT, INPUT, dress, label, legend, threshold, titled
+from seisblock.present.figures.curves import curve, in_view, thin
+from seisblock.present.figures.heading import BETWEEN, heading
+from seisblock.present.figures.histories import columns_of, strong_part
+from seisblock.records import Component, Motion, Record
 from seisblock.records.process import pick
 from seisblock.typing import FloatArray
 from seisblock.units import GAL, KINE
@@ -31,31 +34,30 @@ def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) 
     """
     parts = [pick(record, m.component) for m in answer.components]
     n = len(parts)
-    figure = Sheet(8.5, 1.1 + 2.2 * n + 3.0)
-    figure.suptitle(_title(record, answer), fontsize=10, x=0.01, ha="left")
+    shown = strong_part(record.time, *(part.acceleration for part in parts))
+    figure = titled(_title(record, answer), width=8.5, height=1.1 + 2.2 * n + 3.0)
     above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=(2.2 * n + 0.4, 3.0))[:, 0]
-    histories = above.subplots(2 * n, 1, sharex=True, squeeze=False)[:, 0]
+    strongest = max(parts, key=lambda part: float(np.abs(part.acceleration).max()))
+    whole = Motion.from_arrays(strongest.acceleration, record.dt, name=strongest.code, start_s=record.offset_s)
+    (histories,) = columns_of(above, [whole], [shown], 2 * n)
     left, right = below.subplots(1, 2)
-    for axis in (*histories, left, right):
+    for axis in (left, right):
         dress(axis)
     _draw_accelerations(histories[:n], record, parts, answer, gal=gal)
     _draw_velocities(histories[n:], record, parts, answer, gal=gal)
-    label(histories[-1], x=tell("t (s)"))
-    histories[-1].set_xlim(record.time[0], record.time[-1])
     _draw_fourier(left, record, parts, answer.conventions.fourier_smoothing_hz, gal=gal)
     _draw_response(right, record, parts, gal=gal)
     return figure
 
 
 def _title(record: Record, answer: RecordMeasures) -> str:
-    """Return station, start and intensity in one line."""
-    start = record.start.strftime("%Y-%m-%d %H:%M:%S UTC") if record.start else ""
+    """Return what record it is, and its intensity, in one line."""
     intensity = (
         ""
         if answer.jma_intensity is None
         else tell("JMA intensity {value:.2f} ({name})", value=answer.jma_intensity, name=tell(answer.jma_class or ""))
     )
-    return "   ".join(text for text in (record.station or tell("record"), start, intensity) if text)
+    return BETWEEN.join(text for text in (heading(record), intensity) if text)
 
 
 def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component], answer: RecordMeasures, *, gal: bool) -> None:
@@ -70,7 +72,7 @@ def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component]
             threshold(axis, [sign * level for sign in signs])
         curve(axis, record.time, values, color=INPUT, linewidth=0.6)
         # thinned by extrema, the filled part keeps every peak above the threshold
-        time, thinned = thin(record.time, values)
+        time, thinned = thin(*in_view(record.time, values, *axis.get_xlim()))
         for sign in signs:
             exceeds = sign * thinned >= level
             axis.fill_between(time, sign * level, thinned, where=exceeds, interpolate=True, color=ACCENT, linewidth=0.6, zorder=3)

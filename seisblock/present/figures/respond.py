@@ -9,10 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
+from seisblock.present.figures.curves import curve
+from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.results import Phase, Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.solvers.respond.tale import FLIGHT, ROCK, SLIDE, SLIDE_ROCK
-from seisblock.units import GAL
+from seisblock.words import tell
 
 COLOURS = {SLIDE: "#d5dcef", ROCK: "#f4d9c6", SLIDE_ROCK: "#e3d3e8", FLIGHT: "#cfe3d4"}
 SEEN = 1 / 2000
@@ -26,33 +29,29 @@ def figure(responses: Responds, *, gal: bool = True) -> Figure:
     flies = any(response.outcome.flights for response in responses)
     leans = any(response.outcome.max_rotation_rad > 0.0 for response in responses)
     rows = 2 + leans + flies
-    made, axes = canvas.new_figure(rows, columns=len(responses), width=2.0 + 5.4 * len(responses), sharex="col")
-    for column, response in enumerate(responses):
-        panels = [axes[row * len(responses) + column] for row in range(rows)]
-        first, last = stretch(response)
+    motions, stretches = [response.motion for response in responses], [stretch(response) for response in responses]
+    made = canvas.titled(heading_of(motions), width=2.0 + 5.4 * len(responses), height=1.2 + 1.75 * rows)
+    for panels, response, (first, last) in zip(columns_of(made, motions, stretches, rows), responses, stretches, strict=True):
         _ground(panels[0], response, gal=gal)
-        _curve(panels[1], response, 100.0 * response["displacement"], "x (cm)", canvas.SECOND)
+        _curve(panels[1], response, 100.0 * response["displacement"], tell("x (cm)"), canvas.SECOND)
         if leans:
             _lean(panels[2], response)
         if flies:
-            _curve(panels[-1], response, 1e3 * np.maximum(response["lift"], 0.0), "lift (mm)", "#2e7d4f")
+            _curve(panels[-1], response, 1e3 * np.maximum(response["lift"], 0.0), tell("lift (mm)"), "#2e7d4f")
         for panel in panels:
             canvas.shade(panel, seen(response.phases, first, last), COLOURS, names=panel is panels[1])
         canvas.legend(panels[1])
-        panels[0].set_xlim(first, last)
-        canvas.label(panels[-1], "t (s)")
     return made
 
 
-def stretch(response: Response[RespondOutcome]) -> tuple[float, float]:
-    """Return the stretch of time worth drawing: from before it first moves until it rests, the whole record where it never does."""
-    first, last = float(response.motion.time[0]), float(response.motion.time[-1])
+def stretch(response: Response[RespondOutcome]) -> Stretch:
+    """Return the stretch of time worth drawing: from before it first moves until it rests, the record's strong part where it never does."""
     moving = [phase for phase in response.phases if phase.name in COLOURS]
     if not moving:
-        return first, last
+        return strong_stretch(response.motion)
     start, end = moving[0].start_s, moving[-1].end_s
     margin = 0.05 * (end - start) + 0.2
-    return max(first, start - margin), min(float(response.time[-1]), end + margin)
+    return max(float(response.motion.time[0]), start - margin), min(float(response.time[-1]), end + margin)
 
 
 def seen(phases: Sequence[Phase], first: float, last: float) -> list[Phase]:
@@ -62,11 +61,11 @@ def seen(phases: Sequence[Phase], first: float, last: float) -> list[Phase]:
 
 def _ground(axis: Axes, response: Response[RespondOutcome], *, gal: bool) -> None:
     """Draw the ground acceleration with the levels at which it would slide and rock from rest."""
-    unit, name = (GAL, "gal") if gal else (1.0, "m/s²")
+    unit, name = canvas.acceleration_unit(gal=gal)
     block, options = response.body, response.options
     right, left = block.arms
     gravity = options["gravity_m_s2"] / unit
-    canvas.curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
+    curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
     for level, text, dash in (
         ((-right / block.centre, left / block.centre), "rocks: b/h", (0, (6, 2))),
         ((-options["mu"], options["mu"]), "slides: μ", (0, (1.5, 1.5))),
@@ -78,14 +77,12 @@ def _ground(axis: Axes, response: Response[RespondOutcome], *, gal: bool) -> Non
     canvas.label(axis, y=f"a ({name})")
     canvas.legend(axis)
     title = f"{response.motion.name}  {block.name}: {response.outcome.outcome}"
-    axis.set_title(title, fontsize=9, loc="left", parse_math=False)
+    canvas.panel_title(axis, title)
 
 
 def _curve(axis: Axes, response: Response[RespondOutcome], values: np.ndarray, text: str, colour: str) -> None:
-    """Draw one curve of the response, cut to what is shown before it is thinned."""
-    first, last = stretch(response)
-    shown = (response.time >= first - response.motion.dt) & (response.time <= last + response.motion.dt)
-    canvas.curve(axis, response.time[shown], values[shown], color=colour, linewidth=1.1)
+    """Draw one curve of the response."""
+    curve(axis, response.time, values, color=colour, linewidth=1.1)
     canvas.label(axis, y=text)
 
 

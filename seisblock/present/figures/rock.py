@@ -8,10 +8,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
+from seisblock.present.figures.curves import curve
+from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.text.rock import Rockings
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
-from seisblock.units import GAL
 from seisblock.words import tell
 
 COLOURS = {"rocks to +x": "#f4d9c6", "rocks to -x": "#d5dcef", "beyond +alpha": "#e6b39a", "beyond -alpha": "#a9b6dd"}
@@ -20,35 +22,31 @@ COLOURS = {"rocks to +x": "#f4d9c6", "rocks to -x": "#d5dcef", "beyond +alpha": 
 def figure(responses: Rockings, *, gal: bool = True) -> Figure:
     """Return the figure: per component acceleration with its band, lean over alpha with impacts and phases, and the phase plane."""
     n = len(responses)
-    made = canvas.Sheet(10.5, 0.5 + 3.4 * n)
-    grid = made.add_gridspec(2 * n, 2, width_ratios=(2.6, 1.0))
-    for index, response in enumerate(responses):
-        above = made.add_subplot(grid[2 * index, 0])
-        below = made.add_subplot(grid[2 * index + 1, 0], sharex=above)
-        plane = made.add_subplot(grid[2 * index : 2 * index + 2, 1])
-        for axis in (above, below, plane):
-            canvas.dress(axis)
+    made = canvas.titled(heading_of([response.motion for response in responses]), width=10.5, height=0.5 + 3.6 * n)
+    for row, response in zip(made.subfigures(n, 1, squeeze=False)[:, 0], responses, strict=True):
+        left, right = row.subfigures(1, 2, width_ratios=(2.6, 1.0))
+        ((above, below),) = columns_of(left, [response.motion], [stretch(response)], 2)
+        plane = right.add_subplot()
+        canvas.dress(plane)
         draw_ground(above, response, gal=gal)
         draw_lean(below, response)
         _draw_plane(plane, response)
-        above.set_xlim(*stretch(response))
     return made
 
 
-def stretch(response: Response[RockOutcome]) -> tuple[float, float]:
-    """Return the stretch of time worth drawing."""
+def stretch(response: Response[RockOutcome]) -> Stretch:
+    """Return the stretch of time worth drawing: all rocking, with a margin, or the strong part of the record when there is none."""
     start = response.outcome.rocking_start_s
-    first, last = float(response.time[0]), float(response.time[-1])
     if start is None:
-        return first, last
+        return strong_stretch(response.motion)
     moving = [phase for phase in response.phases if phase.name != "rest"]
     margin = 0.05 * (moving[-1].end_s - start) + 0.2
-    return max(first, start - margin), min(last, moving[-1].end_s + margin)
+    return max(float(response.time[0]), start - margin), min(float(response.time[-1]), moving[-1].end_s + margin)
 
 
 def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> None:
     """Draw the ground acceleration over the band within which the block rests."""
-    unit, name = (GAL, "gal") if gal else (1.0, "m/s²")
+    unit, name = canvas.acceleration_unit(gal=gal)
     outcome, options = response.outcome, response.options
     weight = 1.0 + response["vertical_acceleration"] / options["gravity_m_s2"]
     right, left = (
@@ -60,7 +58,7 @@ def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> Non
     axis.fill_between(response.time, -g * right * weight, g * left * weight, color="0.92", linewidth=0, label=band)
     if not options["vertical"]:
         canvas.threshold(axis, [-g * right, g * left])
-    canvas.curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
+    curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
     canvas.label(axis, y=tell("a ({unit})", unit=name))
     canvas.legend(axis)
     title = tell(
@@ -71,14 +69,14 @@ def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> Non
         restitution=outcome.restitution,
     )
     title += tell("; a 2 % change flips the verdict") if outcome.verdict_flips_within_2_percent else ""
-    axis.set_title(title, fontsize=9, loc="left")
+    canvas.panel_title(axis, title)
 
 
 def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     """Draw the lean over alpha with its phases and impacts."""
     ratio = response["rotation"] / response.outcome.slenderness_rad
     canvas.shade(axis, _merged(response), COLOURS)
-    canvas.curve(axis, response.time, ratio, color=canvas.ACCENT)
+    curve(axis, response.time, ratio, color=canvas.ACCENT)
     canvas.threshold(axis, [-1.0, 1.0])
     reach = float(np.abs(ratio).max())
     limit = 1.6 if reach > 1.6 else max(1.15 * reach, 1e-3) if reach < 0.8 else 1.2
@@ -90,7 +88,7 @@ def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
         when = response.outcome.alpha_passed_s
         if when is not None and when <= response.time[-1]:
             axis.axvline(when, color=canvas.ACCENT, linewidth=0.8, linestyle=":", label=tell("α passed for good"))
-    canvas.label(axis, tell("t (s)"), tell("θ/α"))
+    canvas.label(axis, y=tell("θ/α"))
     canvas.legend(axis)
 
 

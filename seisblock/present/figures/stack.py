@@ -6,9 +6,13 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
+from seisblock.present.figures.curves import curve
+from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.histories import columns_of, strong_stretch
 from seisblock.present.text.stack import NOTICEABLE_SLIP, NOTICEABLE_TILT, Stacks
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome
@@ -19,51 +23,46 @@ DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1, 2)), (0, (1, 1)), (0, (
 """Colours and dashes of the stones from above downwards; the dashes tell them apart in grey."""
 
 
-def figure(responses: Stacks) -> Figure:
+def figure(responses: Stacks, *, gal: bool = True) -> Figure:
     """Return the figure: per run the ground acceleration, and tilts and slips of the stones against time."""
-    columns = len(responses)
-    made, axes = canvas.new_figure(3, columns=columns, width=3.5 + 4.5 * columns, sharex="col")
-    for index, response in enumerate(responses):
-        _column([axes[row * columns + index] for row in range(3)], response)
+    motions, stretches = [response.motion for response in responses], [stretch(response, margin=1.0) for response in responses]
+    made = canvas.titled(heading_of(motions), width=3.5 + 4.5 * len(responses), height=6.6)
+    for panels, response in zip(columns_of(made, motions, stretches, 3), responses, strict=True):
+        _column(panels, response, gal=gal)
     return made
 
 
-def _column(panels: Sequence[Any], response: Response[StackOutcome]) -> None:
+def _column(panels: Sequence[Any], response: Response[StackOutcome], *, gal: bool) -> None:
     """Draw one run's three panels."""
-    import numpy as np
-
     motion = response.motion
+    unit, unit_name = canvas.acceleration_unit(gal=gal)
     rows = ((tell("up"), 2, "0.75"), (tell("across"), 1, "0.6"), (motion.name or tell("along +x"), 0, canvas.INPUT))
     for name, row, grey in rows:
         values = motion.acceleration[row]
         acts = row == 0 or (row == 1 and response.options["across"]) or (row == 2 and response.options["vertical"])
         if acts and values.any():
-            canvas.curve(panels[0], motion.time, values, color=grey, label=name)
+            curve(panels[0], motion.time, values / unit, color=grey, label=name)
     for index, name in enumerate(reversed(response.body.names)):
         style: dict[str, Any] = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": tell(name)}
-        canvas.curve(panels[1], response.time, np.degrees(response[f"{name}_tilt"]), **style)
-        canvas.curve(panels[2], response.time, response[f"{name}_slip"] * 1e3, **style)
+        curve(panels[1], response.time, np.degrees(response[f"{name}_tilt"]), **style)
+        curve(panels[2], response.time, response[f"{name}_slip"] * 1e3, **style)
     for panel, quantity, factor in ((panels[1], "tilt", math.degrees(1.0)), (panels[2], "slip", 1e3)):
         top = factor * _largest(response, quantity)
         panel.set_ylim(-0.05 * top, 1.1 * top)
         for event in response.events:
             panel.axvline(event.time_s, color="0.3", linewidth=0.8, linestyle=(0, (2, 2)))
-    panels[2].set_xlim(*stretch(response, margin=1.0))
     if response.events:
         falls = [f"{tell(event.name.removesuffix(' falls'))} {event.time_s:.2f} s" for event in response.events]
         panels[1].text(0.01, 0.95, tell("falls: {stones}", stones=falls), transform=panels[1].transAxes, fontsize=7, va="top")
     canvas.legend(panels[0])
     canvas.legend(panels[1])
-    panels[0].set_title(f"+x = {motion.name}: {tell(response.body.name)}", fontsize=9, loc="left")
-    for panel, text in zip(panels, map(tell, ("ground acceleration (m/s²)", "tilt θ (deg)", "slip s (mm)")), strict=True):
+    canvas.panel_title(panels[0], f"+x = {motion.name}: {tell(response.body.name)}")
+    for panel, text in zip(panels, (tell("a ({unit})", unit=unit_name), tell("tilt θ (deg)"), tell("slip s (mm)")), strict=True):
         canvas.label(panel, y=text)
-    canvas.label(panels[2], x=tell("t (s)"))
 
 
 def _largest(response: Response[StackOutcome], quantity: str) -> float:
     """Return the largest tilt or slip of the stones that stand, and of the others until they fell."""
-    import numpy as np
-
     top = 1e-3
     for stone in response.outcome.stones:
         before = response.time <= (np.inf if stone.fell_at_s is None else stone.fell_at_s - (0.2 if quantity == "slip" else 0.0))
@@ -72,15 +71,13 @@ def _largest(response: Response[StackOutcome], quantity: str) -> float:
 
 
 def stretch(response: Response[StackOutcome], *, margin: float) -> tuple[float, float]:
-    """Return when the stones move noticeably, with a margin, s; the whole record if they never do."""
-    import numpy as np
-
+    """Return when the stones move noticeably, with a margin, s; the strong part of the record if they never do."""
     time, moving = response.time, np.zeros(response.time.size, dtype=bool)
     for name in response.body.names:
         for quantity, least in (("tilt", NOTICEABLE_TILT), ("slip", NOTICEABLE_SLIP)):
             values = response[f"{name}_{quantity}"]
             moving |= (np.abs(np.gradient(values)) > 0.1 * least) & (np.abs(values - values[0]) > least)
     if not moving.any():
-        return float(time[0]), float(time[-1])
+        return strong_stretch(response.motion)
     first, last = time[moving][[0, -1]]
     return max(float(first) - margin, float(time[0])), min(float(last) + margin, float(time[-1]))

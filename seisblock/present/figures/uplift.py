@@ -12,6 +12,9 @@ from matplotlib.patches import Rectangle
 
 from seisblock.bodies.spring_block import CORNERS
 from seisblock.present.figures import canvas
+from seisblock.present.figures.curves import curve
+from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.results import Phase, Response
 from seisblock.words import tell
 
@@ -23,49 +26,47 @@ LIFTED = canvas.BANDS[0]
 SUBSCRIPTS = "₁₂₃₄"
 
 
-def record_figure(responses: Sequence[Response[UpliftOutcome]]) -> Figure:
+def record_figure(responses: Sequence[Response[UpliftOutcome]], *, gal: bool = True) -> Figure:
     """Return ground motion, four corner displacements with uplift shaded, and a plan of which corner lifted when."""
     columns = len(responses)
-    made, axes = canvas.new_figure(
-        6, columns=columns, width=3.0 + 5.0 * columns, height=12.0, sharex=False, gridspec_kw={"height_ratios": [1.3, 1, 1, 1, 1, 2.6]}
-    )
-    for index, response in enumerate(responses):
-        panels = [axes[row * columns + index] for row in range(6)]
-        _motion(panels[0], response)
-        for i, panel in enumerate(panels[1:5]):
-            panel.sharex(panels[0])
-            panel.sharey(panels[1])
+    motions, spans = [response.motion for response in responses], [stretch(response) for response in responses]
+    made = canvas.titled(heading_of(motions), width=3.0 + 5.0 * columns, height=12.0)
+    above, below = made.subfigures(2, 1, height_ratios=(5.3, 2.6))
+    plans = below.subplots(1, columns, squeeze=False)[0]
+    histories = columns_of(above, motions, spans, 5, heights=(1.3, 1, 1, 1, 1))
+    for panels, plan, response, span in zip(histories, plans, responses, spans, strict=True):
+        _motion(panels[0], response, gal=gal)
+        for i, panel in enumerate(panels[1:]):
+            if i:
+                panel.sharey(panels[1])
             _corner(panel, response, i)
-        for panel in panels[:4]:
-            panel.tick_params(labelbottom=False)
-        canvas.label(panels[4], x=tell("t (s)"))
-        start, end = _span(response)
-        panels[0].set_xlim(start, end)
-        _plan(panels[5], response, start, end)
+        canvas.dress(plan)
+        _plan(plan, response, *span)
     return made
 
 
-def _span(response: Response[UpliftOutcome]) -> tuple[float, float]:
-    """Return the stretch of time worth drawing: all of it, or the uplifts with as much again around them."""
-    start, end = float(response.motion.time[0]), float(response.motion.time[-1])
+def stretch(response: Response[UpliftOutcome]) -> Stretch:
+    """Return the stretch of time worth drawing: the uplifts with as much again around them, the record's strong part where none is."""
     if not response.events:
-        return start, end
+        return strong_stretch(response.motion)
+    start, end = float(response.motion.time[0]), float(response.motion.time[-1])
     first, last = response.events[0].time_s, response.events[-1].time_s
     margin = max(0.5 * (last - first), 1.0)
     return max(start, first - margin), min(end, last + margin)
 
 
-def _motion(panel: Axes, response: Response[UpliftOutcome]) -> None:
+def _motion(panel: Axes, response: Response[UpliftOutcome], *, gal: bool) -> None:
     """Draw the three components of the ground motion."""
+    unit, unit_name = canvas.acceleration_unit(gal=gal)
     motion = response.motion
     for values, name, style in zip(
         motion.acceleration, map(tell, ("along +x", "across", "up")), ("0.2", "0.55", canvas.SECOND), strict=True
     ):
         if np.any(values):
-            canvas.curve(panel, motion.time, values, color=style, label=name, linewidth=0.7)
-    canvas.label(panel, y=tell("a ({unit})", unit="m/s²"))
+            curve(panel, motion.time, values / unit, color=style, label=name, linewidth=0.7)
+    canvas.label(panel, y=tell("a ({unit})", unit=unit_name))
     canvas.legend(panel)
-    panel.set_title(f"+x = {motion.name or 'x'}: {_size(response)}", fontsize=9, loc="left")
+    canvas.panel_title(panel, f"+x = {motion.name or 'x'}: {_size(response)}")
 
 
 def _size(response: Response[UpliftOutcome]) -> str:
@@ -78,7 +79,7 @@ def _size(response: Response[UpliftOutcome]) -> str:
 def _corner(panel: Axes, response: Response[UpliftOutcome], i: int) -> None:
     """Draw the displacement of one corner, its uplift shaded."""
     corner = response.outcome.corners[i]
-    canvas.curve(panel, response.time, response[f"uplift_{i + 1}"] * 1e3, color=canvas.ACCENT)
+    curve(panel, response.time, response[f"uplift_{i + 1}"] * 1e3, color=canvas.ACCENT)
     panel.axhline(0.0, color=canvas.THRESHOLD, linewidth=0.6)
     canvas.shade(panel, _in_air(response, i), {"in the air": LIFTED})
     canvas.label(panel, y=f"u{SUBSCRIPTS[i]} (mm)")

@@ -11,6 +11,7 @@ from matplotlib.patches import Polygon
 from PIL import Image
 
 from seisblock.present.figures import canvas
+from seisblock.present.figures.curves import curve
 from seisblock.present.films.animation import Filming, stage
 from seisblock.present.films.film import Film
 from seisblock.words import tell
@@ -129,7 +130,7 @@ def _strip(axis: Axes, film: Film, index: int, *, last: bool) -> None:
     strip = film.strips[index]
     canvas.dress(axis)
     canvas.shade(axis, film.seen, dict(film.colours))
-    canvas.curve(axis, strip.time, strip.values, color=strip.colour)
+    curve(axis, strip.time, strip.values, color=strip.colour)
     canvas.threshold(axis, strip.levels)
     axis.set_xlim(film.time[0], film.time[-1])
     inside = strip.values[(strip.time >= film.time[0]) & (strip.time <= film.time[-1])]

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.present.figures.canvas import thin
+from seisblock.present.figures.curves import thin
 from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Film, Strip
 from seisblock.present.page import page

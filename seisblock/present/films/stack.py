@@ -15,6 +15,7 @@ from PIL import Image
 from seisblock.bodies.pile.pile import Pile
 from seisblock.measures import ground_history
 from seisblock.present.figures import canvas
+from seisblock.present.figures.curves import curve
 from seisblock.present.figures.stack import DASHES, SHADES, stretch
 from seisblock.present.films.animation import REAL_TIME, Filming, animate, frame_times, stage
 from seisblock.present.films.frames import pace
@@ -72,7 +73,7 @@ def _pictures(response: Response[StackOutcome], times: FloatArray, speed: float,
     canvas.dress(below)
     for index, name in enumerate(reversed(body.names)):
         style: dict[str, Any] = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": tell(name)}
-        canvas.curve(below, response.time, np.degrees(response[f"{name}_tilt"]), **style)
+        curve(below, response.time, np.degrees(response[f"{name}_tilt"]), **style)
     canvas.label(below, tell("t (s)"), tell("θ (deg)"))
     canvas.legend(below, ncols=7)
     below.set_xlim(times[0], times[-1])

@@ -50,7 +50,7 @@ def read_jma_csv(blob: Blob) -> Record:
         value = number(header[key][1].split(",")[0]) if key in header else None
         if value:  # 0.0000 means unknown
             metadata[label] = value
-    metadata["unit"] = unit
+    metadata |= {"unit": unit, "clock": "JST"}
     return Record(
         components,
         dt,

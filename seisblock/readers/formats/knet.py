@@ -217,7 +217,7 @@ def _check_maximum(code: str, text: str, gal: FloatArray) -> tuple[Doubt, ...]:
 
 def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> dict[str, object]:
     """Return what the header says, and the offset."""
-    metadata: dict[str, object] = {"unit": "gal", "carries_offset": True, "offset_gal": {code: float(gal.mean())}}
+    metadata: dict[str, object] = {"unit": "gal", "clock": "JST", "carries_offset": True, "offset_gal": {code: float(gal.mean())}}
     if level:
         metadata["level"] = level
     labels = {

@@ -116,7 +116,7 @@ def _start(name: str, line: str, number_of_line: int, relative: float) -> dateti
 
 def _metadata(header: Sequence[str], level: str) -> dict[str, object]:
     """Return what the header says of event and station."""
-    metadata: dict[str, object] = {"unit": "gal", "carries_offset": True}
+    metadata: dict[str, object] = {"unit": "gal", "clock": "JST", "carries_offset": True}
     if level:
         metadata["level"] = level
     event, station = _after(header, "OriginTime").split(","), _after(header, "Code,").split(",")

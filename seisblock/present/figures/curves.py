@@ -1,0 +1,79 @@
+"""Curves against time: cut to what their panel shows, then thinned, so that what is seen is what was computed at any length."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from seisblock.typing import FloatArray
+
+MOST_POINTS = 4000
+"""What is shown of a curve, if it is more than this, is reduced to the extrema of its bins, so that no peak is lost."""
+
+
+def curve(axis: Axes, time: FloatArray, values: FloatArray, *, longest_gap: float | None = None, **style: Any) -> None:
+    """Draw a curve that holds every point in view, or every peak where there are too many, whenever the panel's limits change.
+
+    Parameters
+    ----------
+    axis : Axes
+    time, values : (n,) arrays
+        In the order of time; the two sides of an event may share an instant.
+    longest_gap : float, optional
+        The curve is broken where two points are further apart.
+    style
+        Of the line.
+    """
+    if longest_gap is not None:
+        after = np.flatnonzero(np.abs(np.diff(time)) > longest_gap) + 1
+        time, values = np.insert(time, after, time[after]), np.insert(values, after, np.nan)
+    # the whole curve first: the panel's own limits are those of all of it
+    (line,) = axis.plot(time, values, **{"linewidth": 0.9, **style})
+
+    def show(panel: Axes) -> None:
+        line.set_data(*thin(*in_view(time, values, *panel.get_xlim())))
+
+    show(axis)
+    axis.callbacks.connect("xlim_changed", show)
+
+
+def in_view(time: FloatArray, values: FloatArray, first: float, last: float) -> tuple[FloatArray, FloatArray]:
+    """Return the points of a curve between two times, and the next one on each side, which the line runs to."""
+    inside = (time >= min(first, last)) & (time <= max(first, last))
+    if inside.all():
+        return time, values
+    near = inside.copy()
+    near[1:] |= inside[:-1]
+    near[:-1] |= inside[1:]
+    if not inside.any():
+        # the view lies between two points, or beyond all
+        after = int(np.searchsorted(time, first))
+        near[max(after - 1, 0) : after + 1] = True
+    return time[near], values[near]
+
+
+def thin(time: FloatArray, values: FloatArray, most: int = MOST_POINTS) -> tuple[FloatArray, FloatArray]:
+    """Return a curve of at most about so many points that keeps each bin's minimum and maximum, in their order of time.
+
+    Parameters
+    ----------
+    time, values : (n,) arrays
+        Where `values` is not a number the curve is broken, and stays so.
+    most : int
+    """
+    n = time.size
+    if n <= most:
+        return time, values
+    wide = -(-n // (most // 2))
+    bins = -(-n // wide)
+    padded = np.full(bins * wide, np.nan)
+    padded[:n] = values
+    broken = np.isnan(padded)
+    rows = np.arange(bins) * wide
+    lowest = rows + np.where(broken, np.inf, padded).reshape(bins, wide).argmin(axis=1)
+    highest = rows + np.where(broken, -np.inf, padded).reshape(bins, wide).argmax(axis=1)
+    gaps = np.flatnonzero(broken[1:n] & ~broken[: n - 1]) + 1
+    keep = np.unique(np.concatenate([[0], lowest, highest, gaps, [n - 1]]))
+    return time[keep], values[keep]

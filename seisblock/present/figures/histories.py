@@ -1,0 +1,115 @@
+"""Columns of time histories on one clock: opened on the stretch that matters, with the whole record as a strip above it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, SubFigure
+
+from seisblock.present.figures import canvas
+from seisblock.present.figures.curves import curve
+from seisblock.records import Motion
+from seisblock.typing import FloatArray
+from seisblock.words import tell
+
+Stretch = tuple[float, float]
+"""First and last time shown, s from the record's first sample."""
+
+ALL = 0.7
+"""A stretch of at least this share of the record needs no strip that shows the rest."""
+
+STRIP = 0.3
+"""Height of the strip, of a panel's."""
+
+STRONG = (0.05, 0.95)
+"""A record opens on the time between these shares of its Arias intensity, with a margin."""
+
+
+def columns_of(
+    figure: Figure | SubFigure, motions: Sequence[Motion], stretches: Sequence[Stretch], rows: int, *, heights: Sequence[float] = ()
+) -> list[list[Axes]]:
+    """Return the panels of each motion from above downwards, all of a column on one clock that runs over its stretch.
+
+    Parameters
+    ----------
+    figure : Figure or SubFigure
+    motions : sequence of Motion
+        One per column; their horizontal acceleration is what the strip shows.
+    stretches : sequence of (float, float)
+        What each column shows, s.
+    rows : int
+    heights : sequence of float
+        Of the rows, relative; alike when left out.
+    """
+    partial = [is_part(motion.time, stretch) for motion, stretch in zip(motions, stretches, strict=True)]
+    tall = list(heights) or [1.0] * rows
+    lead = [STRIP * float(np.mean(tall))] if any(partial) else []
+    grid = figure.add_gridspec(len(lead) + rows, len(motions), height_ratios=[*lead, *tall])
+    columns = []
+    for index, (motion, stretch) in enumerate(zip(motions, stretches, strict=True)):
+        if partial[index]:
+            strip(figure.add_subplot(grid[0, index]), motion.time, motion.horizontal, stretch, motion.name)
+        panels: list[Axes] = []
+        for row in range(rows):
+            panels.append(figure.add_subplot(grid[len(lead) + row, index], sharex=panels[0] if panels else None))
+            canvas.dress(panels[-1])
+            panels[-1].tick_params(labelbottom=row + 1 == rows)
+        panels[0].set_xlim(*stretch)
+        canvas.label(panels[-1], x=tell("t (s)"))
+        columns.append(panels)
+    return columns
+
+
+def is_part(time: FloatArray, stretch: Stretch) -> bool:
+    """Return whether a stretch leaves so much of a record out, (n,) s, that a strip shows the whole of it."""
+    first, last = float(time[0]), float(time[-1])
+    return min(stretch[1], last) - max(stretch[0], first) < ALL * (last - first)
+
+
+def strong_stretch(motion: Motion) -> Stretch:
+    """Return the strong part of a record: 5 to 95 % of its Arias intensity, with a margin, or all of it where that is most of it."""
+    return strong_part(motion.time, motion.horizontal)
+
+
+def strong_part(time: FloatArray, *accelerations: FloatArray) -> Stretch:
+    """Return the time in which the strong part of some accelerations lies, (n,), with a margin; all of it where they are zero.
+
+    Parameters
+    ----------
+    time : (n,) array, s
+    accelerations : (n,) arrays
+    """
+    first, last = [], []
+    for values in accelerations:
+        energy = np.cumsum(np.square(values))
+        if energy[-1] > 0.0:
+            begin, end = np.searchsorted(energy, np.array(STRONG) * energy[-1])
+            first.append(float(time[begin]))
+            last.append(float(time[min(end, time.size - 1)]))
+    if not first:
+        return float(time[0]), float(time[-1])
+    start, stop = min(first), max(last)
+    margin = 0.15 * (stop - start) + 1.0
+    return max(start - margin, float(time[0])), min(stop + margin, float(time[-1]))
+
+
+def strip(axis: Axes, time: FloatArray, values: FloatArray, stretch: Stretch, name: str) -> None:
+    """Draw the whole of a record, (n,), with what the panels below show of it marked.
+
+    Parameters
+    ----------
+    axis : Axes
+    time, values : (n,) arrays, s, m/s^2
+    stretch : (float, float)
+    name : str
+        Of the component.
+    """
+    axis.spines[["top", "right", "left"]].set_visible(False)
+    axis.tick_params(labelsize=6.5, length=2, pad=1, left=False, labelleft=False)
+    axis.axvspan(*stretch, color=canvas.BANDS[3], linewidth=0)
+    curve(axis, time, values, color=canvas.INPUT, linewidth=0.5)
+    axis.set_xlim(time[0], time[-1])
+    told = tell("{name}, the whole record; below, what is shaded", name=name or tell("record"))
+    axis.set_title(told, fontsize=7, loc="left", pad=2, parse_math=False)
