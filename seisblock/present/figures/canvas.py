@@ -9,6 +9,7 @@ from typing import IO, Any
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from seisblock.errors import OutputError
 from seisblock.present.figures.fonts import set_letters
@@ -40,6 +41,11 @@ class Sheet(Figure):
         super().__init__(figsize=(width, height), dpi=dpi, layout="constrained")
         FigureCanvasAgg(self)
         self.spoken = language()
+        self.heading: Text | None = None
+
+    def entitle(self, text: str) -> None:
+        """Put a line above all panels; it is text, never mathematics."""
+        self.heading = self.suptitle(text, fontsize=10, x=0.01, ha="left", parse_math=False) if text else None
 
     def draw(self, renderer: Any) -> None:
         """Draw, in fonts that hold the letters."""
@@ -49,8 +55,8 @@ class Sheet(Figure):
 
     def _fit_title(self, renderer: Any) -> None:
         """Make the title as much smaller as it must be, and cut its end off where that is too small to read."""
-        title = self._suptitle
-        if title is None or not title.get_text():
+        title = self.heading
+        if title is None:
             return
         room = 0.98 * self.bbox.width
         wide = title.get_window_extent(renderer).width
@@ -62,10 +68,9 @@ class Sheet(Figure):
 
 
 def titled(text: str, *, width: float, height: float) -> Sheet:
-    """Return an empty figure under its title, which is text and never mathematics."""
+    """Return an empty figure under its title."""
     made = Sheet(width, height)
-    if text:
-        made.suptitle(text, fontsize=10, x=0.01, ha="left", parse_math=False)
+    made.entitle(text)
     return made
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
 from seisblock.records import Motion, Record
@@ -9,6 +10,9 @@ from seisblock.records.site import site_of, told_time
 from seisblock.words import listed, plain_text, tell
 
 BETWEEN = "   "
+
+LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
+"""A number of more digits than a title has room for."""
 
 
 def heading(record: Record | None, directions: Sequence[str] = ()) -> str:
@@ -46,4 +50,4 @@ def _brief(history: Iterable[str]) -> Iterable[str]:
         told = tell(did)
         for opening in (" (", "（", ": ", "："):
             told = told.split(opening)[0]
-        yield told
+        yield LONG_NUMBER.sub(lambda number: f"{float(number[0]):.4g}", told)

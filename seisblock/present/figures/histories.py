@@ -108,7 +108,7 @@ def strip(axis: Axes, time: FloatArray, values: FloatArray, stretch: Stretch, na
     """
     axis.spines[["top", "right", "left"]].set_visible(False)
     axis.tick_params(labelsize=6.5, length=2, pad=1, left=False, labelleft=False)
-    axis.axvspan(*stretch, color=canvas.BANDS[3], linewidth=0)
+    axis.axvspan(*stretch, facecolor=canvas.BANDS[3], edgecolor=canvas.BANDS[3], linewidth=1.0)
     curve(axis, time, values, color=canvas.INPUT, linewidth=0.5)
     axis.set_xlim(time[0], time[-1])
     told = tell("{name}, the whole record; below, what is shaded", name=name or tell("record"))

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
@@ -16,14 +17,21 @@ from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.words import tell
 
+FAR = 0.2
+"""Angular velocity over p alpha below which the edge of falling is far away."""
+
 COLOURS = {"rocks to +x": "#f4d9c6", "rocks to -x": "#d5dcef", "beyond +alpha": "#e6b39a", "beyond -alpha": "#a9b6dd"}
 
 
 def figure(responses: Rockings, *, gal: bool = True) -> Figure:
     """Return the figure: per component acceleration with its band, lean over alpha with impacts and phases, and the phase plane."""
-    n = len(responses)
-    made = canvas.titled(heading_of([response.motion for response in responses]), width=10.5, height=0.5 + 3.6 * n)
-    for row, response in zip(made.subfigures(n, 1, squeeze=False)[:, 0], responses, strict=True):
+    heights = [2.0 if response.outcome.rocking_start_s is None else 3.6 for response in responses]
+    made = canvas.titled(heading_of([response.motion for response in responses]), width=10.5, height=0.5 + sum(heights))
+    for row, response in zip(made.subfigures(len(responses), 1, squeeze=False, height_ratios=heights)[:, 0], responses, strict=True):
+        if response.outcome.rocking_start_s is None:
+            ((above,),) = columns_of(row, [response.motion], [stretch(response)], 1)
+            draw_ground(above, response, gal=gal)
+            continue
         left, right = row.subfigures(1, 2, width_ratios=(2.6, 1.0))
         ((above, below),) = columns_of(left, [response.motion], [stretch(response)], 2)
         plane = right.add_subplot()
@@ -75,7 +83,7 @@ def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> Non
 def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     """Draw the lean over alpha with its phases and impacts."""
     ratio = response["rotation"] / response.outcome.slenderness_rad
-    canvas.shade(axis, _merged(response), COLOURS)
+    canvas.shade(axis, _merged(response), COLOURS, names=True)
     curve(axis, response.time, ratio, color=canvas.ACCENT)
     canvas.threshold(axis, [-1.0, 1.0])
     reach = float(np.abs(ratio).max())
@@ -83,7 +91,8 @@ def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     limit = max(limit, 1.15 * min(reach, 1.4))
     axis.set_ylim(-limit, limit)
     impacts = [event.time_s for event in response.events if event.name == "impact"]
-    axis.plot(impacts, np.full(len(impacts), -0.95 * limit), "|", color="0.2", markersize=5, markeredgewidth=0.6, label=tell("impact"))
+    if impacts:
+        axis.plot(impacts, np.full(len(impacts), -0.95 * limit), "|", color="0.2", markersize=5, markeredgewidth=0.6, label=tell("impact"))
     if response.outcome.overturned:
         when = response.outcome.alpha_passed_s
         if when is not None and when <= response.time[-1]:
@@ -103,16 +112,19 @@ def _draw_plane(axis: Any, response: Response[RockOutcome]) -> None:
     outcome = response.outcome
     alpha, p = outcome.slenderness_rad, outcome.frequency_parameter_rad_s
     lean, rate = response["rotation"] / alpha, response["angular_velocity"] / (p * alpha)
-    u = np.linspace(0.0, 2.0, 60)
-    edge = np.abs(1 - u) if response.options["linear"] else 2 * np.abs(np.sin(alpha * (1 - u) / 2)) / alpha
-    for sign in (1, -1):
-        inward = np.where(u < 1, edge, -edge)
-        label = tell("edge of falling, unshaken") if sign > 0 else None
-        axis.plot(sign * u, sign * inward, color="0.3", linewidth=0.8, linestyle=(0, (4, 2)), label=label)
+    reach = min(float(np.abs(lean).max()) * 1.1, 1.8)
+    high = float(np.abs(rate[np.abs(lean) <= reach]).max()) * 1.1
+    if high > FAR:
+        # the edge is in sight
+        u = np.linspace(0.0, 2.0, 60)
+        edge = np.abs(1 - u) if response.options["linear"] else 2 * np.abs(np.sin(alpha * (1 - u) / 2)) / alpha
+        for sign in (1, -1):
+            inward = np.where(u < 1, edge, -edge)
+            label = tell("edge of falling, unshaken") if sign > 0 else None
+            axis.plot(sign * u, sign * inward, color="0.3", linewidth=0.8, linestyle=(0, (4, 2)), label=label)
     axis.plot(lean, rate, color=canvas.ACCENT, linewidth=0.7)
-    reach = min(max(float(np.abs(lean).max()) * 1.1, 0.2), 1.8)
-    high = max(float(np.abs(rate[np.abs(lean) <= reach]).max()) * 1.1, 0.2)
     axis.set_xlim(-reach, reach)
     axis.set_ylim(-high, high)
+    axis.xaxis.set_major_locator(MaxNLocator(4))
     canvas.label(axis, tell("θ/α"), tell("θ'/(p α)"))
     canvas.legend(axis)

@@ -31,7 +31,7 @@ def record_figure(responses: Sequence[Response[UpliftOutcome]], *, gal: bool = T
     columns = len(responses)
     motions, spans = [response.motion for response in responses], [stretch(response) for response in responses]
     made = canvas.titled(heading_of(motions), width=3.0 + 5.0 * columns, height=12.0)
-    above, below = made.subfigures(2, 1, height_ratios=(5.3, 2.6))
+    above, below = made.subfigures(2, 1, height_ratios=(5.3, 2.6), squeeze=False)[:, 0]
     plans = below.subplots(1, columns, squeeze=False)[0]
     histories = columns_of(above, motions, spans, 5, heights=(1.3, 1, 1, 1, 1))
     for panels, plan, response, span in zip(histories, plans, responses, spans, strict=True):
@@ -46,12 +46,12 @@ def record_figure(responses: Sequence[Response[UpliftOutcome]], *, gal: bool = T
 
 
 def stretch(response: Response[UpliftOutcome]) -> Stretch:
-    """Return the stretch of time worth drawing: the uplifts with as much again around them, the record's strong part where none is."""
+    """Return the stretch of time worth drawing: the uplifts, with a margin, the record's strong part where none is."""
     if not response.events:
         return strong_stretch(response.motion)
     start, end = float(response.motion.time[0]), float(response.motion.time[-1])
     first, last = response.events[0].time_s, response.events[-1].time_s
-    margin = max(0.5 * (last - first), 1.0)
+    margin = max(0.1 * (last - first), 1.0)
     return max(start, first - margin), min(end, last + margin)
 
 
@@ -85,11 +85,16 @@ def _corner(panel: Axes, response: Response[UpliftOutcome], i: int) -> None:
     canvas.label(panel, y=f"u{SUBSCRIPTS[i]} (mm)")
     sx, sy = ("+" if sign > 0 else "−" for sign in CORNERS[i])
     if corner.uplifts:
-        told = tell("first at {time:.3f} s, highest {most:.3g} mm", time=corner.first_uplift_s, most=corner.max_uplift_m * 1e3)
+        told = tell("first at {time:.3f} s", time=corner.first_uplift_s)
+        if response.outcome.within_model:
+            told = tell("first at {time:.3f} s, highest {most:.3g} mm", time=corner.first_uplift_s, most=corner.max_uplift_m * 1e3)
     else:
         told = tell("never lifts")
     title = tell("corner {number} ({place}): {told}", number=i + 1, place=f"{sx}x, {sy}y", told=told)
     panel.set_title(title, fontsize=8, loc="left", pad=2)
+    if not response.outcome.within_model and i == 0:
+        told = tell("leans beyond what the model holds for: heights are not to be believed")
+        panel.set_title(told, fontsize=7, loc="right", pad=2, color=canvas.ACCENT)
 
 
 def _in_air(response: Response[UpliftOutcome], i: int) -> list[Phase]:
