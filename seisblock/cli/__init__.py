@@ -98,6 +98,8 @@ class SeisblockGroup(click.Group):
 
     def main(self, args: Sequence[str] | None = None, prog_name: str | None = None, **extra: Any) -> Any:  # type: ignore[override]
         """Run the command; errors of the user become a message on stderr and an exit code."""
+        # the largest matrix here is of twelve rows: threads of the linear algebra would only wait for one another
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         if os.environ.get("NO_COLOR"):
             extra.setdefault("color", False)
         line = sys.argv[1:] if args is None else list(args)

@@ -21,7 +21,7 @@ from seisblock.cli.talk import say
 @block_options
 @rocking_options
 @gravity_option
-@output_options
+@output_options(histories=False, film=False)
 def criteria(
     source: Source,
     output: Output,

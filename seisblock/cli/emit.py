@@ -65,6 +65,8 @@ def emit(
         warn(message)
     if output.plot is not None and figure is None:
         raise OutputError(f"{document.command} has no figure here: leave --plot out")
+    if output.plot is None and (output.size is not None or output.title is not None):
+        raise OutputError("--size and --title are the figure's: give --plot, too")
     if output.animate is not None and animation is None:
         raise OutputError(f"{document.command} has no animation here: leave --animate out")
     _check_stdout(output)
@@ -82,7 +84,7 @@ def emit(
         _animate(animation, output)
         say(f"wrote {output.animate}")
     if output.plot is not None and figure is not None:
-        _draw(figure, output.plot)
+        _draw(figure, output.plot, output)
         if output.plot == STDOUT:
             return
         say(f"wrote {output.plot}")
@@ -118,16 +120,16 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
             shutil.copyfileobj(stream, sys.stdout)
 
 
-def _draw(figure: Callable[[], Figure], target: Path) -> None:
-    """Write a figure to a file, or its .png to stdout."""
-    from seisblock.present.figures.canvas import save, save_png
+def _draw(figure: Callable[[], Figure], target: Path, output: Output) -> None:
+    """Write a figure to a file, or its .png to stdout, of the size and under the title asked for."""
+    from seisblock.present.figures.canvas import fitted, save, save_png
     from seisblock.present.figures.fonts import MISSING, drawable, drawn
 
     if target == STDOUT and sys.stdout.isatty():
         raise OutputError("--plot - writes a .png to stdout, which is a terminal: send it to a file or a viewer, or give a file name")
     if drawable() != language():
         say(MISSING)
-    made = drawn(figure)
+    made = fitted(drawn(figure), size=output.size, dpi=output.dpi, title=output.title)
     if target == STDOUT:
         save_png(made, sys.stdout.buffer)
     else:

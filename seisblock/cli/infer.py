@@ -101,7 +101,7 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 @option("--limit", type=float, default=3.0, show_default=True, help="slid, jumped: largest factor on a record.")
 @option("--steps", type=click.IntRange(min=1), default=300, show_default=True, help="slid, jumped: steps of the scan up to it.")
 @gravity_option
-@output_options
+@output_options(histories=False, film=False)
 def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str | None, **asked: Any) -> None:
     """Read shaking back from what it did.
 

@@ -64,7 +64,7 @@ DEFAULT_BLOCK = "chozusha"
 @option("--repeat", is_flag=True, hidden=True, help="All chains; since 0.2.0 the default.")
 @option("--tenon", type=LENGTH, section="Output", help="Depth of the tenon's hole: say whether the foot left it, m or with a unit.")
 @gravity_option
-@output_options
+@output_options()
 def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **asked: Any) -> None:
     """Rocking, impact, jump, landing and rocking-sliding of a two-layer block (Sugimoto et al. 2017).
 

@@ -78,7 +78,7 @@ def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float |
     help="Corner of the zero-phase high-pass behind PGV and PGD, Hz; 0 for none.",
 )
 @gravity_option
-@output_options
+@output_options(film=False)
 def measure(
     source: Source,
     output: Output,

@@ -14,7 +14,7 @@ from click.shell_completion import CompletionItem
 from seisblock import checks
 from seisblock.cli.command import option
 from seisblock.cli.talk import quietly
-from seisblock.cli.types import WINDOW
+from seisblock.cli.types import SIZE, WINDOW
 from seisblock.errors import ParameterError
 from seisblock.units import STANDARD_GRAVITY
 
@@ -47,10 +47,13 @@ class Output:
     json: bool
     csv: Path | None
     plot: Path | None
-    animate: Path | None
-    slow: float
+    size: tuple[float, float] | None
+    dpi: int
+    title: str | None
     gal: bool
     quiet: bool
+    animate: Path | None = None
+    slow: float = 1.0
 
 
 def checked(check: Callable[[str, float], float]) -> Callable[[click.Context, click.Parameter, float | None], float | None]:
@@ -131,15 +134,18 @@ _RECORD_OPTIONS = (
     option("--strict", is_flag=True, section="Record", help="Refuse records about which there is any doubt, instead of warning."),
 )
 
-_OUTPUT_OPTIONS = (
-    option("--json", is_flag=True, section="Output", help="One JSON document on stdout, SI units."),
-    option(
-        "--csv",
-        type=click.Path(path_type=Path, allow_dash=True),
-        section="Output",
-        metavar="FILE",
-        help="Write the time history, SI units; - writes it to stdout, and nothing else.",
-    ),
+_JSON = option("--json", is_flag=True, section="Output", help="One JSON document on stdout, SI units.")
+
+
+def _csv(text: str) -> Any:
+    """Return ``--csv``, with what it writes."""
+    return option("--csv", type=click.Path(path_type=Path, allow_dash=True), section="Output", metavar="FILE", help=text)
+
+
+_CSV_HISTORIES = _csv("Write the time history, SI units; - writes it to stdout, and nothing else.")
+_CSV_ROWS = _csv("Write what the table holds, SI units; - writes it to stdout, and nothing else.")
+
+_FIGURE_OPTIONS = (
     option(
         "--plot",
         type=click.Path(path_type=Path, allow_dash=True),
@@ -147,6 +153,20 @@ _OUTPUT_OPTIONS = (
         metavar="FILE",
         help="Draw the figure: .png, .svg or .pdf; - writes a .png to stdout, and nothing else.",
     ),
+    option(
+        "--size",
+        type=SIZE,
+        metavar="WxH",
+        section="Output",
+        help="Width and height of the figure, 18x12, cm; or with units, 7inx5in. [default: what it needs]",
+    ),
+    option(
+        "--dpi", type=click.IntRange(30, 1200), default=200, show_default=True, section="Output", help="Dots per inch of a .png, 1/inch."
+    ),
+    option("--title", section="Output", metavar="TEXT", help="Line above the figure; empty for none. [default: station, time, processing]"),
+)
+
+_FILM_OPTIONS = (
     option("--animate", type=click.Path(path_type=Path), section="Output", metavar="FILE", help="Draw the animation: .gif, .mp4 or .html."),
     option(
         "--slow",
@@ -157,7 +177,10 @@ _OUTPUT_OPTIONS = (
         section="Output",
         help="Play the animation this many times slower than life. [default: 1]",
     ),
-    option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables. [default: gal]"),
+)
+
+_TALK_OPTIONS = (
+    option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables and figures. [default: gal]"),
     option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records."),
 )
 
@@ -167,9 +190,18 @@ def record_options(function: Function) -> Function:
     return _collected(function, _RECORD_OPTIONS, Source, "source")
 
 
-def output_options(function: Function) -> Function:
-    """Give a command the options that say where the answer goes; it receives one ``output``."""
-    return _collected(function, _OUTPUT_OPTIONS, Output, "output")
+def output_options(*, histories: bool = True, film: bool = True) -> Callable[[Function], Function]:
+    """Return what gives a command the options that say where the answer goes; it receives one ``output``.
+
+    Parameters
+    ----------
+    histories : bool
+        Whether ``--csv`` holds time histories; else it holds the numbers of the table.
+    film : bool
+        Whether there is an animation.
+    """
+    declarations = (_JSON, _CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_FILM_OPTIONS if film else ()), *_TALK_OPTIONS)
+    return lambda function: _collected(function, declarations, Output, "output")
 
 
 def gravity_option(function: Function) -> Function:
@@ -191,7 +223,7 @@ def _collected(function: Function, declarations: tuple[Any, ...], kind: Any, nam
 
     @functools.wraps(function)
     def gathered(*args: Any, **kwargs: Any) -> Any:
-        chosen = kind(**{key: kwargs.pop(key) for key in names})
+        chosen = kind(**{key: kwargs.pop(key) for key in names if key in kwargs})
         with quietly(getattr(chosen, "quiet", None)):
             return function(*args, **{name: chosen}, **kwargs)
 

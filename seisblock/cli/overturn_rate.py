@@ -107,7 +107,7 @@ def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
     help="Level of the interval of a rate, 0 to 1.",
 )
 @gravity_option
-@output_options
+@output_options(histories=False, film=False)
 def overturn_rate(
     source: Source, output: Output, cemetery: str, reinforced: bool, both: bool, most_fragile: int | None, **asked: Any
 ) -> None:

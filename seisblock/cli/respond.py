@@ -52,7 +52,7 @@ VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth_deg")
 @option("--seed", type=int, default=0, show_default=True, help="Seed of the versions.")
 @option("--settle", type=float, default=60.0, show_default=True, metavar="S", help="How long it is followed after the record, s.")
 @gravity_option
-@output_options
+@output_options()
 def respond(
     source: Source,
     output: Output,

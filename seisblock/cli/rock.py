@@ -46,7 +46,7 @@ VERSIONS = 200
 )
 @option("--seed", type=int, default=0, show_default=True, help="Seed of those changes.")
 @gravity_option
-@output_options
+@output_options()
 def rock(
     source: Source,
     output: Output,

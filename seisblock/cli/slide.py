@@ -72,7 +72,7 @@ def _needed(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
 @option("--vertical", is_flag=True, help="Let the vertical component act too.")
 @option("--vertical-scale", type=FLOATS, metavar="GAMMA", help="Factor on the vertical component, 1; implies --vertical. [default: 1]")
 @gravity_option
-@output_options
+@output_options()
 def slide(
     source: Source,
     output: Output,

@@ -72,7 +72,7 @@ DEFAULT_PILE = "wagata"
     help="--criterion: keep finished sines in this file, and go on from it.",
 )
 @gravity_option
-@output_options
+@output_options()
 def stack(
     source: Source,
     output: Output,

@@ -15,6 +15,10 @@ MOST_VALUES = 1_000_000
 """Longest range that is taken for what the user meant."""
 
 
+SMALLEST_SIDE, LARGEST_SIDE = 0.04, 1.2
+"""Of a figure, m."""
+
+
 class Length(click.ParamType):  # type: ignore[type-arg]
     """A length: metres, or a number with a unit (``24cm``, ``8sun``)."""
 
@@ -98,6 +102,28 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
         return value
 
 
+class SizeType(click.ParamType):  # type: ignore[type-arg]
+    """Width and height of a picture, ``18x12``: cm, or with a unit (``7inx5in``, ``180mmx120mm``)."""
+
+    name = "size"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, float]:
+        """Return width and height, m."""
+        if isinstance(value, tuple):
+            return value
+        sides = value.lower().replace("×", "x").split("x")
+        if len(sides) != 2:
+            self.fail(f"{value!r} is not a width and a height such as 18x12 (cm)", param, ctx)
+        try:
+            width, height = (parse_length(side if side.strip()[-1:].isalpha() else f"{side}cm", what="size") for side in sides)
+        except InputError as error:
+            self.fail(str(error), param, ctx)
+        for side in (width, height):
+            if not SMALLEST_SIDE <= side <= LARGEST_SIDE:
+                self.fail(f"{value!r}: a figure is between {SMALLEST_SIDE * 100:g} and {LARGEST_SIDE * 100:g} cm wide and high", param, ctx)
+        return width, height
+
+
 class WindowType(click.ParamType):  # type: ignore[type-arg]
     """A stretch of time ``T0:T1`` in seconds from the record's first sample; either end may be left out."""
 
@@ -125,3 +151,4 @@ FLOATS = Floats()
 LENGTHS = Floats(unit=parse_length)
 MASSES = Floats(unit=parse_mass)
 WINDOW = WindowType()
+SIZE = SizeType()

@@ -31,6 +31,12 @@ DPI = 200
 SMALLEST_TITLE = 6.5
 """Points; a longer title is cut."""
 
+INCH = 0.0254
+"""m."""
+
+MOST_PIXELS = 20_000
+"""Longest side of a picture."""
+
 SUFFIXES = (".png", ".svg", ".pdf")
 
 
@@ -45,6 +51,8 @@ class Sheet(Figure):
 
     def entitle(self, text: str) -> None:
         """Put a line above all panels; it is text, never mathematics."""
+        if self.heading is not None:
+            self.heading.set_text("")
         self.heading = self.suptitle(text, fontsize=10, x=0.01, ha="left", parse_math=False) if text else None
 
     def draw(self, renderer: Any) -> None:
@@ -76,7 +84,7 @@ def titled(text: str, *, width: float, height: float) -> Sheet:
 
 def new_figure(
     rows: int, *, width: float = 8.0, height: float | None = None, title: str = "", columns: int = 1, **layout: Any
-) -> tuple[Figure, list[Axes]]:
+) -> tuple[Sheet, list[Axes]]:
     """Return a figure with stacked panels that share the time axis unless told otherwise."""
     figure = titled(title, width=width, height=height or 1.2 + 1.75 * rows)
     share = layout.pop("sharex", columns == 1)
@@ -136,6 +144,39 @@ def legend(axis: Axes, **placement: Any) -> None:
         axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", **where)
 
 
+def fitted(figure: Figure, *, size: tuple[float, float] | None = None, dpi: int = DPI, title: str | None = None) -> Figure:
+    """Return a figure in the size, at the resolution and under the title asked for.
+
+    Parameters
+    ----------
+    figure : Figure
+    size : (float, float), m, optional
+        Width and height.
+    dpi : int, 1/inch
+    title : str, optional
+        Instead of the figure's own; empty for none.
+
+    Raises
+    ------
+    OutputError
+        If that makes more pixels than a picture can hold.
+    """
+    if size is not None:
+        figure.set_size_inches(size[0] / INCH, size[1] / INCH)
+    figure.set_dpi(dpi)
+    wide, high = figure.get_size_inches() * dpi
+    if max(wide, high) > MOST_PIXELS:
+        raise OutputError(
+            "a figure of {wide:.0f} x {high:.0f} pixels is larger than {most}: make it smaller, or give it fewer dots per inch",
+            wide=wide,
+            high=high,
+            most=MOST_PIXELS,
+        )
+    if title is not None and isinstance(figure, Sheet):
+        figure.entitle(title)
+    return figure
+
+
 def save(figure: Figure, path: Path | str) -> None:
     """Write a figure, whole or not at all; the suffix decides the format.
 
@@ -148,10 +189,10 @@ def save(figure: Figure, path: Path | str) -> None:
     if target.suffix.lower() not in SUFFIXES:
         raise OutputError(f"cannot draw {target}: the name must end in {', '.join(SUFFIXES)}")
     with replacing(target) as temporary:
-        figure.savefig(temporary, format=target.suffix[1:].lower())
+        figure.savefig(temporary, format=target.suffix[1:].lower(), dpi=figure.dpi)
 
 
 def save_png(figure: Figure, stream: IO[bytes]) -> None:
     """Write a figure as .png to an open stream."""
-    figure.savefig(stream, format="png")
+    figure.savefig(stream, format="png", dpi=figure.dpi)
     stream.flush()

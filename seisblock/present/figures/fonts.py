@@ -99,6 +99,11 @@ def drawable() -> str:
     return "en" if language() != "en" and japanese_font() is None else language()
 
 
+def has_letters(text: str) -> bool:
+    """Return whether there is a font that holds the letters of a text."""
+    return not is_wide(text) or japanese_font() is not None
+
+
 def drawn(build: Callable[[], Figure]) -> Figure:
     """Return a figure, built in the language in which it can be drawn.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
+from seisblock.present.figures.fonts import has_letters
 from seisblock.records import Motion, Record
 from seisblock.records.site import site_of, told_time
 from seisblock.words import listed, plain_text, tell
@@ -25,7 +26,8 @@ def heading(record: Record | None, directions: Sequence[str] = ()) -> str:
     """
     if record is None:
         return listed(map(_direction, dict.fromkeys(directions)))
-    name = site_of(record).label or record.source or tell("record")
+    site = site_of(record)
+    name = next((name for name in (site.label, site.code, record.source) if name and has_letters(name)), tell("record"))
     parts = (name, told_time(record, record.start), listed(map(_direction, dict.fromkeys(directions))), "; ".join(_brief(record.history)))
     return BETWEEN.join(plain_text(part) for part in parts if part)
 

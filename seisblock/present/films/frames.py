@@ -32,7 +32,7 @@ def film_frames(film: Film, speed: float, filming: Filming) -> Iterator[Image.Im
         Progress.
     """
     figure = canvas.Sheet(8.0, 4.2 + 1.15 * len(film.strips), dpi=100)
-    figure.suptitle(film.title, fontsize=10, x=0.01, ha="left")
+    figure.entitle(film.title)
     grid = figure.add_gridspec(1 + len(film.strips), 2, height_ratios=(3.6, *([1.0] * len(film.strips))), width_ratios=(1.35, 1.0))
     scene = figure.add_subplot(grid[0, 0] if film.close else grid[0, :])
     actors = [_Scene(scene, film, moving=True)]

@@ -1,0 +1,71 @@
+"""Figures of the size, at the resolution and under the title asked for."""
+
+import struct
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+
+
+@pytest.fixture
+def drawn(tmp_path):
+    def draw(*words):
+        path = tmp_path / "f.png"
+        told = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2", "--plot", str(path), *words])
+        return told, struct.unpack(">II", path.read_bytes()[16:24]) if path.exists() else None
+
+    return draw
+
+
+@pytest.mark.parametrize(
+    ("words", "pixels"),
+    [
+        ((), (8.5 * 200, 7.0 * 200)),
+        (("--dpi", "100"), (850, 700)),
+        (("--size", "18x12"), (18 / 2.54 * 200, 12 / 2.54 * 200)),
+        (("--size", "5inx4in", "--dpi", "72"), (360, 288)),
+        (("--size", "90mm×6cm"), (9 / 2.54 * 200, 6 / 2.54 * 200)),
+    ],
+)
+def test_size_and_resolution(drawn, words, pixels):
+    """200 dots per inch unless told otherwise; centimetres unless a unit is named."""
+    told, found = drawn(*words)
+    assert told.exit_code == 0, told.output
+    assert found == pytest.approx(pixels, abs=1)
+
+
+@pytest.mark.parametrize(
+    ("words", "message", "code"),
+    [
+        (("--size", "18"), "is not a width and a height such as 18x12", 2),
+        (("--size", "axb"), "a", 2),
+        (("--size", "1x1"), "a figure is between 4 and 120 cm", 2),
+        (("--size", "100x100", "--dpi", "1200"), "make it smaller", 3),
+        (("--dpi", "0"), "is not in the range", 2),
+    ],
+)
+def test_what_cannot_be_drawn_is_one_sentence(drawn, words, message, code):
+    """A size that is none, and one that is larger than a picture can be."""
+    told, found = drawn(*words)
+    assert told.exit_code == code and found is None
+    assert message in " ".join(told.stderr.split()) and "Traceback" not in told.output
+
+
+def test_a_title_is_the_figures(tmp_path):
+    """The line above the figure is the user's, not mathematics; without a figure there is nothing to put it on."""
+    path = tmp_path / "f.svg"
+    words = ["slide", "elcentro_1940_ns", "--mu", "0.2", "--title", "墓石 $x_1$ & co"]
+    assert CliRunner().invoke(main, [*words, "--plot", str(path)]).exit_code == 0
+    drawn = path.read_text(encoding="utf-8")
+    assert "x_1" in drawn and "elcentro" not in drawn
+    told = CliRunner().invoke(main, words)
+    assert told.exit_code == 3 and "give --plot, too" in told.stderr
+
+
+def test_options_are_those_that_act():
+    """F6: what has no film has no option for one; what --csv holds is said where it is no time history."""
+    for command, film, history in (("slide", True, True), ("uplift", False, True), ("criteria", False, False), ("spectrum", False, False)):
+        told = " ".join(CliRunner().invoke(main, [command, "--help"]).output.split())
+        assert ("--animate" in told) == film and ("--slow " in told) == film
+        assert ("Write the time history" in told) == history
