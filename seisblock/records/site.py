@@ -11,6 +11,9 @@ CLOCKS = {"JST": timedelta(hours=9)}
 """Clocks of the networks whose files tell local time, ahead of UTC; a reader names it in ``metadata["clock"]``."""
 
 
+HALF_A_SECOND = timedelta(seconds=0.5)
+
+
 @dataclass(frozen=True)
 class Site:
     """Where a record was made.
@@ -66,11 +69,13 @@ def site_of(record: Record) -> Site:
 
 
 def earthquake_of(record: Record) -> Earthquake | None:
-    """Return what shook, or None where the file does not say."""
+    """Return what shook, or None where the file does not say, or has zeros for all it might."""
     origin = record.metadata.get("origin_time")
     latitude, longitude, depth = (_number(record, f"event_{key}") for key in ("latitude_deg", "longitude_deg", "depth_km"))
-    told = Earthquake(origin if isinstance(origin, datetime) else None, latitude, longitude, depth, _number(record, "magnitude"))
-    return None if told == Earthquake() else told
+    magnitude = _number(record, "magnitude")
+    if not any((latitude, longitude, depth, magnitude)):
+        return None
+    return Earthquake(origin if isinstance(origin, datetime) else None, latitude, longitude, depth, magnitude)
 
 
 def told_time(record: Record, moment: datetime | None) -> str:
@@ -78,7 +83,7 @@ def told_time(record: Record, moment: datetime | None) -> str:
     if moment is None:
         return ""
     clock = str(record.metadata.get("clock", "UTC"))
-    return f"{moment + CLOCKS.get(clock, timedelta(0)):%Y-%m-%d %H:%M:%S} {clock}"
+    return f"{moment + CLOCKS.get(clock, timedelta(0)) + HALF_A_SECOND:%Y-%m-%d %H:%M:%S} {clock}"
 
 
 def _number(record: Record, key: str) -> float | None:

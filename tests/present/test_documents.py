@@ -59,7 +59,7 @@ EVERY = (
 
 PURE_NUMBERS = re.compile(
     r"""^(
-      .*_?(ratio|ratios|count|counts|rate|interval|probability|confidence|scale|limit|steps?|index|corners?|changes|stones|points|friction_demand|friction_to_rock|friction_needed_at_landing)
+      .*_?(ratio|ratios|magnitude|count|counts|rate|interval|probability|confidence|scale|limit|steps?|index|corners?|changes|stones|points|friction_demand|friction_to_rock|friction_needed_at_landing)
     | (ratio|rate|probability|threshold_ratio|jma_intensity)_(interval|range|reinforced)
     | (first|last|nearest_flip|flips|first_fall|falls_above_first|largest_at_scale|factor|spread)  # factors on a record
     | (size|slenderness|amplitude|inset|share|(rocking_)?restitution(_[xy])?)  # shares, and ratios of velocities

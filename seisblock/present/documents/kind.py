@@ -15,6 +15,7 @@ from seisblock import __version__
 from seisblock.present.documents.versions import schema_name
 from seisblock.records import Doubt, Record
 from seisblock.records.doubtful import sentences
+from seisblock.records.site import earthquake_of, site_of, told_time
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
@@ -37,14 +38,55 @@ class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisb
         return str(type(self).__struct_config__.tag).split("/")[1]
 
 
+class EarthquakeEntry(Struct, frozen=True, kw_only=True):
+    """What shook, as far as the record's file says.
+
+    Parameters
+    ----------
+    origin_time : str or None
+        ISO 8601, UTC.
+    latitude_deg, longitude_deg : float or None
+        Epicentre, degrees north and east.
+    depth_km : float or None
+    magnitude : float or None
+    """
+
+    origin_time: str | None
+    latitude_deg: float | None
+    longitude_deg: float | None
+    depth_km: float | None
+    magnitude: float | None
+
+
+def _earthquake_entry(record: Record) -> EarthquakeEntry | None:
+    """Return what shook, or None where the file does not say."""
+    told = earthquake_of(record)
+    if told is None:
+        return None
+    return EarthquakeEntry(
+        origin_time=told.origin_time.isoformat() if told.origin_time else None,
+        latitude_deg=told.latitude_deg,
+        longitude_deg=told.longitude_deg,
+        depth_km=told.depth_km,
+        magnitude=told.magnitude,
+    )
+
+
 class RecordEntry(Struct, frozen=True, kw_only=True):
     """What identifies a record.
 
     Parameters
     ----------
     station : str
+    station_name : str
+        Empty where the file has none.
+    latitude_deg, longitude_deg : float or None
+        Of the station, degrees north and east.
     start : str or None
         Time of the first sample, ISO 8601, UTC.
+    local_start : str
+        The same as the network's own clock tells it, with the name of the clock; empty where it is unknown.
+    earthquake : Earthquake or None
     dt_s : float
         Sampling interval.
     samples : int
@@ -64,7 +106,12 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
     """
 
     station: str
+    station_name: str
+    latitude_deg: float | None
+    longitude_deg: float | None
     start: str | None
+    local_start: str
+    earthquake: EarthquakeEntry | None
     dt_s: float
     samples: int
     sha256: str
@@ -79,8 +126,14 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
 
 def record_entry(record: Record) -> RecordEntry:
     """Return what identifies a record."""
+    site = site_of(record)
     return RecordEntry(
         station=record.station,
+        station_name=site.name,
+        latitude_deg=site.latitude_deg,
+        longitude_deg=site.longitude_deg,
+        local_start=told_time(record, record.start),
+        earthquake=_earthquake_entry(record),
         start=record.start.isoformat() if record.start else None,
         dt_s=record.dt,
         samples=record.samples,

@@ -15,6 +15,7 @@ from seisblock.present.page import page
 from seisblock.present.pages import report_words as words
 from seisblock.present.text.tables import NOTHING, history, number, seconds
 from seisblock.records.doubtful import sentences as doubts
+from seisblock.records.site import site_of, told_time
 from seisblock.references import REFERENCES
 from seisblock.studies.assessment import Assessment, BodyAssessment, Effect
 from seisblock.studies.criteria_card import Card
@@ -35,11 +36,10 @@ def report(found: Assessment, *, command: str = "") -> str:
         The command line that made it, for the provenance.
     """
     record = found.record
-    start = record.start.strftime("%Y-%m-%d %H:%M:%S UTC") if record.start else ""
-    about = "  ".join(part for part in (start, f"{record.samples} × {record.dt:g} s", record.format) if part)
+    about = "  ".join(part for part in (told_time(record, record.start), f"{record.samples} × {record.dt:g} s", record.format) if part)
     return page(
         "report.html",
-        tell("What {name} does to what stands there", name=record.station or record.source or tell("record")),
+        tell("What {name} does to what stands there", name=site_of(record).label or record.source or tell("record")),
         subtitles=[about, history(record) if record.history else ""],
         foot=", ".join(found.citations),
         doubts=[tell(doubt) for doubt in doubts([record])],

@@ -14,8 +14,9 @@ from rich.text import Text
 
 from seisblock.present.wrap import breaks, is_wide
 from seisblock.records import Record
+from seisblock.records.site import Earthquake, earthquake_of, site_of, told_time
 from seisblock.units import GAL
-from seisblock.words import plain_text, tell
+from seisblock.words import listed, plain_text, tell
 
 NOTHING = "-"
 """What stands where there is no number."""
@@ -111,8 +112,8 @@ def acceleration_unit(*, gal: bool) -> str:
 
 def record_line(record: Record) -> Text:
     """Return one line that says which record an answer is about."""
-    start = record.start.strftime("%Y-%m-%d %H:%M:%S UTC") if record.start else tell("start unknown")
-    name = record.station or record.source or tell("record")
+    start = told_time(record, record.start) or tell("start unknown")
+    name = site_of(record).label or record.source or tell("record")
     told = tell(
         "{name}  {start}  {samples} samples, {rate:g} Hz, {format}",
         name=name,
@@ -121,10 +122,28 @@ def record_line(record: Record) -> Text:
         rate=1 / record.dt,
         format=record.format,
     )
-    shown = line(told, "bold").append(f"\n{plain_text(history(record))}", style="dim not bold")
+    shown = line(told, "bold")
+    earthquake = earthquake_of(record)
+    if earthquake is not None:
+        shown.append(f"\n{plain_text(_earthquake_line(record, earthquake))}", style="not bold")
+    shown.append(f"\n{plain_text(history(record))}", style="dim not bold")
     for doubt in record.doubts:
         shown.append("\n" + tell("doubtful: {doubt}", doubt=doubt.message), style="yellow not bold")
     return shown
+
+
+def _earthquake_line(record: Record, earthquake: Earthquake) -> str:
+    """Return what shook: magnitude, depth, epicentre and origin time, as far as they are known."""
+    parts = []
+    if earthquake.magnitude is not None:
+        parts.append(tell("earthquake of magnitude {magnitude:g}", magnitude=earthquake.magnitude))
+    if earthquake.depth_km is not None:
+        parts.append(tell("{depth:g} km deep", depth=earthquake.depth_km))
+    if earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
+        parts.append(tell("{north:g} N {east:g} E", north=earthquake.latitude_deg, east=earthquake.longitude_deg))
+    if earthquake.origin_time is not None:
+        parts.append(told_time(record, earthquake.origin_time))
+    return listed(parts)
 
 
 def history(record: Record) -> str:

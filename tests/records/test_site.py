@@ -1,0 +1,61 @@
+"""Where, when and of what earthquake a record is, as its file says: in tables, documents and pages (P4)."""
+
+import json
+from datetime import UTC, datetime
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.readers import read
+from seisblock.records import Component, Record
+from seisblock.records.site import Earthquake, Site, earthquake_of, site_of, told_time
+
+JMA = """SITE CODE=  47772大阪市中央区,32.7417,130.8083,12,7.3,42476.0593171296,2.1,3.4
+LAT.=   34.6819
+LON.=  135.5183
+SAMPLING RATE= 100Hz
+UNIT  = gal(cm/s/s)
+INITIAL TIME = 2016 04 16 01 25 00
+NS,EW,UD
+"""
+
+
+@pytest.fixture
+def jma(tmp_path):
+    """Return a file of JMA's layout with everything its first line can hold."""
+    path = tmp_path / "地震.csv"
+    path.write_bytes((JMA + "".join(f"{i % 7}.5,{-i % 5}.25,{i % 3}.125\n" for i in range(400))).encode("cp932"))
+    return path
+
+
+def test_what_a_file_says(jma):
+    """Station with its name and place, and the earthquake; JST is the network's clock."""
+    record = read(jma)
+    assert site_of(record) == Site("47772", "大阪市中央区", 34.6819, 135.5183)
+    found = earthquake_of(record)
+    assert (found.latitude_deg, found.longitude_deg, found.depth_km, found.magnitude) == (32.7417, 130.8083, 12.0, 7.3)
+    assert told_time(record, found.origin_time) == "2016-04-16 01:25:25 JST"
+    assert told_time(record, record.start) == "2016-04-16 01:25:00 JST"
+
+
+def test_what_is_not_said_is_none():
+    """An array has no place, no time and no earthquake; zeros for all of it are none either."""
+    bare = Record((Component("NS", [0.0, 1.0]),), 0.01)
+    assert (site_of(bare), earthquake_of(bare), told_time(bare, bare.start)) == (Site(), None, "")
+    zeros = {"magnitude": 0.0, "event_latitude_deg": 0.0, "event_longitude_deg": 0.0, "event_depth_km": 0.0}
+    assert earthquake_of(Record((Component("NS", [0.0, 1.0]),), 0.01, metadata=zeros)) is None
+    other = Record((Component("NS", [0.0, 1.0]),), 0.01, start=datetime(2020, 1, 2, 3, 4, 5, tzinfo=UTC))
+    assert told_time(other, other.start) == "2020-01-02 03:04:05 UTC"
+    assert earthquake_of(Record((Component("NS", [0.0, 1.0]),), 0.01, metadata={"magnitude": 6.1})) == Earthquake(magnitude=6.1)
+
+
+def test_tables_and_documents_tell_it(jma):
+    """P4: name, local time, magnitude, depth and epicentre stand above the table and in the document."""
+    told = CliRunner().invoke(main, ["slide", str(jma), "--mu", "0.4"])
+    assert "47772 大阪市中央区  2016-04-16 01:25:00 JST" in told.stdout
+    assert "earthquake of magnitude 7.3, 12 km deep, 32.7417 N 130.808 E" in " ".join(told.stdout.split())
+    entry = json.loads(CliRunner().invoke(main, ["slide", str(jma), "--mu", "0.4", "--json"]).stdout)["record"]
+    assert entry["station_name"] == "大阪市中央区" and entry["latitude_deg"] == 34.6819 and entry["longitude_deg"] == 135.5183
+    assert entry["start"] == "2016-04-15T16:25:00+00:00" and entry["local_start"] == "2016-04-16 01:25:00 JST"
+    assert entry["earthquake"]["magnitude"] == 7.3 and entry["earthquake"]["origin_time"].startswith("2016-04-15T16:25:2")
