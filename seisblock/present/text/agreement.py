@@ -29,18 +29,18 @@ def agreement_line(name: str, found: Agreement) -> str:
         ends = {"low": min(factors), "high": max(factors)}
         if found.falls:
             text = noted(
-                "{name}: falls in all {models} models, which let it fall from {low:.2f} to {high:.2f} times this record on, a factor of "
-                "{spread:.1f} apart."
+                "{name}: falls in all {models} models; {low:.2f} to {high:.2f} times this record is enough, depending on the model (a factor "
+                "of {spread:.1f})."
             )
         else:
             text = noted(
-                "{name}: stands in all {models} models, which let it fall from {low:.2f} to {high:.2f} times this record on, a factor of "
-                "{spread:.1f} apart."
+                "{name}: stands in all {models} models; to fall it takes {low:.2f} to {high:.2f} times this record, depending on the model "
+                "(a factor of {spread:.1f})."
             )
         return tell(text, **values, **ends)
     text = noted(
-        "{name}: falls in {falls} of {models} models, {falling}; stands in {standing}. From those factors on this record on they let it "
-        "fall, a factor of {spread:.1f} apart."
+        "{name}: falls in {falls} of {models} models: {falling}; stands in the others: {standing}. In brackets: how many times this "
+        "record each takes to let it fall; the largest is {spread:.1f} times the smallest."
     )
     falling, standing = ([_opinion(o) for o in found.opinions if o.falls is falls] for falls in (True, False))
     told = tell(text, **values, falls=found.falls, falling=falling, standing=standing)
@@ -77,9 +77,11 @@ def rates_line(name: str, rates: tuple[RateOpinion, ...]) -> str:
     low, high = min(each.rate for each in rates), max(each.rate for each in rates)
     values = {"name": name, "rates": told, "made": tell(GRAVESTONES)}
     if low > 0.0:
-        text = noted("{name}: of the stones fall {rates}, {spread:.1f} times as many by one as by another; the {made} is made for them.")
+        text = noted(
+            "{name}: {rates} of the stones fall, {spread:.1f} times as many in one model as in another; the {made} is made for them."
+        )
         return tell(text, **values, spread=high / low).removeprefix(": ")
-    return tell("{name}: of the stones fall {rates}; the {made} is made for them.", **values).removeprefix(": ")
+    return tell("{name}: {rates} of the stones fall; the {made} is made for them.", **values).removeprefix(": ")
 
 
 def chance(share: float) -> str:

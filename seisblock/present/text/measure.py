@@ -27,9 +27,10 @@ def measures_report(record: Record, answer: RecordMeasures, *, gal: bool) -> Ite
         Accelerations in gal and velocities in kine, else SI.
     """
     yield record_line(record)
+    yield line("\n".join(_sentences(answer, gal=gal)))
     yield _peaks(answer, gal=gal)
     yield _frequencies_and_durations(answer, gal=gal)
-    yield line("\n".join(_sentences(answer, gal=gal)))
+    yield line("\n".join(_remarks(answer, gal=gal)))
 
 
 def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
@@ -94,6 +95,10 @@ def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
         if worst.azimuth_deg is not None:
             told += tell(" towards {azimuth:.0f}° (clockwise from north)", azimuth=worst.azimuth_deg)
         yield told
+
+
+def _remarks(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
+    """Yield how far the numbers move with what one might have chosen otherwise."""
     for m in answer.components:
         if m.usual_highpass is not None:
             yield tell("{name}: {what}", name=m.component, what=usual_filters(m.usual_highpass, gal=gal))

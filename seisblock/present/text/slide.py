@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import NOTHING, line, record_line, seconds, table
+from seisblock.present.text.tables import NOTHING, fixed, line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
 from seisblock.studies.sliding import SlidePoint
@@ -22,8 +22,7 @@ RESIDUAL = noted("residual: at the record's last sample, final: once at rest on 
 
 def millimetres(value: float | None) -> str:
     """Return a length in millimetres, to the hundredth."""
-    # adding zero after rounding turns -0.0 into 0.0
-    return NOTHING if value is None else f"{round(value * 1e3, 2) + 0.0:.2f}"
+    return NOTHING if value is None else fixed(value * 1e3, 2)
 
 
 def tables(responses: Slides, sweep: Sequence[SlidePoint] = ()) -> Iterator[Any]:
@@ -33,14 +32,14 @@ def tables(responses: Slides, sweep: Sequence[SlidePoint] = ()) -> Iterator[Any]
         if record is not None:
             yield record_line(record)
         mine = [response for response in responses if response.motion.record is record]
+        for response in mine:
+            yield line(sentence(response))
         yield table(
             tell("Sliding, {setting}", setting=setting(mine[0])),
             [tell(heading) for heading in COLUMNS],
             [_row(response) for response in mine],
             caption=tell("{first}; {second}", first=_axis(mine[0]), second=tell(RESIDUAL)),
         )
-        for response in mine:
-            yield line(sentence(response))
     if sweep:
         yield line()
         rows = [[point.component, millimetres(point.max_slip_m), millimetres(point.residual_slip_m)] for point in sweep]
@@ -66,11 +65,12 @@ def sentence(response: Response[SlideOutcome]) -> str:
     """Say what happened."""
     outcome, name = response.outcome, response.motion.name
     if not outcome.slips:
-        return tell("{name}: static friction holds throughout.", name=name)
+        return tell("{name}: stays where it is, static friction holds throughout.", name=name)
     told = tell(
-        "{name}: slides up to {most} mm along a path of {path} mm",
+        "{name}: slides up to {most} mm, and ends {final} mm from where it stood, after a path of {path} mm",
         name=name,
         most=millimetres(outcome.max_slip_m),
+        final=millimetres(outcome.final_slip_m),
         path=millimetres(outcome.path_m),
     )
     if outcome.fell_off_slope:

@@ -34,10 +34,10 @@ def tables(spectra: Spectra, kind: str, worn: str = "") -> Iterator[Any]:
         what = tell("overturning") if kind == "overturning" else tell("largest lean over alpha")
         heads = [f"{1 / math.tan(found.slenderness_rad[j]):.2f}" for j in columns]
         cells = [[f"{found.size_m[i]:.3g}", *(_cell(found, i, j, kind) for j in columns)] for i in rows]
-        title = tell("{name}: {what}; down 2R (m), across H/B", name=motion.name, what=what) + tell(worn)
-        yield table(title, ["2R \\ H/B", *heads], cells)
         falls, every = int(found.overturned.sum()), found.overturned.size
         yield line(tell("{name}: {falls} of {all} blocks overturn.", name=motion.name, falls=falls, all=every))
+        title = tell("{name}: {what}; down 2R (m), across H/B", name=motion.name, what=what) + tell(worn)
+        yield table(title, ["2R \\ H/B", *heads], cells)
         yield line()
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from seisblock.bodies.pile.stone import GROUND
 from seisblock.present.text.agreement import agreement_line
-from seisblock.present.text.tables import line, record_line, seconds, table
+from seisblock.present.text.tables import fixed, line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
 from seisblock.studies.agreement import Agreement
@@ -31,8 +31,9 @@ def tables(responses: Stacks, agreements: Sequence[Agreement | None]) -> Iterato
             yield record_line(record)
         columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), tell("slip (mm)"), tell("turn (deg)")]
         title = f"+x = {response.motion.name}: {tell(response.body.name)}"
+        yield line(verdict(response))
         yield table(title, columns, (_row(stone) for stone in reversed(response.outcome.stones)))
-        yield line(sentence(response))
+        yield line(books(response))
         if found is not None:
             top = tell("{stone}, {name}", stone=tell(response.body.names[-1]), name=response.motion.name)
             yield line(agreement_line(top, found))
@@ -45,9 +46,9 @@ def _row(stone: StoneFate) -> list[str]:
         tell(stone.name),
         tell(stone.state),
         seconds(stone.fell_at_s),
-        f"{math.degrees(stone.max_tilt_rad):.2f}",
-        f"{stone.residual_slip_m * 1e3:.1f}",
-        f"{math.degrees(stone.residual_turn_rad):.2f}",
+        fixed(math.degrees(stone.max_tilt_rad), 2),
+        fixed(stone.residual_slip_m * 1e3, 1),
+        fixed(math.degrees(stone.residual_turn_rad), 2),
     ]
 
 
@@ -67,20 +68,23 @@ def towards(degrees: float) -> str:
     return names[round(degrees / 45.0) % 8]
 
 
-def sentence(response: Response[StackOutcome]) -> str:
-    """Return what happened in words, and whether the books balance."""
+def verdict(response: Response[StackOutcome]) -> str:
+    """Return what happened in words."""
     outcome = response.outcome
     if outcome.overturned_any and outcome.time_s is not None:
         falls = sorted((stone for stone in outcome.stones if stone.state == "fallen"), key=lambda stone: stone.fell_at_s or 0.0)
-        told = strung(map(_fall, falls))
-    elif moved := [tell(stone.name) for stone in outcome.stones if stone.state != "standing"]:
-        told = tell("Every stone stands; moved: {stones}.", stones=moved)
-    else:
-        told = tell("Every stone stands where it was.")
-    books = tell(
+        return strung(map(_fall, falls))
+    if moved := [tell(stone.name) for stone in outcome.stones if stone.state != "standing"]:
+        return tell("Every stone stands; moved: {stones}.", stones=moved)
+    return tell("Every stone stands where it was.")
+
+
+def books(response: Response[StackOutcome]) -> str:
+    """Return whether the books of energy balance."""
+    outcome = response.outcome
+    return tell(
         "The shaking did {work:.0f} J of work, friction and dashpots took {lost:.0f} J; energy created by the steps: {created:.2g} J.",
         work=outcome.ground_work_j,
         lost=outcome.lost_j,
         created=outcome.created_j,
     )
-    return strung([told, books])

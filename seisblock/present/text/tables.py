@@ -95,6 +95,12 @@ def number(value: Any, digits: int = 4) -> str:
     return f"{value:.{min(decimals, digits)}f}"
 
 
+def fixed(value: float, decimals: int) -> str:
+    """Return a number with so many decimals; what rounds to nothing has no sign."""
+    # adding zero after rounding turns -0.0 into 0.0
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"
+
+
 def seconds(value: float | None) -> str:
     """Return a time to the millisecond."""
     return NOTHING if value is None else f"{value:.3f}"

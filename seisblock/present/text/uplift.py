@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import line, record_line, seconds, table
+from seisblock.present.text.tables import fixed, line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.uplift.outcome import SMALL, UpliftOutcome
 from seisblock.words import noted, tell
@@ -30,6 +30,7 @@ def tables(responses: Uplifts, *, gal: bool) -> Iterator[Any]:
             seen.add(id(record))
             yield record_line(record)
         outcome = response.outcome
+        yield line(sentence(response))
         yield table(f"+x = {response.motion.name}", [tell("corner"), *PLACES], _rows(response))
         yield line(
             tell(
@@ -38,7 +39,6 @@ def tables(responses: Uplifts, *, gal: bool) -> Iterator[Any]:
                 settlement=outcome.static_settlement_m * 1e3,
             )
         )
-        yield line(sentence(response))
         yield line()
 
 
@@ -51,7 +51,7 @@ def _rows(response: Response[UpliftOutcome]) -> Iterator[list[str]]:
         return
     yield [tell("in the air (s)"), *(seconds(c.uplift_duration_s) for c in corners)]
     yield [tell("longest in the air (s)"), *(seconds(c.longest_uplift_s) for c in corners)]
-    yield [tell("highest position (mm)"), *(f"{c.max_uplift_m * 1e3:.2f}" for c in corners)]
+    yield [tell("highest position (mm)"), *(fixed(c.max_uplift_m * 1e3, 2) for c in corners)]
     yield [tell("... at (s)"), *(seconds(c.max_uplift_time_s) for c in corners)]
     yield [tell("largest force (kN)"), *(f"{c.max_contact_force_n / 1e3:.3f}" for c in corners)]
     yield [tell("... over static"), *(f"{c.max_contact_force_n / static:.2f}" for c in corners)]
