@@ -29,8 +29,8 @@ def agreement_line(name: str, found: Agreement) -> str:
         ends = {"low": min(factors), "high": max(factors)}
         if found.falls:
             text = noted(
-                "{name}: falls in all {models} models; {low:.2f} to {high:.2f} times this record is enough, depending on the model (a factor "
-                "of {spread:.1f})."
+                "{name}: falls in all {models} models; {low:.2f} to {high:.2f} times this record is enough, depending on the model "
+                "(a factor of {spread:.1f})."
             )
         else:
             text = noted(
@@ -78,10 +78,11 @@ def rates_line(name: str, rates: tuple[RateOpinion, ...]) -> str:
     values = {"name": name, "rates": told, "made": tell(GRAVESTONES)}
     if low > 0.0:
         text = noted(
-            "{name}: {rates} of the stones fall, {spread:.1f} times as many in one model as in another; the {made} is made for them."
+            "{name}: share of the stones that falls: {rates}, {spread:.1f} times as many in one model as in another; the {made} is made "
+            "for them."
         )
-        return tell(text, **values, spread=high / low).removeprefix(": ")
-    return tell("{name}: {rates} of the stones fall; the {made} is made for them.", **values).removeprefix(": ")
+        return tell(text, **values, spread=high / low).lstrip(":： ")
+    return tell("{name}: share of the stones that falls: {rates}; the {made} is made for them.", **values).lstrip(":： ")
 
 
 def chance(share: float) -> str:
