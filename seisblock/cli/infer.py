@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from seisblock.bodies.inset import WORN
+from seisblock.cli.bodies.options import landing_option, side_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
@@ -38,14 +39,7 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 @option("--slid", type=LENGTH, metavar="M", section="Body", help="How far an object slid, m or with a unit; needs --mu.")
 @option("--jumped", type=LENGTH, metavar="M", section="Body", help="How far a two-layer block was displaced, m or with a unit.")
 @option("--block", metavar="NAME|FILE", section="Body", help=f"jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
-@option(
-    "--side",
-    type=click.Choice(["short", "long"]),
-    default="short",
-    show_default=True,
-    section="Body",
-    help="jumped: which side of the block in plan lies along the motion.",
-)
+@side_option("jumped: which side of the block in plan lies along the motion.")
 @option("--mu", type=float, section="Body", help="slid: static friction, 1. jumped: of the landed foot. [default: jumped: the body's own]")
 @option("--mu-kinetic", type=float, section="Body", help="Kinetic friction, 1. [default: slid: as --mu; jumped: the body's own]")
 @option("--restitution-x", type=float, section="Body", help="jumped: ratio of horizontal velocities at the impact. [default: the body's]")
@@ -90,13 +84,7 @@ FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
 @option("--flight-only", is_flag=True, help="jumped: the jump alone was observed, not the rocking-sliding after it.")
 @option("--first", is_flag=True, help="jumped: the first chain of motion in the record counts. [default: all, added up]")
 @option("--repeat", is_flag=True, hidden=True, help="jumped: all chains; since 0.2.0 the default.")
-@option(
-    "--landing",
-    type=click.Choice(["paper", "friction"]),
-    default="paper",
-    show_default=True,
-    help="jumped: how a foot that lands is stopped, whatever friction that takes, or by what friction can bear.",
-)
+@landing_option("jumped: how a foot that lands is stopped, whatever friction that takes, or by what friction can bear.")
 @option("--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="jumped: spin after the impact.")
 @option("--limit", type=float, default=3.0, show_default=True, help="slid, jumped: largest factor on a record.")
 @option("--steps", type=click.IntRange(min=1), default=300, show_default=True, help="slid, jumped: steps of the scan up to it.")

@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from seisblock.cli.bodies.options import landing_option, side_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
@@ -22,14 +23,7 @@ DEFAULT_BLOCK = "chozusha"
 )
 @record_options
 @option("--block", metavar="NAME|FILE", section="Body", help=f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
-@option(
-    "--side",
-    type=click.Choice(["short", "long"]),
-    default="short",
-    show_default=True,
-    section="Body",
-    help="Which side of the block in plan lies along the motion.",
-)
+@side_option("Which side of the block in plan lies along the motion.")
 @option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit; then give --heights, --masses.")
 @option("--depth", type=LENGTH, section="Body", help="Width across the motion, m; changes nothing in the plane. [default: --width]")
 @option("--heights", type=LENGTHS, metavar="H1,H2", section="Body", help="Heights of the upper and the lower layer, m or with units.")
@@ -53,13 +47,7 @@ DEFAULT_BLOCK = "chozusha"
     show_default=True,
     help="Sign of the ground acceleration that may start a chain.",
 )
-@option(
-    "--landing",
-    type=click.Choice(["paper", "friction"]),
-    default="paper",
-    show_default=True,
-    help="How a foot that lands is stopped: at once, whatever friction that takes, or by what friction can bear; it then slips on.",
-)
+@landing_option("How a foot that lands is stopped: at once, whatever friction that takes, or by what friction can bear; it then slips on.")
 @option("--first", is_flag=True, help="Follow the first chain of motion only, in each --window, as the paper does. [default: all]")
 @option("--repeat", is_flag=True, hidden=True, help="All chains; since 0.2.0 the default.")
 @option("--tenon", type=LENGTH, section="Output", help="Depth of the tenon's hole: say whether the foot left it, m or with a unit.")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from seisblock.cli.bodies.options import side_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, record_options
 from seisblock.cli.talk import quietly, say, warn
@@ -29,14 +30,7 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     section="Body",
     help="Bundled body, TOML file, or width and height (24cmx72cm); may be repeated. [default: gravestone and chozusha]",
 )
-@option(
-    "--side",
-    type=click.Choice(["short", "long"]),
-    default="short",
-    show_default=True,
-    section="Body",
-    help="Side of a two-layer body along the motion.",
-)
+@side_option("Side of a two-layer body along the motion.")
 @option(
     "--mu", type=float, section="Body", help="Static friction under the bodies, 1, for sliding. [default: the body's own, else no sliding]"
 )

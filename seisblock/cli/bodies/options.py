@@ -46,6 +46,16 @@ _REST = (
 )
 
 
+def side_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return ``--side`` of a two-layer block, short unless another is asked for."""
+    return option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body", help=text)
+
+
+def landing_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return ``--landing`` of a two-layer block, the paper's unless friction's is asked for."""
+    return option("--landing", type=click.Choice(["paper", "friction"]), default="paper", show_default=True, help=text)
+
+
 def block_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Give a command the options of one rigid block; it receives them by name, for ``choose_block``."""
     for declare in reversed((*_SIZES, *_REST)):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, record_line, table
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, table, under_records
 from seisblock.records import Record
 from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.estimate import Interval, ShakingEstimate
@@ -102,11 +102,8 @@ def _around(middle: float | None, interval: Interval) -> tuple[float | None, flo
 
 def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, moved: str) -> Iterator[Any]:
     """Yield what each component needs in a sentence, and its factors as a table; `moved` says what was observed."""
-    shown: set[int] = set()
-    for record, each in found:
-        if id(record) not in shown:
-            shown.add(id(record))
-            yield record_line(record)
+    for heading, (_, each) in under_records(found, lambda each: each[0]):
+        yield from heading
         yield line(_needs(each, moved, gal=gal))
         if each.scale_factors:
             rows = [

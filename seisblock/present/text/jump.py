@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import acceleration, acceleration_unit, line, record_line, seconds, table
+from seisblock.present.text.tables import acceleration, acceleration_unit, line, seconds, table, under_records
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.solvers.jump.solve import JumpOutcome
@@ -42,12 +42,8 @@ MOST_SHOWN = 6
 
 def tables(responses: Jumps, *, gal: bool, tenon: float | None) -> Iterator[Any]:
     """Yield, per component, what became of the block, and a table with a column per chain as in [Sugimoto2017]_ table 1."""
-    seen: set[int] = set()
-    for response in responses:
-        record = response.motion.record
-        if record is not None and id(record) not in seen:
-            seen.add(id(record))
-            yield record_line(record)
+    for heading, response in under_records(responses, lambda each: each.motion.record):
+        yield from heading
         outcome = response.outcome
         yield line(verdict(response))
         shown = _shown(outcome.chains)

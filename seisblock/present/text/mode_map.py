@@ -10,7 +10,7 @@ from typing import Any
 from seisblock.present.files import write_table
 from seisblock.present.text.respond import percent
 from seisblock.present.text.spectrum import thinned
-from seisblock.present.text.tables import line, record_line, table
+from seisblock.present.text.tables import line, table, under_records
 from seisblock.records import Motion
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.studies.standing.mode_map import GOVERNING, ModeMap
@@ -30,11 +30,8 @@ SHARES = {
 
 def tables(maps: Maps, worn: str = "") -> Iterator[Any]:
     """Yield, per component, what happens to how many, the limits of initiation, and a map of at most 20 bodies and 60 frictions."""
-    record = None
-    for motion, found in maps:
-        if motion.record is not None and motion.record is not record:
-            record = motion.record
-            yield record_line(record)
+    for heading, (motion, found) in under_records(maps, lambda each: each[0].record):
+        yield from heading
         yield line(verdict(motion, found), "bold")
         yield line("  " + limits(found))
         rows, columns = thinned(found.size_m.size, MOST_ROWS)[::-1], thinned(found.mu.size, MOST_COLUMNS)

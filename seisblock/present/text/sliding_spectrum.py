@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.present.files import write_table
-from seisblock.present.text.tables import line, number, record_line, table
+from seisblock.present.text.tables import line, number, table, under_records
 from seisblock.records import Motion
 from seisblock.studies.sliding import SlidePoint
 from seisblock.words import tell
@@ -22,11 +22,8 @@ MOST_ROWS = 25
 
 def tables(curves: Curves) -> Iterator[Any]:
     """Yield, per component, a table of at most 25 frictions."""
-    last = None
-    for motion, points in curves:
-        if motion.record is not None and motion.record is not last:
-            last = motion.record
-            yield record_line(motion.record)
+    for heading, (motion, points) in under_records(curves, lambda each: each[0].record):
+        yield from heading
         chosen = np.unique(np.linspace(0, len(points) - 1, min(len(points), MOST_ROWS)).round().astype(int))
         rows = [
             [f"{points[i].mu:.4g}", number(_millimetres(points[i].max_slip_m)), number(_millimetres(points[i].residual_slip_m))]

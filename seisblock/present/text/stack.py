@@ -8,7 +8,7 @@ from typing import Any
 
 from seisblock.bodies.pile.stone import GROUND
 from seisblock.present.text.agreement import agreement_line
-from seisblock.present.text.tables import fixed, line, record_line, seconds, table
+from seisblock.present.text.tables import fixed, line, seconds, table, under_records
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
 from seisblock.studies.agreement import Agreement
@@ -23,12 +23,8 @@ Stacks = Sequence[Response[StackOutcome]]
 
 def tables(responses: Stacks, agreements: Sequence[Agreement | None]) -> Iterator[Any]:
     """Yield the record, a row per stone, a sentence per run, and how far the models of the top stone are apart."""
-    seen: set[int] = set()
-    for response, found in zip(responses, agreements, strict=True):
-        record = response.motion.record
-        if record is not None and id(record) not in seen:
-            seen.add(id(record))
-            yield record_line(record)
+    for heading, (response, found) in under_records(zip(responses, agreements, strict=True), lambda each: each[0].motion.record):
+        yield from heading
         columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), tell("slip (mm)"), tell("turn (deg)")]
         title = f"+x = {response.motion.name}: {tell(response.body.name)}"
         yield line(verdict(response))

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, TypeVar
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console, Group
@@ -17,6 +17,8 @@ from seisblock.records import Record
 from seisblock.records.site import Earthquake, earthquake_of, site_of, told_time
 from seisblock.units import GAL
 from seisblock.words import listed, plain_text, tell
+
+Item = TypeVar("Item")
 
 NOTHING = "-"
 """What stands where there is no number."""
@@ -150,6 +152,16 @@ def _earthquake_line(record: Record, earthquake: Earthquake) -> str:
     if earthquake.origin_time is not None:
         parts.append(told_time(record, earthquake.origin_time))
     return listed(parts)
+
+
+def under_records(items: Iterable[Item], record_of: Callable[[Item], Record | None]) -> Iterator[tuple[list[Text], Item]]:
+    """Yield each item with what stands above it: the line of its record above the first item of each record, else nothing."""
+    shown: set[int] = set()
+    for item in items:
+        record = record_of(item)
+        is_new = record is not None and id(record) not in shown
+        shown.add(id(record))
+        yield [record_line(record)] if is_new and record is not None else [], item
 
 
 def history(record: Record) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import fixed, line, record_line, seconds, table
+from seisblock.present.text.tables import fixed, line, seconds, table, under_records
 from seisblock.results import Response
 from seisblock.solvers.uplift.outcome import SMALL, UpliftOutcome
 from seisblock.words import noted, tell
@@ -23,12 +23,8 @@ PLACES = ("1 (+x,+y)", "2 (+x,-y)", "3 (-x,+y)", "4 (-x,-y)")
 
 def tables(responses: Uplifts, *, gal: bool) -> Iterator[Any]:
     """Yield the record, and for each component a table of the corners and what happened in words."""
-    seen: set[int] = set()
-    for response in responses:
-        record = response.motion.record
-        if record is not None and id(record) not in seen:
-            seen.add(id(record))
-            yield record_line(record)
+    for heading, response in under_records(responses, lambda each: each.motion.record):
+        yield from heading
         outcome = response.outcome
         yield line(sentence(response))
         yield table(f"+x = {response.motion.name}", [tell("corner"), *PLACES], _rows(response))
