@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.library import block_of, restitution_of
+from seisblock.bodies.library import block_of, friction_of, restitution_of
 from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
 from seisblock.bodies.spring_choice import PAPER_BETA, PAPER_DAMPING
 from seisblock.bodies.toml import read_table
@@ -75,6 +75,7 @@ def subject(
     """
     sizes = _SIZES.match(text)
     layers = own = None
+    bare: tuple[float | None, float | None] = (None, None)
     name: str
     if sizes:
         width, height = (parse_length(part, what=f"body {text}") for part in sizes.groups())
@@ -89,8 +90,9 @@ def subject(
         if table["kind"] == "two-layer":
             layers, found = two_layer_block(table, side), contact(table)
             own = Contact(**found) if "mu" in found else None
-    static = mu if mu is not None else (own.mu if own else None)
-    kinetic = mu_kinetic if mu_kinetic is not None else (own.kinetic if own and mu is None else static)
+        bare = friction_of(table, text)
+    static = bare[0] if mu is None else mu
+    kinetic = mu_kinetic if mu_kinetic is not None else (static if mu is not None or bare[1] is None else bare[1])
     return Subject(name, block, own_restitution, layers if own else None, own, _on_springs(block, frequency_vertical), static, kinetic)
 
 

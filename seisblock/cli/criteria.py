@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from seisblock.cli.bodies.options import block_options, rocking_options
-from seisblock.cli.command import Command
+from seisblock.cli.command import Command, option
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.talk import say
@@ -20,6 +20,13 @@ from seisblock.cli.talk import say
 @record_options
 @block_options
 @rocking_options
+@option(
+    "--mu",
+    type=float,
+    section="Body",
+    help="Static friction under the block, 1, for what it does with all of its motions. [default: the body's own, else feet that hold]",
+)
+@option("--mu-kinetic", type=float, section="Body", help="Kinetic friction, 1. [default: the body's own, else as --mu]")
 @gravity_option
 @output_options(histories=False, film=False)
 def criteria(
@@ -30,13 +37,18 @@ def criteria(
     linear: bool,
     vertical: bool,
     azimuth: tuple[str, ...],
+    mu: float | None,
+    mu_kinetic: float | None,
     **body: Any,
 ) -> None:
     """Every closed-form criterion of overturning beside the simulated outcome, for each component.
 
     A block overturns, says a criterion, when the demand (the record's PGA or PGV) exceeds its threshold. Those that want a
-    frequency are given the record's equivalent frequency in each of its three definitions.
+    frequency are given the record's equivalent frequency in each of its three definitions. Beside them stands what the block does when
+    it may slide and fly, too, under all components, as respond tells it.
     """
+    from seisblock.bodies.library import friction_of
+    from seisblock.bodies.toml import read_table
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import components, load
@@ -48,12 +60,15 @@ def criteria(
     chosen = choose_block({**body, "restitution": restitution})
     say(f"body: {chosen.says}")
     source = along(source, azimuth)
+    if mu is None and body.get("block"):
+        mu, own = friction_of(read_table(body["block"]), body["block"])
+        mu_kinetic = own if mu_kinetic is None else mu_kinetic
     options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical}
     cards = []
     for record in load(source):
         for name in components(record, source):
             need_vertical(motion_of(record, name), vertical)
-            cards.append(criteria_card(record, name, chosen.block, gravity=gravity, **options))
+            cards.append(criteria_card(record, name, chosen.block, gravity=gravity, mu=mu, mu_kinetic=mu_kinetic, **options))
     emit(
         document(cards, options, gravity=gravity),
         output,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import Any
 
 import click
@@ -61,6 +62,7 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **as
     direction, displacements of the centroid are relative to the ground.
     """
     from seisblock.cli.bodies.two_layer import two_layer_choice
+    from seisblock.cli.elsewhere import after_jump
     from seisblock.present.documents.jump import document
     from seisblock.present.text import jump as shown
     from seisblock.solvers.jump.solve import solve_jump
@@ -79,5 +81,8 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **as
         document(responses, chosen.block, tenon=tenon),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, gal=output.gal, tenon=tenon),
+        tables=lambda: chain(
+            shown.tables(responses, gal=output.gal, tenon=tenon),
+            after_jump(source, asked, DEFAULT_BLOCK, chosen.block, chosen.contact, tenon),
+        ),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -69,6 +70,7 @@ def rock(
     direction. After the record's end the fate is decided by energy.
     """
     from seisblock.cli.bodies.block import choose_block
+    from seisblock.cli.elsewhere import after_rock
     from seisblock.cli.progress import progress
     from seisblock.present.documents.rock import document
     from seisblock.present.text import rock as shown
@@ -104,7 +106,10 @@ def rock(
         document(responses, chosen.block, extras, margin_limit=margin_limit if margin else None, mu=mu),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, extras, gal=output.gal, mu=mu),
+        tables=lambda: chain(
+            shown.tables(responses, extras, gal=output.gal, mu=mu),
+            after_rock(source, body, chosen.block, mu, suffices=all(extra.get("friction_suffices", True) for extra in extras)),
+        ),
     )
 
 

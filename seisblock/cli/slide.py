@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -116,6 +117,7 @@ def _one(
 ) -> None:
     """Solve one set of parameters for each direction, or for the worst one."""
     from seisblock.bodies.sliding_base import sliding_base
+    from seisblock.cli.elsewhere import after_slide
     from seisblock.present.documents.slide import document
     from seisblock.present.text import slide as shown
     from seisblock.records import motion_of
@@ -140,7 +142,10 @@ def _one(
         document(responses, sweep),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, sweep),
+        tables=lambda: chain(
+            shown.tables(responses, sweep),
+            after_slide(source, base.mu, single.get("mu_kinetic"), slips=not base.slope_deg and any(r.outcome.slips for r in responses)),
+        ),
     )
 
 

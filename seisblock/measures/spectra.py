@@ -137,19 +137,18 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
 
 def _oscillator_peaks(ground: FloatArray, dt: float, omega: float, damping: float) -> tuple[float, float, float]:
     """Return the peak absolute acceleration, relative velocity and relative displacement of one oscillator, from rest to rest."""
-    from scipy.linalg import expm
     from scipy.signal import lfilter
 
     # state (u, v, a, a') over one step: a straight line of ground acceleration is part of the linear system
     system = np.zeros((4, 4))
     system[0, 1] = system[2, 3] = 1.0
     system[1, :3] = -(omega**2), -2.0 * damping * omega, -1.0
-    step = expm(system * dt)
+    step = _exponential(system * dt)
     transition = step[:2, :2]
     at_end = step[:2, 3] / dt
     at_start = step[:2, 2] - at_end
     # x[k+1] = T x[k] + s a[k] + e a[k+1], eliminated to one recursion per row by Cayley-Hamilton
-    denominator = np.array([1.0, -np.trace(transition), np.linalg.det(transition)])
+    denominator = np.array([1.0, -np.trace(transition), transition[0, 0] * transition[1, 1] - transition[0, 1] * transition[1, 0]])
     adjugate = np.array([[transition[1, 1], -transition[0, 1]], [-transition[1, 0], transition[0, 0]]])
     middle = at_start - adjugate @ at_end
     last = -adjugate @ at_start
@@ -169,6 +168,19 @@ def _oscillator_peaks(ground: FloatArray, dt: float, omega: float, damping: floa
     after = (_free_peak(x, rate, omega, damping) for x, rate in ((a, -(2.0 * damping * omega * a + omega**2 * v)), (v, a), (u, v)))
     acceleration, speed, distance = map(max, during, after)
     return acceleration, speed, distance
+
+
+def _exponential(matrix: FloatArray) -> FloatArray:
+    """Return the exponential of a small matrix, by its series and by squaring; scipy's asks a threaded library, a hundred times slower."""
+    halvings = max(math.ceil(math.log2(max(float(np.abs(matrix).sum(axis=0).max()), 1.0))), 0)
+    small = matrix / 2.0**halvings
+    total = term = np.eye(matrix.shape[0])
+    for k in range(1, 20):
+        term = term @ small / k
+        total = total + term
+    for _ in range(halvings):
+        total = total @ total
+    return total
 
 
 def _peak_between(value: FloatArray, slope: FloatArray, dt: float) -> float:

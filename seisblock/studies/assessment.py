@@ -20,6 +20,8 @@ from seisblock.solvers.rock.solve import solve_rock
 from seisblock.solvers.slide.solve import solve_slide
 from seisblock.solvers.uplift.solve import solve_uplift
 from seisblock.studies.rocking.margin import Margin, find_margin, flagged
+from seisblock.studies.standing.governing import Governing, governing
+from seisblock.studies.standing.probability import RUNS
 from seisblock.typing import Progress
 from seisblock.units import STANDARD_GRAVITY
 
@@ -30,18 +32,22 @@ class Effect:
 
     Parameters
     ----------
-    kind : "rock", "slide", "jump" or "uplift"
+    kind : "respond", "rock", "slide", "jump" or "uplift"
+        The first is the governing one, the others are idealised.
     response : Response
     onset : float or None
         Factor on the record at which it begins: to rock, to slide, to lift. None where the record does not tell.
     margin : Margin or None
         For rocking: the factors at which the verdict changes.
+    governing : Governing or None
+        For the governing answer: how sure it is, and whether the friction was known.
     """
 
     kind: str
     response: Response[Any]
     onset: float | None
     margin: Margin | None = None
+    governing: Governing | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,6 +127,8 @@ def assess(
 def _effects(each: Subject, motion: Motion, drop: float, gravity: float) -> Iterator[Effect]:
     """Yield what every model says of one body under one component."""
     peak = float(np.abs(motion.horizontal).max())
+    found = governing(each.block, motion, mu=each.mu, mu_kinetic=each.mu_kinetic, gravity=gravity, runs=RUNS)
+    yield Effect("respond", found.response, None, governing=found)
     rock = flagged(solve_rock(each.block, motion, restitution=each.restitution, gravity=gravity))
     margin = find_margin(each.block, motion, restitution=each.restitution, gravity=gravity)
     yield Effect("rock", rock, _ratio(rock.outcome.threshold_m_s2, peak), margin)

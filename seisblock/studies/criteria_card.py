@@ -13,6 +13,7 @@ from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.agreement import Agreement, agreement
 from seisblock.studies.rocking.margin import flagged
+from seisblock.studies.standing.governing import Governing, governing
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,8 @@ class Card:
     warnings : tuple of str
     agreement : Agreement or None
         What a few of them, each counted once, and rocking blocks say, and how far apart they are; None where nobody asked.
+    governing : Governing or None
+        What the body does with all of its motions together; None where nobody asked.
     """
 
     record: Record
@@ -44,9 +47,19 @@ class Card:
     velocity_highpass_hz: float | None
     warnings: tuple[str, ...] = ()
     agreement: Agreement | None = None
+    governing: Governing | None = None
 
 
-def criteria_card(record: Record, component: str, block: Block, *, gravity: float, **options: Any) -> Card:
+def criteria_card(
+    record: Record,
+    component: str,
+    block: Block,
+    *,
+    gravity: float,
+    mu: float | None = None,
+    mu_kinetic: float | None = None,
+    **options: Any,
+) -> Card:
     """Return the criteria and the simulated outcome of one component.
 
     Parameters
@@ -56,6 +69,8 @@ def criteria_card(record: Record, component: str, block: Block, *, gravity: floa
         A horizontal code, or an azimuth.
     block : Block
     gravity : float, m/s^2
+    mu, mu_kinetic : float or None, 1
+        Friction; None where nothing is known of it: feet that hold.
     options
         ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
     """
@@ -65,4 +80,5 @@ def criteria_card(record: Record, component: str, block: Block, *, gravity: floa
     response = flagged(solve_rock(block, motion, gravity=gravity, **options))
     rows = overturning_card(block, measured.pga_m_s2, measured.pgv_m_s, asdict(measured.equivalent_frequency_hz), gravity)
     said = agreement(block, motion, gravity=gravity, **options)
-    return Card(record, component, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings, said)
+    whole = governing(block, motion, mu=mu, mu_kinetic=mu_kinetic, gravity=gravity)
+    return Card(record, component, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings, said, whole)

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from msgspec import Meta, Struct
 
 from seisblock.bodies.block import Restitution
-from seisblock.criteria.card import Row
+from seisblock.criteria.card import Row, once_each
 from seisblock.measures.frequency import EquivalentFrequency
 from seisblock.present.documents.bodies import BlockEntry, block_entry
 from seisblock.present.documents.entry import entry_of, entry_type
@@ -46,6 +46,59 @@ AGREEMENT = Annotated[Agreement | None, Meta(description="What other models of t
 Simulated: Any = entry_type("Simulated", RockOutcome, beside={"agreement": AGREEMENT})
 
 
+class RespondEntry(Struct, frozen=True, kw_only=True):
+    """What the body does with all of its motions together, as ``seisblock respond`` answers.
+
+    Parameters
+    ----------
+    mu : float
+    friction_known : bool
+        False where nothing is known of it, and feet that hold are taken.
+    outcome : str
+        In words.
+    overturned : bool
+    overturned_towards : str or None
+        ``+x`` or ``-x``.
+    overturning_time_s : float or None
+    max_rotation_ratio : float
+        Largest lean over alpha.
+    slip_path_m, final_displacement_m : float
+        Length slid, and where it ends, signed.
+    criteria_agree : bool
+        Whether more than half of the criteria, each counted once, say the same of its fall.
+    """
+
+    mu: float
+    friction_known: bool
+    outcome: str
+    overturned: bool
+    overturned_towards: str | None
+    overturning_time_s: float | None
+    max_rotation_ratio: float
+    slip_path_m: float
+    final_displacement_m: float
+    criteria_agree: bool
+
+
+def _respond(card: Card) -> RespondEntry | None:
+    """Return what the body does with all of its motions together, where that was asked."""
+    if card.governing is None:
+        return None
+    outcome, counted = card.governing.response.outcome, once_each(card.rows)
+    return RespondEntry(
+        mu=card.governing.response.options["mu"],
+        friction_known=card.governing.friction_known,
+        outcome=outcome.outcome,
+        overturned=outcome.overturned,
+        overturned_towards=outcome.overturned_towards,
+        overturning_time_s=outcome.overturning_time_s,
+        max_rotation_ratio=outcome.max_rotation_ratio,
+        slip_path_m=outcome.slip_path_m,
+        final_displacement_m=outcome.final_displacement_m,
+        criteria_agree=2 * sum(row.overturns == outcome.overturned for row in counted) > len(counted),
+    )
+
+
 class CriteriaResult(Result, frozen=True, kw_only=True):
     """One direction.
 
@@ -59,6 +112,8 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
         Threshold and demand are in the unit that the row names.
     simulated : Simulated
         What ``seisblock rock`` answers.
+    respond : RespondEntry or None
+        What ``seisblock respond`` answers.
     """
 
     component: str
@@ -67,6 +122,7 @@ class CriteriaResult(Result, frozen=True, kw_only=True):
     equivalent_frequency_hz: EquivalentFrequency
     criteria: tuple[Row, ...]
     simulated: Simulated
+    respond: RespondEntry | None
 
 
 CRITERIA = Kind("criteria", CriteriaParameters, CriteriaResult)
@@ -88,9 +144,10 @@ def document(cards: Sequence[Card], options: Mapping[str, Any], *, gravity: floa
                 equivalent_frequency_hz=card.measures.equivalent_frequency_hz,
                 criteria=card.rows,
                 simulated=entry_of(Simulated, card.outcome, agreement=card.agreement),
+                respond=_respond(card),
             ),
         )
         for card in cards
     )
-    cited = [*cited_in(row.where for card in cards for row in card.rows), *papers("rocking")]
+    cited = [*cited_in(row.where for card in cards for row in card.rows), *papers("rocking", "all modes")]
     return CRITERIA.document(parameters, found, citations=cited, warnings=[text for card in cards for text in card.warnings])

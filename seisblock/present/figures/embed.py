@@ -12,6 +12,9 @@ from matplotlib.figure import Figure
 LARGEST_DRAWING = 200_000
 """A drawing of more bytes is put in as a picture."""
 
+MOST_POINTS = 6000
+"""A figure whose curves have more points than this would be a larger drawing: it is not tried."""
+
 PICTURE_DPI = 170
 
 
@@ -39,9 +42,10 @@ def picture(figure: Figure, caption: str, *, width: float = 6.0) -> Picture:
     for axis in figure.axes:
         _part(axis)
     held = io.BytesIO()
-    figure.savefig(held, format="svg")
     kind = "svg+xml"
-    if held.tell() > LARGEST_DRAWING:
+    if sum(len(curve.get_xdata()) for axis in figure.axes for curve in axis.lines) <= MOST_POINTS:
+        figure.savefig(held, format="svg")
+    if not 0 < held.tell() <= LARGEST_DRAWING:
         held, kind = io.BytesIO(), "png"
         figure.savefig(held, format="png", dpi=PICTURE_DPI)
     return Picture(f"data:image/{kind};base64,{base64.b64encode(held.getvalue()).decode('ascii')}", caption)

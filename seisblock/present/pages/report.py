@@ -22,8 +22,12 @@ from seisblock.studies.criteria_card import Card
 from seisblock.units import GAL, KINE
 from seisblock.words import listed, noted, strung, tell
 
-ORDER = ("rock", "slide", "jump", "uplift")
-"""Sections of a body, in this order."""
+GOVERNING = "respond"
+ORDER = (GOVERNING, "rock", "slide", "jump", "uplift")
+"""Sections of a body, in this order: what it does, then the idealised models."""
+
+DRAWN = (GOVERNING, "jump", "uplift")
+"""What has a figure; rocking and sliding by themselves are seen in that of the first."""
 
 
 def report(found: Assessment, *, command: str = "") -> str:
@@ -43,7 +47,7 @@ def report(found: Assessment, *, command: str = "") -> str:
         subtitles=[about, history(record) if record.history else ""],
         foot=", ".join(found.citations),
         doubts=[tell(doubt) for doubt in doubts([record])],
-        verdicts=[_tile(body, kind) for body in found.bodies for kind in ORDER if _of(body, kind)],
+        verdicts=[_tile(body) for body in found.bodies],
         record=_record(found),
         bodies=[_body(found, body) for body in found.bodies],
         provenance=_provenance(found, command),
@@ -57,14 +61,15 @@ def _of(body: BodyAssessment, kind: str) -> list[Effect]:
     return [effect for effect in body.effects if effect.kind == kind]
 
 
-def _tile(body: BodyAssessment, kind: str) -> dict[str, str]:
-    """Return the verdict on one body and one kind of motion, the component in which it is worst."""
-    worst = max(_of(body, kind), key=words.severity)
+def _tile(body: BodyAssessment) -> dict[str, str]:
+    """Return the one card of a body: what it does in the component in which that is worst, and how sure that is."""
+    worst = max(_of(body, GOVERNING), key=words.severity)
     severity = words.severity(worst)
+    first, *others = words.governing(worst)
     return {
         "level": "bad" if severity >= words.BAD else "mild" if severity > 0 else "",
-        "head": tell("{name}: {what}", name=tell(body.subject.name), what=words.verdict(worst)),
-        "text": tell(words.SECTIONS[kind]),
+        "head": tell("{name}: {what}", name=tell(body.subject.name), what=first),
+        "text": strung(others),
     }
 
 
@@ -111,7 +116,17 @@ def _body(found: Assessment, body: BodyAssessment) -> dict[str, Any]:
     about += [tell(edges(block))] if block.inset else []
     about += [f"μ {friction:g} / {body.subject.mu_kinetic:g}"] if friction is not None else []
     sections = [_section(found, body, kind) for kind in ORDER if _of(body, kind)]
-    return {"name": tell(body.subject.name), "about": listed(about), "sections": sections}
+    return {"name": tell(body.subject.name), "about": listed(about), "models": _models(body), "sections": sections}
+
+
+def _models(body: BodyAssessment) -> list[list[str]]:
+    """Return the idealised models as rows: what each says in each component, and from which factor on the record it begins."""
+    rows = []
+    for kind in ORDER[1:]:
+        for effect in _of(body, kind):
+            begins = NOTHING if effect.onset is None or not math.isfinite(effect.onset) else f"{effect.onset:.2f}"
+            rows.append([tell(words.SECTIONS[kind]), effect.response.motion.name, words.verdict(effect), begins])
+    return rows
 
 
 def _section(found: Assessment, body: BodyAssessment, kind: str) -> dict[str, Any]:
@@ -124,7 +139,7 @@ def _section(found: Assessment, body: BodyAssessment, kind: str) -> dict[str, An
         "effects": [
             {"told": strung(words.sentences(effect)), "warnings": [tell(text) for text in effect.response.warnings]} for effect in effects
         ],
-        "pictures": [_picture(effect) for effect in shown],
+        "pictures": [_picture(effect) for effect in shown if kind in DRAWN],
         "criteria": _criteria(found, body, effects) if kind == "rock" else None,
     }
 

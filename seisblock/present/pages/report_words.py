@@ -6,19 +6,22 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from seisblock.present.text.respond import share
+from seisblock.present.text.respond import verdict as told
 from seisblock.solvers.jump.chain import JUMPED
 from seisblock.studies.assessment import Effect
 from seisblock.words import noted, tell
 
 SECTIONS = {
+    "respond": noted("What it does"),
     "rock": noted("Rocking and overturning"),
     "slide": noted("Sliding"),
     "jump": noted("Jump of the two-layer block"),
     "uplift": noted("Uplift from corner springs"),
 }
 LIMITS = noted(
-    "Each model is rigid and planar but for uplift, and each motion is followed by itself: a body that slides and rocks at once does "
-    "neither exactly as said here. Rocking is sensitive: read the margins before the verdict."
+    "Each model is rigid and planar but for uplift. What it does is followed with all of its motions together; the idealised models below "
+    "follow one motion each, by itself. Rocking is sensitive: read shares and margins before the verdict."
 )
 
 BAD = 2.0
@@ -28,6 +31,9 @@ BAD = 2.0
 def severity(effect: Effect) -> float:
     """Return how bad an effect is: 0 nothing happens, below ``BAD`` the body moves, from there on it falls or jumps."""
     outcome = effect.response.outcome
+    if effect.kind == "respond":
+        moved = max(outcome.max_rotation_ratio, outcome.slip_path_m)
+        return BAD + 1.0 + 1.0 / (1.0 + outcome.overturning_time_s) if outcome.overturned else min(moved, BAD - 0.1)
     if effect.kind == "rock":
         return BAD + 1.0 if outcome.overturned else min(outcome.max_rotation_ratio, 1.0) if outcome.rocks else 0.0
     if effect.kind == "slide":
@@ -45,6 +51,8 @@ def _moved(effect: Effect) -> float:
 def verdict(effect: Effect) -> str:
     """Return one line for the top of the page."""
     outcome, name = effect.response.outcome, effect.response.motion.name
+    if effect.kind == "respond":
+        return told(effect.response)
     if effect.kind == "rock":
         if outcome.overturned:
             return tell("overturns towards {side}{name}", side=outcome.overturned_towards[0], name=name)
@@ -69,12 +77,32 @@ def verdict(effect: Effect) -> str:
 
 def sentences(effect: Effect) -> Iterator[str]:
     """Yield what happened and with what margin, in words."""
+    if effect.kind == "respond":
+        yield from governing(effect)
+        return
     name = effect.response.motion.name
     body = {"rock": _rock, "slide": _slide, "jump": _jump, "uplift": _uplift}[effect.kind]
     yield tell("{name}:", name=name)
     yield from body(effect, effect.response.outcome)
     if effect.onset is not None and math.isfinite(effect.onset):
         yield tell(_ONSETS[effect.kind], factor=effect.onset)
+
+
+def governing(effect: Effect) -> Iterator[str]:
+    """Yield what the body does, how sure that is, and which friction it rests on."""
+    found = effect.governing
+    assert found is not None
+    yield told(effect.response)
+    if found.probability is not None:
+        yield sentence(share(found.probability))
+    options = effect.response.options
+    if not found.friction_known:
+        yield tell("No friction was given: {mu:.2f} is taken, at which a foot hardly slips.", mu=options["mu"])
+
+
+def sentence(text: str) -> str:
+    """Return a text with a capital letter, where its language has them."""
+    return text[:1].upper() + text[1:]
 
 
 _ONSETS = {

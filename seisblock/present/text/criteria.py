@@ -10,10 +10,12 @@ from seisblock.bodies.library import edges
 from seisblock.criteria.card import ACCELERATION, Row, once_each
 from seisblock.present.files import write_table
 from seisblock.present.text.agreement import agreement_line
+from seisblock.present.text.respond import verdict as fate
 from seisblock.present.text.rock import verdict
 from seisblock.present.text.tables import acceleration_unit, line, number, record_line, table
 from seisblock.records import Record
 from seisblock.studies.criteria_card import Card
+from seisblock.studies.standing.governing import Governing
 from seisblock.units import GAL, KINE
 from seisblock.words import noted, tell
 
@@ -30,6 +32,8 @@ def tables(cards: Sequence[Card], *, gal: bool) -> Iterator[Any]:
             last = card.record
             yield record_line(card.record)
         yield line(simulated(card))
+        if card.governing is not None:
+            yield line(whole(card, card.governing))
         yield from _tables(card, gal=gal)
         if card.agreement is not None:
             yield line(agreement_line(card.component, card.agreement))
@@ -46,6 +50,18 @@ def simulated(card: Card) -> str:
         right=sum(row.overturns == card.outcome.overturned for row in counted),
         all=len(counted),
     )
+
+
+def whole(card: Card, found: Governing) -> str:
+    """Return what the body does with all of its motions together, and how many criteria say so, each counted once."""
+    counted = once_each(card.rows)
+    outcome, mu = found.response.outcome, found.response.options["mu"]
+    right = sum(row.overturns == outcome.overturned for row in counted)
+    if found.friction_known:
+        text = noted("With all motions and friction {mu:g} (respond): {verdict} {right} of {all} criteria agree.")
+    else:
+        text = noted("With all motions and feet that hold, friction {mu:.2f} (respond): {verdict} {right} of {all} criteria agree.")
+    return tell(text, mu=mu, verdict=fate(found.response), right=right, all=len(counted))
 
 
 def _tables(card: Card, *, gal: bool) -> Iterator[Any]:
