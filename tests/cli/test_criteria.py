@@ -66,3 +66,15 @@ def test_bad_input_is_one_sentence(run, words):
     assert answer.exit_code in (2, 3)
     assert answer.stdout == ""
     assert "Traceback" not in answer.output
+
+
+def test_beside_the_criteria_stands_what_the_body_does():
+    """In one sentence and in the document: with the friction given, the body's own, or that of feet that hold."""
+    shown = CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", "--width", "24cm", "--height", "72cm", "--mu", "0.2", "--quiet"])
+    assert "With all motions and friction 0.2 (respond): NS: slides" in " ".join(shown.stdout.split())
+    for words, mu, known in ((("--block", "gravestone"), 0.438, True), (("--width", "24cm", "--height", "72cm"), 0.8 * 4 / 3, False)):
+        found = json.loads(CliRunner().invoke(main, ["criteria", "elcentro_1940_ns", *words, "--json"]).stdout)["results"][0]["respond"]
+        assert found["mu"] == pytest.approx(mu) and found["friction_known"] is known
+        alone = CliRunner().invoke(main, ["respond", "elcentro_1940_ns", *words, "--mu", repr(found["mu"]), "--runs", "0", "--json"])
+        outcome = json.loads(alone.stdout)["results"][0]
+        assert {key: found[key] for key in ("overturned", "slip_path_m")} == {key: outcome[key] for key in ("overturned", "slip_path_m")}

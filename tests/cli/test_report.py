@@ -12,6 +12,7 @@ from seisblock.present.pages.report import report
 from seisblock.readers import read, sample_path
 from seisblock.records import motion_of
 from seisblock.records.process import crop
+from seisblock.solvers.respond import solve_respond
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.assessment import assess
 from seisblock.words import speaking
@@ -33,7 +34,7 @@ def test_the_page_opens_without_network(pages):
     """Every picture is data, and no style or script comes from elsewhere."""
     for page in pages.values():
         sources = re.findall(r'src="([^"]{0,30})', page)
-        assert len(sources) >= 8 and all(source.startswith("data:image/") for source in sources)
+        assert len(sources) == 7 and all(source.startswith("data:image/") for source in sources)
         assert not re.search(r"<link|<script|@import|url\(", page)
         assert len(page) < 4_000_000
 
@@ -50,6 +51,8 @@ def test_it_holds_every_section(pages):
         "The record",
         "gravestone",
         "Chozu-sha, short side",
+        "What it does",
+        "Idealised models, one motion each",
         "Rocking and overturning",
         "Criteria beside the simulation",
         "Sliding",
@@ -77,6 +80,27 @@ def test_its_verdict_is_the_solver_s(pages):
     assert f"lies down at {outcome.overturning_time_s:.2f} s" in pages["en"]
     assert re.search(r"The verdict changes next at \d\.\d{3} times this record", pages["en"])
     assert "倍未満ではすべて転倒しない" in pages["ja"]
+
+
+def test_one_card_per_body_says_what_governs(pages):
+    """Its verdict and its share are those of respond; the idealised models stand below, with the factor from which on each begins."""
+    cards = re.findall(r'<div class="(?:bad|mild|)"><b>(.*?)</b><span>(.*?)</span></div>', pages["en"])
+    assert [head.split(":")[0] for head, _ in cards] == ["gravestone", "Chozu-sha, short side"]
+    motion = motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")
+    outcome = solve_respond(load_block("gravestone"), motion, mu=0.438).outcome
+    assert f"overturns to -EW at {outcome.overturning_time_s:.2f} s" in cards[0][0] and outcome.overturned
+    assert "plausible versions" in cards[0][1] and "slides" in cards[1][0]
+    page = pages["en"]
+    assert page.index("What it does") < page.index("Idealised models") < page.index("<h3>Rocking and overturning</h3>")
+    assert re.search(r"<td>Sliding</td><td>EW</td><td>slides up to \d+ mm \(EW\)</td><td>0\.\d\d</td>", page)
+
+
+def test_a_body_of_unknown_friction_is_said_to_hold(tmp_path):
+    """Sizes alone: the card says which friction it takes, and that it was not given."""
+    page = tmp_path / "report.html"
+    answer = CliRunner().invoke(main, ["report", "elcentro_1940_ns.csv", "--body", "0.3x1.2", "-o", str(page), "--quiet"])
+    assert answer.exit_code == 0, answer.stderr
+    assert "No friction was given: 1.07 is taken" in page.read_text(encoding="utf-8")
 
 
 def test_what_the_user_must_mend_is_one_sentence(tmp_path):

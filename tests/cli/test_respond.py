@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 
 import pytest
 from click.testing import CliRunner
@@ -68,6 +69,33 @@ def test_surfaces_are_looked_up():
     """--surface takes friction from the table, and the source is told."""
     done = run("elcentro_1940_ns", "--width", "45cm", "--height", "180cm", "--surface", "wood/stone", "--runs", "0")
     assert "mu 0.18, kinetic 0.17" in done.stderr and "Sugimoto2017" in done.stderr
+
+
+ELSEWHERE = (
+    (("jump", "elcentro_1940_ns", "--tenon", "2cm", "--target-pga", "900"), "with its tenons: "),
+    (("jump", "--component", "EW", "--width", "2", "--heights", "1,2", "--masses", "900,100", "--mu", "0.3", "--tenon", "1cm"), "tenons: "),
+    (("rock", "elcentro_1940_ns", "--width", "24cm", "--height", "80cm", "--mu", "0.2"), "slide and rock: "),
+    (("rock", "elcentro_1940_ns", "--block", "gravestone", "--mu", "0.2"), "slide and rock: "),
+)
+
+
+@pytest.mark.parametrize(("words", "before"), ELSEWHERE, ids=[" ".join(words[:3]) for words, _ in ELSEWHERE])
+def test_where_another_model_ends_the_command_line_is_typed_out(words, before, monkeypatch):
+    """Jump and rock with too little friction: the line that they print runs, on the same record and the same body."""
+    monkeypatch.setenv("COLUMNS", "400")
+    shown = CliRunner().invoke(main, list(words)).stdout
+    typed = shlex.split(shown.split(before)[1].splitlines()[0])
+    assert typed[:2] == ["seisblock", "respond"]
+    document = answer(*typed[2:], "--runs", "0")
+    assert [result["component"] for result in document["results"]] == (["EW"] if "EW" in words else ["NS"])
+
+
+def test_slide_says_which_bodies_rock_instead(monkeypatch):
+    """Below b/h = mu a body rocks; what nothing moves needs no word."""
+    monkeypatch.setenv("COLUMNS", "400")
+    shown = CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.2"]).stdout
+    assert "above 0.2. Others: seisblock respond elcentro_1940_ns --width B --height H --mu 0.2" in shown
+    assert "respond" not in CliRunner().invoke(main, ["slide", "elcentro_1940_ns", "--mu", "0.6"]).stdout
 
 
 BAD = (
