@@ -19,9 +19,7 @@ DEPTH = "DEPTH"
 def respond_line(source: Source, *words: str) -> str:
     """Return the command line of `respond` for what was asked of the record, with some more words."""
     given = {"--scale": source.scale, "--target-pga": source.target_pga, "--highpass": source.highpass, "--station": source.station}
-    options = [
-        word for name, value in given.items() if value is not None for word in (name, f"{value:g}" if name != "--station" else value)
-    ]
+    options = [word for name, value in given.items() if value is not None for word in (name, str(value))]
     return shlex.join(
         ["seisblock", "respond", *source.record, *(w for c in source.component for w in ("--component", c)), *options, *words]
     )

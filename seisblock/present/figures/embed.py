@@ -6,6 +6,7 @@ import base64
 import io
 from typing import NamedTuple
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -43,7 +44,7 @@ def picture(figure: Figure, caption: str, *, width: float = 6.0) -> Picture:
         _part(axis)
     held = io.BytesIO()
     kind = "svg+xml"
-    if sum(len(curve.get_xdata()) for axis in figure.axes for curve in axis.lines) <= MOST_POINTS:
+    if sum(np.size(curve.get_xdata()) for axis in figure.axes for curve in axis.lines) <= MOST_POINTS:
         figure.savefig(held, format="svg")
     if not 0 < held.tell() <= LARGEST_DRAWING:
         held, kind = io.BytesIO(), "png"
