@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.stats import kstest, uniform
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.friction import SURFACES, surface
@@ -9,7 +10,9 @@ from seisblock.errors import ParameterError
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.references import REFERENCES
+from seisblock.solvers.respond.many import respond_many
 from seisblock.solvers.respond.solve import solve_respond
+from seisblock.studies.standing import probability
 from seisblock.studies.standing.azimuths import respond_directions
 from seisblock.studies.standing.probability import Probability, Versions, respond_probability
 
@@ -32,6 +35,30 @@ def test_versions_that_do_not_differ_are_the_verdict(width, height, mu):
     assert found.moved == float(outcome.overturned or abs(outcome.final_displacement_m) > 0.01)
     if not outcome.overturned:
         assert set(found.final_displacement_m.values()) == {outcome.final_displacement_m}
+
+
+def test_versions_are_uniform_within_their_half_widths(monkeypatch):
+    """Friction, restitution, amplitude and direction fill their ranges evenly and never leave them; normal ones would do neither."""
+    asked = []
+
+    def overheard(settings, motion, **given):
+        asked.extend(zip(settings, given["gains"], strict=True))
+        return respond_many(settings, motion, **given)
+
+    monkeypatch.setattr(probability, "respond_many", overheard)
+    still = Motion(1e-6 * np.ones((3, 4)), 0.01)
+    share(Block(0.24, 0.8), still, mu=0.5, runs=400)
+    settings, gains = zip(*asked, strict=True)
+    along, across, _ = np.array(gains).T
+    changes = {
+        "mu": (np.array([setting.mu for setting in settings]) / 0.5 - 1.0) / 0.2,
+        "restitution": np.array([setting.restitution for setting in settings]) / 0.05 - 1.0,
+        "amplitude": (np.hypot(along, across) - 1.0) / 0.1,
+        "azimuth": np.degrees(np.arctan2(-across, along)) / 10.0,
+    }
+    for name, change in changes.items():
+        assert np.abs(change).max() <= 1.0 + 1e-12, name
+        assert kstest(change, uniform(-1.0, 2.0).cdf).pvalue > 0.01, name
 
 
 def test_the_same_seed_gives_the_same_answer_on_any_number_of_threads(monkeypatch):
