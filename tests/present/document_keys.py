@@ -25,7 +25,8 @@ def _walk(shape, definitions, path):
     if "$ref" in shape:
         shape = definitions[shape["$ref"].rpartition("/")[2]]
     if "anyOf" in shape:
-        for each in shape["anyOf"]:
+        # msgspec says null first or last, as its version likes
+        for each in sorted(shape["anyOf"], key=lambda each: each.get("type") == "null"):
             yield from _walk(each, definitions, path)
         return
     kind = shape.get("type", "enum" if "enum" in shape else "anything")
