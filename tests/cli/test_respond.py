@@ -4,10 +4,16 @@ import json
 import re
 import shlex
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from seisblock.bodies.block import Block
 from seisblock.cli import main
+from seisblock.present.figures.respond import figure
+from seisblock.present.text.respond import signed
+from seisblock.records import Motion
+from seisblock.solvers.respond import solve_respond
 
 CABINET = ("--width", "45cm", "--height", "180cm", "--mu", "0.3")
 KEYS = {
@@ -131,6 +137,21 @@ def test_files(tmp_path):
     header, *rows = csv.read_text().splitlines()
     assert header.split(",")[-1] == "phase" and {row.split(",")[-1] for row in rows} >= {"rest", "rock"}
     assert plot.read_bytes().startswith(b"\x89PNG") and "<html" in film.read_text()
+
+
+def test_what_rounds_to_nothing_has_no_sign():
+    """A quantile of a quarter of a millimetre is 0, not -0.0 cm."""
+    assert [signed(value) for value in (-2e-4, 4e-4, -6e-4, 0.0123)] == ["0", "0", "-0.1 cm", "+1.2 cm"]
+
+
+def test_hops_too_small_to_see_have_no_panel():
+    """A lift of a thousandth of a millimetre is no curve; one of a centimetre is."""
+    motion = Motion.from_arrays(5.0 * np.sin(0.12 * np.arange(300)), 0.01, name="NS")
+    low = solve_respond(Block(0.3, 0.9), Motion.from_arrays(0.67 * motion.horizontal, 0.01, name="NS"), mu=0.9, restitution=0.05)
+    high = solve_respond(Block(0.3, 0.9), motion, mu=0.9, restitution=0.7)
+    assert 0.0 < low["lift"].max() < 1e-4 < high["lift"].max()
+    labels = [[axis.get_ylabel() for axis in figure([each]).axes] for each in (low, high)]
+    assert ["lift (mm)" in each for each in labels] == [False, True]
 
 
 def test_every_direction(tmp_path):

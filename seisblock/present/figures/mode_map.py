@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
 from seisblock.present.figures import canvas
+from seisblock.present.figures.heading import heading_of
 from seisblock.present.figures.spectrum import edges, log_edges, log_ticks
 from seisblock.present.text.mode_map import Maps, by_size
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
@@ -42,7 +43,9 @@ JUMP: dict[str, Any] = {"color": "black", "linewidth": 1.1, "linestyle": (0, (4,
 
 def figure(maps: Maps) -> Figure:
     """Return the figure: per component a map, coloured by the mode that governs, with the closed-form limits of initiation."""
-    made, axes = canvas.new_figure(1, columns=len(maps), width=1.2 + 4.6 * len(maps), height=5.2, sharey=True)
+    made, axes = canvas.new_figure(
+        1, columns=len(maps), width=1.2 + 4.6 * len(maps), height=5.2, sharey=True, title=heading_of([motion for motion, _ in maps])
+    )
     seen = sorted({int(index) for _, found in maps for index in np.unique(found.governing)})
     for axis, (motion, found) in zip(axes, maps, strict=True):
         sizes = by_size(found)

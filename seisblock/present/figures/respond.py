@@ -21,12 +21,15 @@ COLOURS = {SLIDE: "#d5dcef", ROCK: "#f4d9c6", SLIDE_ROCK: "#e3d3e8", FLIGHT: "#c
 SEEN = 1 / 2000
 """Phases shorter than this share of what is shown are not drawn: dying hops come by the thousand."""
 
+LEAST_LIFT = 1e-4
+"""Lift that is drawn, m: hops below a tenth of a millimetre are not to be seen."""
+
 Responds = Sequence[Response[RespondOutcome]]
 
 
 def figure(responses: Responds, *, gal: bool = True) -> Figure:
     """Return the figure: per component a column with ground acceleration, displacement, lean and, where it flies, lift."""
-    flies = any(response.outcome.flights for response in responses)
+    flies = any(float(response["lift"].max()) >= LEAST_LIFT for response in responses)
     leans = any(response.outcome.max_rotation_rad > 0.0 for response in responses)
     rows = 2 + leans + flies
     motions, stretches = [response.motion for response in responses], [stretch(response) for response in responses]
@@ -67,8 +70,8 @@ def _ground(axis: Axes, response: Response[RespondOutcome], *, gal: bool) -> Non
     gravity = options["gravity_m_s2"] / unit
     curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
     for level, text, dash in (
-        ((-right / block.centre, left / block.centre), "rocks: b/h", (0, (6, 2))),
-        ((-options["mu"], options["mu"]), "slides: μ", (0, (1.5, 1.5))),
+        ((-right / block.centre, left / block.centre), tell("rocks: b/h"), (0, (6, 2))),
+        ((-options["mu"], options["mu"]), tell("slides: μ"), (0, (1.5, 1.5))),
     ):
         for index, share in enumerate(level):
             axis.axhline(share * gravity, color=canvas.THRESHOLD, linewidth=0.8, linestyle=dash, label=text if index == 0 else None)
@@ -76,7 +79,7 @@ def _ground(axis: Axes, response: Response[RespondOutcome], *, gal: bool) -> Non
     axis.set_ylim(-1.15 * reach, 1.15 * reach)
     canvas.label(axis, y=f"a ({name})")
     canvas.legend(axis)
-    title = f"{response.motion.name}  {block.name}: {response.outcome.outcome}"
+    title = f"{response.motion.name}  {tell(block.name)}: {tell(response.outcome.outcome)}"
     canvas.panel_title(axis, title)
 
 

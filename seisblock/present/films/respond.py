@@ -16,6 +16,7 @@ from seisblock.present.films.rock import corners
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.typing import FloatArray
+from seisblock.words import tell
 
 
 def animate_respond(response: Response[RespondOutcome], path: Path | str, filming: Filming = REAL_TIME) -> None:
@@ -34,7 +35,7 @@ def respond_film(response: Response[RespondOutcome], times: FloatArray) -> Film:
     alpha = math.degrees(block.slenderness)
     wide = 4.0 * math.hypot(block.width, block.height) + 2.0 * outcome.max_displacement_m
     return Film(
-        title=f"{motion.name}  {block.name}: {outcome.outcome}",
+        title=f"{motion.name}  {tell(block.name)}: {tell(outcome.outcome)}",
         time=times,
         shift=ground_shift(motion, times),
         bodies=(Body((Piece(outline),), block.centroid_offset + x, z, lean),),

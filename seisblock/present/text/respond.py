@@ -141,7 +141,7 @@ def percent(share: float) -> str:
 
 def signed(value_m: float) -> str:
     """Return a signed length; zero has no sign."""
-    if abs(value_m) < 5e-5:
+    if abs(value_m) < 5e-4:
         return "0"
     return f"{value_m * 100:+.1f} cm"
 
