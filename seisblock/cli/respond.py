@@ -39,7 +39,9 @@ VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth_deg")
     default=None,
     help="Whether the vertical component acts. [default: where the record has one]",
 )
-@option("--runs", type=click.IntRange(min=0), default=200, show_default=True, help="Plausible versions behind the probability; 0 for none.")
+@option(
+    "--runs", type=click.IntRange(0, 100_000), default=200, show_default=True, help="Plausible versions behind the probability; 0 for none."
+)
 @option("--moved", type=LENGTH, default=0.01, help="Displacement beyond which it counts as moved, m or with a unit. [default: 1cm]")
 @option("--vary-size", type=float, default=0.05, show_default=True, help="Versions: half width of the size, a share.")
 @option(

@@ -36,7 +36,7 @@ VERSIONS = 200
 @option("--mu", type=float, section="Body", help="Friction of the ground, 1: say whether rocking needs more. [default: not looked at]")
 @option("--margin", is_flag=True, help="Find from which factor on the record on it falls, and how likely it falls at 1.")
 @option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest factor of that search, 1.")
-@option("--perturb", type=click.IntRange(min=1), metavar="N", help="Repeat N times with small changes: probability of overturning.")
+@option("--perturb", type=click.IntRange(1, 100_000), metavar="N", help="Repeat N times with small changes: probability of overturning.")
 @option(
     "--spread",
     type=float,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from seisblock.records.filters import highpass_samples
-from seisblock.records.process import integrate, integrate_twice
+from seisblock.records.integrals import integrate, integrate_twice
 from seisblock.typing import FloatArray
 
 HIGHPASS_HZ = 0.05
@@ -66,4 +66,5 @@ def ground_history_of(acceleration: FloatArray, dt: float) -> GroundHistory:
     velocity = integrate(acceleration, dt)
     # the trapezoidal mean of a quadratic velocity, plus its correction: the displacement then ends at zero exactly
     drift = float(integrate_twice(acceleration, dt)[-1]) / ((acceleration.size - 1) * dt)
-    return GroundHistory(acceleration, velocity - drift, integrate_twice(acceleration, dt, -drift))
+    velocity -= drift
+    return GroundHistory(acceleration, velocity, integrate_twice(acceleration, dt, -drift))

@@ -97,8 +97,14 @@ def jma_intensity(record: Record) -> float | None:
     weight = _jma_filter(np.asarray(np.fft.rfftfreq(record.samples, record.dt), dtype=np.float64))
     squared = np.zeros(record.samples)
     for component in record.components:
-        squared += np.fft.irfft(weight * np.fft.rfft(component.acceleration / GAL), record.samples) ** 2
-    a0_squared = float(np.partition(squared, record.samples - needed)[record.samples - needed])
+        spectrum = np.fft.rfft(component.acceleration / GAL)
+        spectrum *= weight
+        row = np.fft.irfft(spectrum, record.samples)
+        row *= row
+        squared += row
+        del spectrum, row
+    squared.partition(record.samples - needed)
+    a0_squared = float(squared[record.samples - needed])
     intensity = math.log10(a0_squared) + 0.94 if a0_squared > 0 else -math.inf
     return intensity if intensity >= LEAST_INTENSITY else None
 

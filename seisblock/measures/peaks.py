@@ -13,6 +13,9 @@ from seisblock.records.process import towards
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
 
+BLOCK = 2**18
+"""Samples between which zeros are looked for at a time: a day-long record needs no further memory of its size."""
+
 
 @dataclass(frozen=True)
 class HorizontalPeak:
@@ -68,11 +71,15 @@ def peak_velocity(history: GroundHistory, dt: float) -> float:
     -------
     float, m/s
     """
-    a, v = history.acceleration, history.velocity
-    crossing = np.flatnonzero(a[:-1] * a[1:] < 0)
-    until_zero = dt * a[crossing] / (a[crossing] - a[crossing + 1])
-    between = v[crossing] + 0.5 * a[crossing] * until_zero
-    return float(max(np.abs(v).max(), np.abs(between).max(initial=0.0)))
+    acceleration, velocity = history.acceleration, history.velocity
+    largest = max(float(velocity.max()), -float(velocity.min()))
+    for begin in range(0, velocity.size - 1, BLOCK):
+        a, v = (row[begin : begin + BLOCK + 1] for row in (acceleration, velocity))
+        crossing = np.flatnonzero(a[:-1] * a[1:] < 0)
+        until_zero = dt * a[crossing] / (a[crossing] - a[crossing + 1])
+        between = v[crossing] + 0.5 * a[crossing] * until_zero
+        largest = max(largest, float(np.abs(between).max(initial=0.0)))
+    return largest
 
 
 def peak_displacement(history: GroundHistory) -> float:
@@ -87,7 +94,7 @@ def peak_displacement(history: GroundHistory) -> float:
     -------
     float, m
     """
-    return float(np.abs(history.displacement).max())
+    return max(float(history.displacement.max()), -float(history.displacement.min()))
 
 
 def peak_horizontal(record: Record) -> HorizontalPeak | None:

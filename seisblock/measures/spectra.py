@@ -21,6 +21,9 @@ SMOOTHING_HZ = 0.2
 _POINTS_PER_PERIOD = 20
 """Least points per period of the oscillator; a maximum of the cubics through values and slopes is then right to 1e-4."""
 
+LONG = 2**20
+"""Samples (three hours at 100 Hz) beyond which a Fourier amplitude is made piece by piece."""
+
 _PARZEN_LAG = 280.0 / 151.0
 """Largest lag of a Parzen window times its bandwidth: 1 / bandwidth is the integral of the squared spectral window."""
 
@@ -125,14 +128,35 @@ def fourier_amplitude(acceleration: FloatArray, dt: float, *, smoothing_hz: floa
     checks.positive("the smoothing bandwidth", smoothing_hz, "Hz")
     n = acceleration.size
     longest_lag = _PARZEN_LAG / smoothing_hz
-    size = 1 << math.ceil(math.log2(max(2 * n, 8.0 * longest_lag / dt)))
-    energy = np.abs(np.fft.rfft(acceleration - acceleration.mean(), size)) ** 2 * dt**2
-    autocorrelation = np.fft.irfft(energy, size)
+    size = 1 << math.ceil(math.log2(max(2 * min(n, LONG), 8.0 * longest_lag / dt)))
+    if n <= LONG:
+        energy = np.abs(np.fft.rfft(acceleration - acceleration.mean(), size)) ** 2 * dt**2
+        autocorrelation = np.fft.irfft(energy, size)
+    else:
+        autocorrelation = _autocorrelation(acceleration, size, math.ceil(longest_lag / dt)) * dt**2
     lag = np.minimum(np.arange(size), size - np.arange(size)) * dt / longest_lag
     window = np.where(lag < 0.5, 1.0 - 6.0 * lag**2 * (1.0 - lag), 2.0 * np.clip(1.0 - lag, 0.0, None) ** 3)
     smoothed = np.fft.rfft(autocorrelation * window).real
     frequency = np.asarray(np.fft.rfftfreq(size, dt), dtype=np.float64)
     return frequency, np.sqrt(np.clip(smoothed, 0.0, None))
+
+
+def _autocorrelation(acceleration: FloatArray, size: int, most: int) -> FloatArray:
+    """Return the autocorrelation of a long row less its mean, circular, (size,), up to a lag of so many samples and zero beyond.
+
+    The lag window ends there, so that pieces of the row with as much of what follows give all of it, in the memory of a piece.
+    """
+    mean = float(acceleration.mean())
+    piece = size - most
+    lags = np.zeros(most + 1)
+    for begin in range(0, acceleration.size, piece):
+        longer = np.fft.rfft(acceleration[begin : begin + size] - mean, size)
+        shorter = np.fft.rfft(acceleration[begin : begin + piece] - mean, size)
+        lags += np.fft.irfft(longer * shorter.conj(), size)[: most + 1]
+    circular = np.zeros(size)
+    circular[: most + 1] = lags
+    circular[size - most :] = lags[:0:-1]
+    return circular
 
 
 def _oscillator_peaks(ground: FloatArray, dt: float, omega: float, damping: float) -> tuple[float, float, float]:

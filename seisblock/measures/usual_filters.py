@@ -55,8 +55,7 @@ def filter_range(acceleration: FloatArray, dt: float, pga: float, pgv: float) ->
     if not (pga > 0.0 and pgv > 0.0 and max(USUAL_HIGHPASS_HZ) * dt < 0.5):
         return None
     filters = (highpass_samples, causal_highpass_samples)
-    histories = (ground_history_of(f(acceleration, dt, hz), dt) for f in filters for hz in USUAL_HIGHPASS_HZ)
-    found = [peak_velocity(history, dt) for history in histories]
+    found = [peak_velocity(ground_history_of(f(acceleration, dt, hz), dt), dt) for f in filters for hz in USUAL_HIGHPASS_HZ]
     low, high = min(found), max(found)
     if low <= 0.0 or (low >= (1.0 - WORTH_SAYING) * pgv and high <= (1.0 + WORTH_SAYING) * pgv):
         return None

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from seisblock.errors import ComponentError, RecordError
+from seisblock.readers.source import LONGEST_SHOWN
 from seisblock.records import Component, Record
 
 LEVELS = ("surface", "borehole")
@@ -53,6 +54,7 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
     return replace(
         first,
         components=tuple(components),
+        station=first.station[:LONGEST_SHOWN],
         source=name,
         history=(*told, *history),
         metadata=_merged_metadata(chosen),

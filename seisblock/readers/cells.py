@@ -16,6 +16,9 @@ from seisblock.units import ACCELERATION_UNITS
 _SHIFTS = {0.01: 2, 1e-3: 3}
 """Decimal places between a unit and m/s^2."""
 
+_BLOCK = 2**18
+"""Numbers that are looked at at a time: a day-long record needs no further memory of its size."""
+
 
 def to_si(values: FloatArray, unit: str) -> FloatArray:
     """Return accelerations in m/s^2; for gal and mm/s^2 the decimal point moves, so that 306.21 gal is 3.0621 m/s^2 to the last bit."""
@@ -25,10 +28,18 @@ def to_si(values: FloatArray, unit: str) -> FloatArray:
     if factor not in _SHIFTS:
         return values * factor
     for places in (3, 6):  # decimals that files are written with
-        whole = np.rint(values * 10.0**places)
-        if np.abs(whole).max() < 2**53 and np.array_equal(whole / 10.0**places, values):
-            return whole / 10.0 ** (places + _SHIFTS[factor])
+        if all(_has_decimals(values[begin : begin + _BLOCK], places) for begin in range(0, values.size, _BLOCK)):
+            whole = values * 10.0**places
+            np.rint(whole, out=whole)
+            whole /= 10.0 ** (places + _SHIFTS[factor])
+            return whole
     return values / 10.0 ** _SHIFTS[factor]
+
+
+def _has_decimals(values: FloatArray, places: int) -> bool:
+    """Return whether numbers are those of so many decimals."""
+    whole = np.rint(values * 10.0**places)
+    return bool(np.abs(whole).max() < 2**53 and np.array_equal(whole / 10.0**places, values))
 
 
 def columns_of(

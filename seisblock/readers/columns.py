@@ -107,6 +107,13 @@ def _first_look(name: str, index: int, written: str) -> Column | str:
     unit_text = split_unit(written)[1]
     plain = bare_name(written)
     unit, seconds = normal_unit(unit_text), time_unit(unit_text)
+    if plain.isdecimal() and direction_of(plain) is None:
+        raise RecordFormatError(
+            "{name}: column {written!r} is named by a number that is no azimuth: expected 0 to 360 degrees, or {understood}",
+            name=name,
+            written=written,
+            understood=UNDERSTOOD,
+        )
     if normal_unit(plain) or plain.lower() in _NO_NAME:
         raise RecordFormatError(f"{name}: {written!r} stands where column {index + 1} should have a name: expected {UNDERSTOOD}")
     direction = direction_of(plain)

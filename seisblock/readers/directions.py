@@ -17,7 +17,7 @@ _AXES = {
     "X": ("x",),
     "Y": ("y",),
     "L": ("l", "long", "longitudinal"),
-    "T": ("tr", "trans", "transverse", "tran"),
+    "T": ("tr", "trans", "transverse", "transversal", "tran"),
     "R": ("r", "radial"),
     "H1": ("h1",),
     "H2": ("h2",),

@@ -15,7 +15,7 @@ _NAMES = {
 }
 _NAME = {spelling: code for code, spellings in _NAMES.items() for spelling in spellings}
 _QUANTITY = re.compile(
-    r"^(?:acc(?:el(?:eration)?)?|a)[ ,_-]+(?=.)|^acc(?=[xyz]$)|^a(?=[xyz]$)|(?<=.)[ _-]+(?:acc(?:el(?:eration)?)?|component|comp)$|加速度",
+    r"^(?:acc(?:el(?:eration)?)?|a)[ ,_.-]+(?=.)|^acc(?=[xyz]$)|^a(?=[xyz]$)|(?<=.)[ _-]+(?:acc(?:el(?:eration)?)?|component|comp)$|加速度",
     re.IGNORECASE,
 )
 _BRACKETED = re.compile(r"^(.*?)\s*[(\[{<]\s*([^)\]}>]*?)\s*[)\]}>]\s*$")

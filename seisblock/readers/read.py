@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
@@ -11,7 +12,7 @@ from seisblock.errors import ComponentError, ParameterError
 from seisblock.readers.assemble import assemble, continues
 from seisblock.readers.dispatch import Options, parts_of
 from seisblock.readers.siblings import with_siblings
-from seisblock.readers.source import Blob, Location, digest, fetch
+from seisblock.readers.source import STDIN, Blob, Location, digest, fetch
 from seisblock.records import Record
 from seisblock.records.signs import examined
 
@@ -107,7 +108,9 @@ def read_all(
     """
     options = Options(format, units, dt, station, level)
     groups: list[list[Opened]] = []
-    for name in dict.fromkeys(str(s) for s in sources):
+    names = [str(s) for s in sources]
+    _refuse_repeats(names)
+    for name in names:
         opened = _open(name, options)
         home = next((g for g in groups if continues(opened.parts, [part for other in g for part in other.parts])), None)
         if home is None:
@@ -116,6 +119,18 @@ def read_all(
             home.append(opened)
     named = frozenset(opened.blob.path for g in groups for opened in g)
     return [record for g in groups for record in _records_of(g, options, named)]
+
+
+def _refuse_repeats(names: Sequence[str]) -> None:
+    """Refuse files that are named more than once: an answer would count them as several records, or the user meant another one."""
+    counts = Counter(str(Path(name).absolute()) for name in names if name != STDIN)
+    repeated = [name for name in dict.fromkeys(names) if counts[str(Path(name).absolute())] > 1]
+    if repeated or names.count(STDIN) > 1:
+        raise ParameterError(
+            "{name} is named {count} times among the records: name each file once",
+            name=repeated[0] if repeated else STDIN,
+            count=counts[str(Path(repeated[0]).absolute())] if repeated else names.count(STDIN),
+        )
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,9 @@ PADDING_PERIODS = 5.0
 MOST_PADDING = 2**22
 """Longest padding at either end, samples: a corner that needs more is refused."""
 
+BLOCK = 2**18
+"""Samples that are filtered at a time: a day-long record needs no further memory of its size."""
+
 BASELINE_PERIODS = 0.5
 """Length of the windows at either end on which the baseline is measured, in corner periods."""
 
@@ -46,12 +49,14 @@ def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArr
     ParameterError
         If the corner lies outside that range, or is so low that the padding would exceed ``MOST_PADDING`` samples.
     """
-    from scipy.signal import sosfiltfilt
+    from scipy.signal import sosfilt_zi
 
     sections, pad = _design(dt, hz)
-    level = acceleration - end_line(acceleration, dt, hz)
-    filtered: FloatArray = sosfiltfilt(sections, _extended(level, pad, pad), padtype=None)[pad : pad + level.size]
-    return filtered
+    row = _extended(_levelled(acceleration, dt, hz), pad, pad)
+    settled = sosfilt_zi(sections)
+    for direction in (row, row[::-1]):
+        _filter(sections, direction, settled * direction[0])
+    return row[pad : pad + acceleration.size]
 
 
 def causal_highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
@@ -74,12 +79,10 @@ def causal_highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> F
     ParameterError
         As :func:`highpass_samples`.
     """
-    from scipy.signal import sosfilt
-
     sections, pad = _design(dt, hz)
-    level = acceleration - end_line(acceleration, dt, hz)
-    filtered: FloatArray = sosfilt(sections, _extended(level, pad, 0))[pad:]
-    return filtered
+    row = _extended(_levelled(acceleration, dt, hz), pad, 0)
+    _filter(sections, row, np.zeros((len(sections), 2)))
+    return row[pad:]
 
 
 def end_line(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
@@ -104,15 +107,29 @@ def end_line(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
     n = acceleration.size
     length = int(min(n, max(2.0, np.rint(BASELINE_PERIODS / (hz * dt)))))
     taper = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
-    weight = np.zeros(n)
-    weight[:length] += taper
-    weight[-length:] += taper
-    # the weights are symmetric: about the middle, level and slope are independent
     place = np.linspace(-1.0, 1.0, n)
-    level = (weight @ acceleration) / weight.sum()
-    slope = (weight * place) @ acceleration / (weight @ place**2)
-    line: FloatArray = level + slope * place
-    return line
+    # the weights are symmetric: about the middle, level and slope are independent
+    ends = ((place[:length], acceleration[:length]), (place[-length:], acceleration[-length:]))
+    level = sum(taper @ a for _, a in ends) / (2.0 * taper.sum())
+    slope = sum((taper * x) @ a for x, a in ends) / sum(taper @ x**2 for x, _ in ends)
+    place *= slope
+    place += level
+    return place
+
+
+def _levelled(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
+    """Return samples less their baseline."""
+    line = end_line(acceleration, dt, hz)
+    return np.subtract(acceleration, line, out=line)
+
+
+def _filter(sections: FloatArray, row: FloatArray, state: FloatArray) -> None:
+    """Filter a row of samples in its place, piece by piece, from a state of the filter."""
+    from scipy.signal import sosfilt
+
+    for begin in range(0, row.size, BLOCK):
+        piece = row[begin : begin + BLOCK]
+        piece[:], state = sosfilt(sections, piece, zi=state)
 
 
 def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
@@ -135,6 +152,8 @@ def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
 def _extended(samples: FloatArray, before: int, after: int) -> FloatArray:
     """Return samples with their mirror image, sign reversed, at either end, mirrored as often as needed."""
     n = samples.size
+    if max(before, after) <= n:
+        return np.concatenate((-samples[:before][::-1], samples, -samples[n - after :][::-1]))
     # position in a period of twice the record, of which the second half runs backwards with the sign reversed
     place = np.arange(-before, n + after) % (2 * n)
     mirrored = place >= n

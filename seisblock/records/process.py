@@ -225,47 +225,6 @@ def rotate(record: Record, azimuth_deg: float) -> Record:
     return record.with_components([*pair, *vertical], f"horizontals turned to {pair[0].code} and {pair[1].code} degrees")
 
 
-def integrate(acceleration: FloatArray, dt: float) -> FloatArray:
-    """Return the velocity at the samples from rest, exact for a piecewise linear acceleration.
-
-    Parameters
-    ----------
-    acceleration : (n,) array, m/s^2
-        Samples, linear in between.
-    dt : float, s
-        Sampling interval.
-
-    Returns
-    -------
-    (n,) array, m/s
-        Zero at the first sample; the trapezoidal sum.
-    """
-    steps = 0.5 * dt * (acceleration[1:] + acceleration[:-1])
-    return np.concatenate(([0.0], np.cumsum(steps)))
-
-
-def integrate_twice(acceleration: FloatArray, dt: float, initial_velocity: float = 0.0) -> FloatArray:
-    """Return the displacement at the samples, exact for a piecewise linear acceleration (a cubic in each interval).
-
-    Parameters
-    ----------
-    acceleration : (n,) array, m/s^2
-        Samples, linear in between.
-    dt : float, s
-        Sampling interval.
-    initial_velocity : float, m/s
-        Velocity at the first sample.
-
-    Returns
-    -------
-    (n,) array, m
-        Zero at the first sample.
-    """
-    velocity = initial_velocity + integrate(acceleration, dt)
-    steps = dt * velocity[:-1] + dt**2 / 6.0 * (2.0 * acceleration[:-1] + acceleration[1:])
-    return np.concatenate(([0.0], np.cumsum(steps)))
-
-
 def _peak(component: Component) -> float:
     """Return the peak absolute acceleration of a component, m/s^2."""
     return float(np.abs(component.acceleration).max())

@@ -143,6 +143,9 @@ def _shaken(around: FloatArray, peak: float) -> bool:
 
 def _of_directions(record: Record) -> Iterator[Doubt]:
     """Yield the doubts about the directions of a record: azimuths that are no right angle apart, or without a vertical component."""
+    if record.vertical is None and len(record.horizontals) > 2:
+        text = said("none of the components {codes} is known to be vertical: all are taken as horizontal", codes=record.codes)
+        yield Doubt("directions", text)
     known = [c for c in record.horizontals if c.azimuth_deg is not None]
     if len(known) != 2:
         return

@@ -167,11 +167,13 @@ def test_gse_is_not_read(tmp_path):
 
 
 def test_several_files_are_several_records_in_order(tmp_path):
-    """Files of different recordings stay apart, each read as if alone; a name given twice is read once."""
+    """Files of different recordings stay apart, each read as if alone; a file named twice is refused."""
     (tmp_path / "a.csv").write_text("time,NS (gal)\n0,1\n0.01,2\n")
-    records = read_all([sample_path(), tmp_path / "a.csv", "elcentro_1940_ns", tmp_path / "a.csv"])
+    records = read_all([sample_path(), tmp_path / "a.csv", "elcentro_1940_ns"])
     assert [r.format for r in records] == ["JMA-CSV", "CSV", "CSV"]
     assert [len(r.components) for r in records] == [3, 1, 1]
+    with pytest.raises(ParameterError, match=r"a\.csv is named 2 times among the records"):
+        read_all([sample_path(), tmp_path / "a.csv", tmp_path / "a.csv"])
     one = read([tmp_path / "a.csv"])
     assert one.source == str(tmp_path / "a.csv")
 

@@ -7,12 +7,11 @@ from hypothesis import strategies as st
 
 from seisblock.errors import ComponentError, ParameterError, RecordError
 from seisblock.records import Component, Record
+from seisblock.records.integrals import integrate, integrate_twice
 from seisblock.records.process import (
     crop,
     demean,
     highpass,
-    integrate,
-    integrate_twice,
     largest_horizontal,
     rotate,
     scale,

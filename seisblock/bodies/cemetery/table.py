@@ -52,6 +52,9 @@ LARGEST = 20.0
 MOST_ALIKE = 100_000
 """Most stones that one row stands for."""
 
+MOST_STONES = 1_000_000
+"""Most stones of one table: each is kept and judged by itself."""
+
 DISAGREEMENT = 0.05
 """Largest relative difference between a ratio written down and that of the sizes beside it."""
 
@@ -105,6 +108,14 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
             wrong.append((number, str(error)))
     if wrong:
         raise BodyError(f"{source}, line {wrong[0][0]}: {wrong[0][1]}{_others([number for number, _ in wrong[1:]])}")
+    size = sum(stone.count for stone in stones)
+    if size > MOST_STONES:
+        raise BodyError(
+            "{source}: {size} gravestones, and at most {most} are judged at once: split the table",
+            source=source,
+            size=size,
+            most=MOST_STONES,
+        )
     notes = tuple(line.lstrip("# ").rstrip() for number, line in lines if number < header_line and line.startswith("#"))
     return Cemetery(tuple(stones), Path(source).stem, source, notes)
 

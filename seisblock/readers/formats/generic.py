@@ -65,7 +65,9 @@ def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) 
     unit = normal_unit(units)
     if unit is None:
         raise UnitError(f"unknown unit of acceleration {units!r}: give gal, m/s2 or g")
-    return [_record(blob.name, trace, name, unit, doubts) for trace in traces]
+    traces.reverse()
+    # one by one out of the list: obspy's samples go as ours come
+    return [_record(blob.name, traces.pop(), name, unit, doubts) for _ in range(len(traces))]
 
 
 def _recognise(name: str, path: Path) -> str:

@@ -22,6 +22,9 @@ from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
 from seisblock.studies.rocking.verdicts import overturns_at
 from seisblock.typing import BoolArray, FloatArray, Progress
 
+MOST_FACTORS = 100_000
+"""Most factors of a scan: some minutes for a record of a minute."""
+
 LIMIT = 3.0
 """Default largest factor of the scan."""
 
@@ -107,6 +110,14 @@ def find_margin(
     if not (0.0 < step <= limit < float("inf")):
         raise ParameterError("the scan needs 0 < step <= limit, found step {step} and limit {limit}", step=step, limit=limit)
     one = rocker(block, motion, **options)
+    if limit / step > MOST_FACTORS:
+        raise ParameterError(
+            "a scan up to {limit:g} in steps of {step:g} tries {count:.3g} factors, and {most} are allowed: give a smaller limit",
+            limit=limit,
+            step=step,
+            count=limit / step,
+            most=MOST_FACTORS,
+        )
     grid = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
     factors = grid[grid <= limit]
     verdicts = overturns_at(one, motion, factors, progress=progress)

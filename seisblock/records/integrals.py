@@ -1,0 +1,78 @@
+"""Velocity and displacement of a piecewise linear acceleration, exactly, in the memory of what is returned."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from seisblock.typing import FloatArray
+
+BLOCK = 2**18
+"""Steps that are summed at a time: a day-long record needs no further memory of its size."""
+
+
+def integrate(acceleration: FloatArray, dt: float) -> FloatArray:
+    """Return the velocity at the samples from rest, exact for a piecewise linear acceleration.
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+        Samples, linear in between.
+    dt : float, s
+        Sampling interval.
+
+    Returns
+    -------
+    (n,) array, m/s
+        Zero at the first sample; the trapezoidal sum.
+    """
+    velocity = np.zeros(acceleration.size)
+    for begin, end in _blocks(acceleration.size):
+        velocity[begin : end + 1] = _velocity(acceleration[begin : end + 1], dt, velocity[begin])
+    return velocity
+
+
+def integrate_twice(acceleration: FloatArray, dt: float, initial_velocity: float = 0.0) -> FloatArray:
+    """Return the displacement at the samples, exact for a piecewise linear acceleration (a cubic in each interval).
+
+    Parameters
+    ----------
+    acceleration : (n,) array, m/s^2
+        Samples, linear in between.
+    dt : float, s
+        Sampling interval.
+    initial_velocity : float, m/s
+        Velocity at the first sample.
+
+    Returns
+    -------
+    (n,) array, m
+        Zero at the first sample.
+    """
+    displacement = np.zeros(acceleration.size)
+    reached = 0.0
+    for begin, end in _blocks(acceleration.size):
+        a = acceleration[begin : end + 1]
+        from_rest = _velocity(a, dt, reached)
+        reached = float(from_rest[-1])
+        steps = dt * (initial_velocity + from_rest[:-1]) + dt**2 / 6.0 * (2.0 * a[:-1] + a[1:])
+        steps[0] += displacement[begin]
+        np.cumsum(steps, out=displacement[begin + 1 : end + 1])
+    return displacement
+
+
+def _velocity(acceleration: FloatArray, dt: float, initial: float) -> FloatArray:
+    """Return the velocity at some samples that follow each other, from that at the first."""
+    velocity = np.empty(acceleration.size)
+    velocity[0] = initial
+    steps = 0.5 * dt * (acceleration[1:] + acceleration[:-1])
+    steps[0] += initial
+    np.cumsum(steps, out=velocity[1:])
+    return velocity
+
+
+def _blocks(samples: int) -> Iterator[tuple[int, int]]:
+    """Yield first and last sample of pieces that share their ends: sums go on from piece to piece, in the memory of one."""
+    for begin in range(0, samples - 1, BLOCK):
+        yield begin, min(begin + BLOCK, samples - 1)

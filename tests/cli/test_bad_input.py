@@ -1,0 +1,138 @@
+"""What cannot be meant: one sentence and an exit code, no answer."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+
+T = np.arange(300) * 0.01
+SWING = np.sin(10.0 * T) * np.exp(-((T - 1.5) ** 2))
+
+
+def table(path, header, *gal):
+    """Write a table of time and some columns."""
+    path.parent.mkdir(exist_ok=True)
+    rows = zip(T, *(peak * SWING for peak in gal), strict=True)
+    path.write_text(header + "\n" + "".join(",".join([f"{t:.2f}", *(f"{a:.3f}" for a in row)]) + "\n" for t, *row in rows))
+    return path.name
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Run a command in a directory of its own; return exit code and what is said on stderr."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        done = CliRunner().invoke(main, [str(word) for word in words])
+        assert done.exception is None or isinstance(done.exception, SystemExit)
+        assert done.exit_code == 0 or done.stdout == ""
+        return done.exit_code, done.stderr.strip()
+
+    return run
+
+
+@pytest.mark.parametrize("command", ["rock", "respond", "criteria", "measure", "uplift"])
+def test_a_stone_of_24_m(run, command):
+    """A unit that was forgotten: refused by every command that takes sizes, with the ways to write it."""
+    code, said = run(command, "--width", "24", "--height", "62")
+    assert code == 2 and "24 m?" in said and "24cm" in said and "24m if it is so large" in said
+
+
+def test_a_stone_of_24_m_in_a_file(run, tmp_path):
+    """A body and a cemetery, too."""
+    (tmp_path / "body.toml").write_text('kind = "block"\nwidth = 24\nheight = 62\n')
+    (tmp_path / "stones.csv").write_text("height,width\n62,24\n")
+    code, said = run("rock", "--block", "body.toml")
+    assert code == 3 and said.startswith("seisblock: body.toml: width of 24 m?")
+    code, said = run("overturn-rate", "--cemetery", "stones.csv")
+    assert code == 3 and "is no gravestone (without a unit it means metres" in said
+
+
+def test_longitudinal_transverse_and_vertical_without_a_unit(run, tmp_path):
+    """T may be the time: said, not guessed."""
+    name = table(tmp_path / "ltv.csv", "t,L,T,V", 100, 200, 50)
+    code, said = run("measure", name)
+    assert code == 3 and "'T' may be the time or the transverse direction" in said
+    assert len(said.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    "header", ["time,NS (gal),NS (gal),UD (gal)", "time,NS (gal),N (gal),UD (gal)", "time,N10E (gal),10° (gal),UD (gal)"]
+)
+def test_two_columns_of_one_name(run, tmp_path, header):
+    """Or of one meaning: keep one of them."""
+    code, said = run("slide", table(tmp_path / "two.csv", header, *[100] * header.count("gal")), "--mu", "0.2")
+    assert code == 3 and "several columns mean" in said and said.endswith("keep one of them")
+
+
+def test_one_way_sliding_with_lift_off(run, tmp_path):
+    """Not defined in the air: refused with its time, where the ground falls away at more than g."""
+    name = table(tmp_path / "strong.csv", "time,NS (gal),EW (gal),UD (gal)", 1200, 2400, 3600)
+    code, said = run("slide", name, "--mu", "0.2", "--one-way", "--vertical", "--quiet")
+    assert code == 3 and "at 0.420 s the base falls away faster than the object" in said.splitlines()[-1]
+    assert run("slide", name, "--mu", "0.2", "--one-way", "--quiet")[0] == 0
+
+
+def test_twenty_files_with_one_name(run, tmp_path):
+    """One file named twenty times is refused, however it is spelt; twenty files of that name in twenty folders are twenty records."""
+    header = "time,NS (gal),EW (gal),UD (gal)"
+    for i in range(20):
+        table(tmp_path / f"d{i}" / "rec.csv", header, 100 + i, 50, 20)
+    code, said = run("measure", *["d0/rec.csv"] * 20)
+    assert (code, said) == (3, "seisblock: d0/rec.csv is named 20 times among the records: name each file once")
+    assert run("measure", "d0/rec.csv", "./d0/rec.csv")[0] == 3
+    assert run("measure", "-", "-")[0] == 3
+    done = CliRunner().invoke(main, ["measure", "--quiet", *(f"d{i}/rec.csv" for i in range(20))])
+    assert done.exit_code == 0 and all(f"d{i}/rec.csv  start" in done.stdout for i in range(20))
+
+
+FOREIGN = {
+    "time,HNN (gal),HNE (gal),HNZ (gal)": {"NS": 0, "EW": 90, "UD": None},
+    "time,N10E (gal),N80W (gal),UP (gal)": {"10": 10, "280": 280, "UD": None},
+    "time,10 (gal),280 (gal),UD (gal)": {"10": 10, "280": 280, "UD": None},
+    "time,S10W (gal),N80W (gal),Vertical (gal)": {"190": 190, "280": 280, "UD": None},
+    "time,030 (gal),120 (gal),UP (gal)": {"30": 30, "120": 120, "UD": None},
+    "Time(s),Acc. N-S [cm/s2],Acc. E-W [cm/s2],Acc. U-D [cm/s2]": {"NS": 0, "EW": 90, "UD": None},
+    "時間(秒),南北(ガル),東西(ガル),上下(ガル)": {"NS": 0, "EW": 90, "UD": None},
+    "time,X (gal),Y (gal),Z (gal)": {"X": None, "Y": None, "UD": None},
+    "time,L (gal),T (gal),V (gal)": {"L": None, "T": None, "UD": None},
+    "time,longitudinal (gal),transversal (gal),vertical (gal)": {"L": None, "T": None, "UD": None},
+}
+
+
+@pytest.mark.parametrize(("header", "azimuths"), FOREIGN.items(), ids=FOREIGN)
+def test_an_azimuth_is_met_by_the_azimuths_of_the_record(tmp_path, header, azimuths):
+    """`--component 37` of foreign layouts: turned by the record's own azimuths, refused where there are none."""
+    from seisblock.errors import ComponentError
+    from seisblock.readers import read
+    from seisblock.records import motion_of
+
+    table(tmp_path / "rec.csv", header, 100, 60, 20)
+    record = read(tmp_path / "rec.csv")
+    assert {c.code: c.azimuth_deg for c in record.components} == azimuths
+    known = [(c.azimuth_deg, c.acceleration) for c in record.horizontals if c.azimuth_deg is not None]
+    if not known:
+        with pytest.raises(ComponentError, match="of known direction"):
+            motion_of(record, "37")
+        return
+    expected = sum(row * np.cos(np.radians(37.0 - azimuth)) for azimuth, row in known)
+    np.testing.assert_allclose(motion_of(record, "37").acceleration[0], expected, atol=1e-12)
+
+
+def test_three_channels_of_which_none_is_vertical(tmp_path):
+    """CH1, CH2, CH3 are accelerations by their unit, but which is up is not known: said."""
+    from seisblock.readers import read
+
+    table(tmp_path / "rec.csv", "time,CH1 (gal),CH2 (gal),CH3 (gal)", 100, 60, 20)
+    assert [doubt.message for doubt in read(tmp_path / "rec.csv").doubts] == [
+        "none of the components CH1, CH2, CH3 is known to be vertical: all are taken as horizontal"
+    ]
+
+
+def test_a_number_that_is_no_azimuth(run, tmp_path):
+    """400 degrees, or a value where a name belongs."""
+    code, said = run("measure", table(tmp_path / "rec.csv", "time,400 (gal),130 (gal),UD (gal)", 100, 60, 20))
+    assert code == 3 and "'400 (gal)' is named by a number that is no azimuth" in said

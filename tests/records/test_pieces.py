@@ -1,0 +1,66 @@
+"""What is made of a long record piece by piece is what is made of it at once."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.signal import sosfiltfilt
+
+from seisblock.measures import peaks, spectra
+from seisblock.measures.baseline import ground_history
+from seisblock.records import filters, integrals
+
+DT = 0.01
+ROW = np.random.default_rng(5).standard_normal(5000) + 0.2
+
+
+@pytest.fixture
+def small_pieces(monkeypatch):
+    """Let a piece be some dozens of samples, which divide no length here."""
+    for module in (filters, integrals, peaks):
+        monkeypatch.setattr(module, "BLOCK", 77)
+
+
+def test_integrals_to_the_bit(small_pieces, monkeypatch):
+    """Sums go on from piece to piece in the same order."""
+    found = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
+    monkeypatch.setattr(integrals, "BLOCK", 10**6)
+    at_once = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
+    for one, other in zip(found, at_once, strict=True):
+        np.testing.assert_array_equal(one, other)
+    velocity = np.concatenate(([0.0], np.cumsum(0.5 * DT * (ROW[1:] + ROW[:-1]))))
+    np.testing.assert_array_equal(found[0], velocity)
+
+
+@pytest.mark.parametrize("hz", [0.5, 0.02])
+def test_the_high_pass_is_scipys_to_the_bit(small_pieces, hz):
+    """Forwards and backwards with the state of the filter carried on; padding shorter and longer than the record."""
+    sections, pad = filters._design(DT, hz)
+    level = ROW - filters.end_line(ROW, DT, hz)
+    expected = sosfiltfilt(sections, filters._extended(level, pad, pad), padtype=None)[pad : pad + ROW.size]
+    np.testing.assert_array_equal(filters.highpass_samples(ROW, DT, hz), expected)
+
+
+def test_mirror_images_are_those_of_their_places():
+    """The quick way for padding within the record, and the way for any."""
+    row = np.arange(1.0, 6.0)
+    np.testing.assert_array_equal(filters._extended(row, 3, 2), [-3, -2, -1, 1, 2, 3, 4, 5, -5, -4])
+    np.testing.assert_array_equal(filters._extended(row, 7, 1)[:8], [4, 5, -5, -4, -3, -2, -1, 1])
+    np.testing.assert_array_equal(filters._extended(row, 0, 0), row)
+
+
+def test_the_peak_between_samples(small_pieces, monkeypatch):
+    """Zeros of the acceleration at the seams are met once."""
+    history = ground_history(ROW, DT, highpass_hz=0.5)
+    found = peaks.peak_velocity(history, DT)
+    monkeypatch.setattr(peaks, "BLOCK", 10**6)
+    assert found == peaks.peak_velocity(history, DT)
+
+
+def test_the_smoothed_spectrum_of_a_long_record(monkeypatch):
+    """The lag window ends after nine seconds: pieces with that much of what follows give the same energies, on a coarser grid."""
+    fine = spectra.fourier_amplitude(ROW, DT)
+    monkeypatch.setattr(spectra, "LONG", 1000)
+    frequency, amplitude = spectra.fourier_amplitude(ROW, DT)
+    assert frequency.size < fine[0].size
+    np.testing.assert_allclose(amplitude, np.interp(frequency, *fine), rtol=0.0, atol=1e-12 * fine[1].max())
