@@ -37,7 +37,8 @@ os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])
 COMMAND = """
 from seisblock.cli import main
 import seisblock.solvers.slide.solve, seisblock.solvers.stack.solve, seisblock.studies.sliding
-import seisblock.solvers.respond.solve, seisblock.studies.standing.probability, seisblock.studies.rocking.perturb, seisblock.studies.inverse.factors
+import seisblock.solvers.respond.solve, seisblock.studies.standing.probability
+import seisblock.studies.rocking.perturb, seisblock.studies.inverse.factors
 print("go", flush=True)
 try:
     main(sys.argv[1:])
