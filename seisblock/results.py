@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.dynamics.status import Status
 from seisblock.records.motion import Motion
-from seisblock.showing import painter
+from seisblock.showing import Drawn
 from seisblock.typing import FloatArray, IntArray
 
 Outcome = TypeVar("Outcome", covariant=True)
@@ -73,7 +73,7 @@ class Channel:
 
 
 @dataclass(frozen=True, eq=False)
-class Response(Generic[Outcome]):
+class Response(Drawn, Generic[Outcome]):
     """The answer of a solver to one motion.
 
     Parameters
@@ -144,14 +144,6 @@ class Response(Generic[Outcome]):
             suffix = "" if channel.unit == "1" else "_" + channel.unit.replace("/", "_").replace("^", "")
             columns[channel.name + suffix] = np.asarray(channel.values)
         return columns
-
-    def plot(self) -> Any:
-        """Return the response's figure, a ``matplotlib.figure.Figure``; a notebook shows it."""
-        return painter().plot(self)
-
-    def _repr_html_(self) -> str:
-        """Return what a notebook shows: the outcome as a table, and the figure."""
-        return painter().html(self)
 
     def to_dataframe(self) -> Any:
         """Return the columns as a pandas DataFrame (pandas must be installed)."""

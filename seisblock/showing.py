@@ -40,3 +40,23 @@ def painter() -> Painter:
     if _fetch is None:
         raise RuntimeError("nothing draws here: import seisblock, which brings the drawing room along")
     return _fetch()
+
+
+class Shown:
+    """A value that a notebook shows as a table, and with its figure where it has one."""
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows."""
+        return painter().html(self)
+
+
+class Drawn(Shown):
+    """A value that has a figure, too."""
+
+    __slots__ = ()
+
+    def plot(self) -> Any:
+        """Return its figure, a ``matplotlib.figure.Figure``; a notebook shows it."""
+        return painter().plot(self)

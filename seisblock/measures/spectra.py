@@ -10,6 +10,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.errors import ParameterError
+from seisblock.showing import Drawn
 from seisblock.typing import ArrayLike, FloatArray
 
 DAMPING = 0.05
@@ -29,7 +30,7 @@ _PARZEN_LAG = 280.0 / 151.0
 
 
 @dataclass(frozen=True, eq=False)
-class ResponseSpectrum:
+class ResponseSpectrum(Drawn):
     """Largest responses of damped oscillators to one component.
 
     Parameters

@@ -21,6 +21,7 @@ from seisblock.measures.usual_filters import FilterRange, filter_range
 from seisblock.records.process import pick
 from seisblock.records.record import Component, Record
 from seisblock.references import papers
+from seisblock.showing import Shown
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import said
 
@@ -106,7 +107,7 @@ class Conventions:
 
 
 @dataclass(frozen=True)
-class RecordMeasures:
+class RecordMeasures(Shown):
     """What a record is, in numbers.
 
     Parameters

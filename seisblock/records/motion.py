@@ -10,13 +10,14 @@ import numpy as np
 from seisblock import checks
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.records.record import Component, Record, frozen
+from seisblock.showing import Drawn
 from seisblock.typing import ArrayLike, FloatArray
 
 ALONG, ACROSS, UP = range(3)
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class Motion(Drawn):
     """Ground acceleration that a body feels, piecewise linear between samples.
 
     Parameters

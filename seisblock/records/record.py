@@ -11,6 +11,7 @@ import numpy as np
 from seisblock import checks
 from seisblock.errors import ComponentError, RecordError
 from seisblock.records.doubts import Doubt
+from seisblock.showing import Drawn
 from seisblock.typing import ArrayLike, FloatArray
 from seisblock.words import said
 
@@ -65,7 +66,7 @@ class Component:
 
 
 @dataclass(frozen=True, eq=False)
-class Record:
+class Record(Drawn):
     """A strong-motion record of one station.
 
     Parameters

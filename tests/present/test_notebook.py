@@ -61,3 +61,31 @@ def test_a_model_without_a_figure_says_so():
     unknown = Response("knit", None, Motion.from_arrays(np.zeros(3), 0.01), None, np.zeros(3))
     with pytest.raises(ParameterError, match="rock, slide, jump, uplift, stack"):
         unknown.plot()
+
+
+def values():
+    """Yield a record, and what is made of it without a body."""
+    record = seisblock.read("synthetic_jma.csv")
+    motion = seisblock.motion_of(record, "EW")
+    yield record
+    yield motion
+    yield seisblock.response_spectrum(motion.horizontal, motion.dt)
+    yield seisblock.rocking_spectrum([0.5, 1.0], [0.2, 0.3], motion)
+
+
+@pytest.mark.parametrize("value", list(values()), ids=lambda value: type(value).__name__)
+def test_what_has_no_body_shows_itself_too(value):
+    """A record, a motion and spectra have a title, numbers with units in words, and a figure."""
+    text = value._repr_html_()
+    assert "data:image/" in text and "<script" not in text and "<b></b>" not in text
+    assert len(re.findall(r"<tr>", text)) >= 2
+    assert value.plot()._repr_png_().startswith(b"\x89PNG")
+
+
+def test_measures_are_a_table():
+    """A column per component, and the intensity; they hold no samples, so there is no figure."""
+    record = seisblock.read("synthetic_jma.csv")
+    answer = seisblock.measure(record)
+    text = answer._repr_html_()
+    assert "<img" not in text and "pga (m/s²)" in text and f"JMA {answer.jma_class}" in text
+    assert all(f">{part.code}</td>" in text for part in record.components)

@@ -1,11 +1,14 @@
-"""What a response shows of itself in a notebook: its numbers as a table, and its figure."""
+"""What a value shows of itself in a notebook: its numbers as a table, and its figure."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from seisblock.measures import RecordMeasures, ResponseSpectrum
 from seisblock.present.documents.units import unit_of
 from seisblock.present.documents.write import plain
 from seisblock.present.faces import figure_of
@@ -13,26 +16,32 @@ from seisblock.present.figures.embed import picture
 from seisblock.present.figures.fonts import drawn
 from seisblock.present.page import page
 from seisblock.present.text.tables import number
+from seisblock.records import Motion, Record
 from seisblock.results import Response
+from seisblock.typing import FloatArray
 from seisblock.words import listed, tell
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def plot(response: Response[Any]) -> Figure:
-    """Return the figure of a response, in the language of the locale; a notebook shows it.
+SEPARATOR = " · "
+MEASURED = ("components", "jma_intensity", "jma_class")
+
+
+def plot(shown: Any) -> Figure:
+    """Return the figure of a response, a record, a motion or a spectrum, in the language of the locale; a notebook shows it.
 
     Parameters
     ----------
-    response : Response
+    shown : Response, Record, Motion, ResponseSpectrum or RockingSpectrum
 
     Raises
     ------
     ParameterError
         If the model has no figure.
     """
-    figure = drawn(lambda: figure_of([response]))
+    figure = drawn(lambda: _figure(shown))
     # a notebook asks what it shows for its picture; pyplot, which would teach it Figures, is not used here
     vars(figure)["_repr_png_"] = lambda: _png(figure)
     return figure
@@ -45,17 +54,54 @@ def _png(figure: Figure) -> bytes:
     return held.getvalue()
 
 
-def html(response: Response[Any]) -> str:
-    """Return a response as a notebook shows it: what it is about, its outcome, its warnings, its figure."""
-    parts = (response.model, response.motion.name, tell(str(getattr(response.body, "name", ""))))
-    title = " · ".join(part for part in parts if part)
+def html(shown: Any) -> str:
+    """Return a value as a notebook shows it: what it is about, its numbers, its warnings, its figure."""
+    title, numbers, warnings = _said(shown)
     return page(
         "notebook.html",
         title,
-        tables=list(_tables(plain(response.outcome))),
-        warnings=[tell(text) for text in response.warnings],
-        picture=picture(drawn(lambda: figure_of([response])), title),
+        tables=list(_tables(numbers)),
+        warnings=[tell(text) for text in warnings],
+        picture=None if isinstance(shown, RecordMeasures) else picture(drawn(lambda: _figure(shown)), title),
     )
+
+
+def _figure(shown: Any) -> Figure:
+    """Return the figure of a value."""
+    if isinstance(shown, Response):
+        return figure_of([shown])
+    from seisblock.present.figures import inputs
+
+    if isinstance(shown, Record):
+        return inputs.record_figure(shown)
+    if isinstance(shown, Motion):
+        return inputs.motion_figure(shown)
+    return inputs.response_spectrum_figure(shown) if isinstance(shown, ResponseSpectrum) else inputs.rocking_spectrum_figure(shown)
+
+
+def _said(shown: Any) -> tuple[str, dict[str, Any], Sequence[str]]:
+    """Return the title of a value, its numbers under the names of keys, and its warnings."""
+    if isinstance(shown, Response):
+        parts = (shown.model, shown.motion.name, tell(str(getattr(shown.body, "name", ""))))
+        return SEPARATOR.join(part for part in parts if part), plain(shown.outcome), shown.warnings
+    if isinstance(shown, Record):
+        numbers = {"samples": shown.samples, "dt_s": shown.dt, "format": shown.format}
+        peaks = [{"component": part.code, "pga_m_s2": _peak(part.acceleration)} for part in shown.components]
+        return shown.station or shown.source or tell("record"), {**numbers, "components": peaks}, [doubt.message for doubt in shown.doubts]
+    if isinstance(shown, Motion):
+        numbers = {"samples": shown.acceleration.shape[1], "dt_s": shown.dt, "start_s": shown.start_s, "pga_m_s2": _peak(shown.horizontal)}
+        return SEPARATOR.join(part for part in (shown.record.station if shown.record else "", shown.name) if part), numbers, ()
+    if isinstance(shown, RecordMeasures):
+        return "JMA " + (shown.jma_class or "-"), {key: value for key, value in plain(shown).items() if key in MEASURED}, shown.warnings
+    if isinstance(shown, ResponseSpectrum):
+        highest = int(shown.sa_m_s2.argmax())
+        return "Sₐ", {"damping": shown.damping, "sa_m_s2": float(shown.sa_m_s2[highest]), "period_s": float(shown.period_s[highest])}, ()
+    return "2R, α", {"overturned": int(shown.overturned.sum()), "blocks": shown.overturned.size}, ()
+
+
+def _peak(row: FloatArray) -> float:
+    """Return the largest absolute value."""
+    return float(np.abs(row).max())
 
 
 def _tables(outcome: Mapping[str, Any]) -> Iterator[tuple[str, list[list[str]]]]:
@@ -64,7 +110,8 @@ def _tables(outcome: Mapping[str, Any]) -> Iterator[tuple[str, list[list[str]]]]
     yield "", [[_spelt(key), _cell(value)] for key, value in flat.items()]
     for key, value in outcome.items():
         if isinstance(value, list) and value and all(isinstance(entry, Mapping) for entry in value):
-            rows = [[_spelt(name), *(_cell(entry.get(name)) for entry in value[:MOST_COLUMNS])] for name in value[0]]
+            names = [name for name, one in value[0].items() if not isinstance(one, Mapping)]
+            rows = [[_spelt(name), *(_cell(entry.get(name)) for entry in value[:MOST_COLUMNS])] for name in names]
             yield key.replace("_", " "), rows
 
 

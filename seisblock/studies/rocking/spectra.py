@@ -13,6 +13,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
+from seisblock.showing import Drawn
 from seisblock.solvers.rock.rocker import RockOptions, rocker
 from seisblock.studies.rocking.verdicts import all_verdicts
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
@@ -20,7 +21,7 @@ from seisblock.units import STANDARD_GRAVITY
 
 
 @dataclass(frozen=True, eq=False)
-class RockingSpectrum:
+class RockingSpectrum(Drawn):
     """The largest lean over a grid of rectangular blocks.
 
     Parameters
