@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from seisblock.words import Said, on_a_screen, said
+from seisblock.words import Said, noted, on_a_screen, said
 
 
 class SeisblockError(Exception):
@@ -69,3 +69,26 @@ class SolverError(SeisblockError, ArithmeticError):
     """A solver gave up: the answer would not be one."""
 
     exit_code = 4
+
+
+REASONS = (
+    noted("File name too long"),
+    noted("Input/output error"),
+    noted("Is a directory"),
+    noted("No space left on device"),
+    noted("No such file or directory"),
+    noted("Not a directory"),
+    noted("Permission denied"),
+    noted("Read-only file system"),
+)
+"""What systems say most when they refuse a file."""
+
+
+def reason(error: OSError) -> Said:
+    """Return why the system refused, without the file's name, so that it can be told.
+
+    Parameters
+    ----------
+    error : OSError
+    """
+    return said(error.strerror or str(error))

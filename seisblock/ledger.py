@@ -70,9 +70,13 @@ def refuse_collision(path: Path) -> None:
         return  # devices and pipes take whatever comes
     who = identity(path)
     if who in book.read:
-        raise OutputError(f"{path} is a file that is read ({book.read[who]}): it would be lost; give the output another name")
+        raise OutputError(
+            "{path} is a file that is read ({use}): it would be lost; give the output another name", path=path, use=book.read[who]
+        )
     if who in book.written:
-        raise OutputError(f"{path} is written already by another output ({book.written[who]}): give each output its own name")
+        raise OutputError(
+            "{path} is written already by another output ({use}): give each output its own name", path=path, use=book.written[who]
+        )
 
 
 def wrote(path: Path) -> None:

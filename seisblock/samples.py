@@ -91,7 +91,9 @@ def sample_path(name: str = DEFAULT_SAMPLE) -> Path:
     """
     found = find_sample(name)
     if found is None:
-        raise RecordNotFoundError(f"no bundled sample is called {name!r}; there are {', '.join(s.name for s in list_samples())}")
+        raise RecordNotFoundError(
+            "no bundled sample is called {name!r}; there are {known}", name=name, known=[s.name for s in list_samples()]
+        )
     return found
 
 

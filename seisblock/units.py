@@ -76,7 +76,7 @@ def acceleration_unit(name: str) -> float:
     """
     factor = ACCELERATION_UNITS.get(name.strip().lower())
     if factor is None:
-        raise UnitError(f"unknown unit of acceleration {name!r}: give gal, m/s2 or g")
+        raise UnitError("unknown unit of acceleration {name!r}: give gal, m/s2 or g", name=name)
     return factor
 
 
@@ -147,9 +147,13 @@ def parse_acceleration(text: str, *, what: str = "acceleration") -> float:
     """
     match = _NUMBER.match(text)
     if match is None:
-        raise ParameterError(f"{what} {text!r} is not a number with a unit: write for example 245gal, 2.45m/s2 or 0.25g")
+        raise ParameterError(
+            "{what} {text!r} is not a number with a unit: write for example 245gal, 2.45m/s2 or 0.25g", what=what, text=text
+        )
     if not match[2]:
-        raise UnitError(f"{what} {text!r} has no unit: write {text.strip()}gal, {text.strip()}m/s2 or {text.strip()}g")
+        raise UnitError(
+            "{what} {text!r} has no unit: write {number}gal, {number}m/s2 or {number}g", what=what, text=text, number=text.strip()
+        )
     return _parse(text.lower(), ACCELERATION_UNITS, "m/s2", what)
 
 
@@ -166,11 +170,13 @@ def _parse(text: str | float, table: dict[str, float], default: str, what: str) 
     else:
         match = _NUMBER.match(text)
         if match is None:
-            raise ParameterError(f"{what} {text!r} is not a number with a unit: write for example 0.24, 24cm or 8sun")
+            raise ParameterError("{what} {text!r} is not a number with a unit: write for example 0.24, 24cm or 8sun", what=what, text=text)
         value, unit = float(match[1]), match[2]
     factor = table.get(unit or default)
     if factor is None:
-        raise UnitError(f"{what} {text!r} has the unknown unit {unit!r}: use one of {', '.join(table)}")
+        raise UnitError(
+            "{what} {text!r} has the unknown unit {unit!r}: use one of {known}", what=what, text=text, unit=unit, known=list(table)
+        )
     if not math.isfinite(value):
-        raise ParameterError(f"{what} must be finite, not {text!r}")
+        raise ParameterError("{what} must be finite, not {text!r}", what=what, text=text)
     return round(value * factor, 15) if unit else value

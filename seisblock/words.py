@@ -72,10 +72,10 @@ def said(template: str, /, **values: Any) -> Said:
     Parameters
     ----------
     template : str
-        English, with a field in braces for each value.
+        English, with a field in braces for each value; what was said already stays as it is.
     values : any
     """
-    return Said(template, values)
+    return template if isinstance(template, Said) and not values else Said(template, values)
 
 
 def noted(word: str) -> str:
@@ -228,9 +228,9 @@ def _read(path: Path) -> Iterator[tuple[str, str]]:
     for line in [*path.read_text(encoding="utf-8").splitlines(), 'msgid ""']:
         if not line.startswith('"'):
             key, _, line = line.partition(" ")
-            if key == "msgid" and entry["msgid"] and entry["msgstr"]:
-                yield entry["msgid"], entry["msgstr"]
-            if key in entry:
-                entry[key] = ""
+            if key == "msgid":
+                if entry["msgid"] and entry["msgstr"]:
+                    yield entry["msgid"], entry["msgstr"]
+                entry = {"msgid": "", "msgstr": ""}
         if key in entry:
             entry[key] += literal_eval(line)

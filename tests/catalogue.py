@@ -5,54 +5,111 @@ what waits for a translator.
 """
 
 import ast
-import inspect
-import io
+import builtins
 import re
-import sys
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
 import click
 from babel.messages.catalog import Catalog
-from babel.messages.extract import extract, extract_from_dir
+from babel.messages.extract import extract_from_dir
 from babel.messages.pofile import read_po, write_po
 
 import seisblock
+from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.help import paragraphs
 from seisblock.samples import list_samples, sample_directory
+from seisblock.validation import cases
 from seisblock.words import LANGUAGES, LOCALES
 
 PACKAGE = Path(seisblock.__file__).parent
-SAYING = {"said", "tell", "noted", "say", "warn", "progress", "UsageError", "BadParameter", "fail"}
+SAYING = {"said", "tell", "noted", "say", "warn", "insist", "progress", "error"}
 CHECKS = {"finite", "positive", "not_negative", "within", "fraction"}
-"""Functions whose first argument is a text for people; so is that of every error, and of every check of a number."""
+"""Functions whose first argument is a text for people; so is that of every error of ours, and of every check of a number."""
+
+CLICKS = (
+    "Error: {message}",
+    "Usage:",
+    "Try '{command} {option}' for help.",
+    "Aborted!",
+    "Invalid value for {param_hint}: {message}",
+    "Invalid value: {message}",
+    "Missing argument",
+    "Missing command.",
+    "Missing option",
+    "Missing parameter",
+    "No such command {name!r}.",
+    "No such option {name!r}.",
+    "Option {name!r} does not take a value.",
+    "Show this message and exit.",
+    "default: {default}",
+    "required",
+    "file",
+    "directory",
+    "path",
+    "{name} {filename!r} does not exist.",
+    "{name} {filename!r} is a directory.",
+    "{name} {filename!r} is a file.",
+    "{name} {filename!r} is not readable.",
+    "{name} {filename!r} is not writable.",
+    "{value!r} is not a valid {number_type}.",
+    "{value!r} is not a valid boolean. Recognized values: {states}",
+    "{value} is not in the range {range}.",
+    "Choose from:\n\t{choices}",
+    "Got unexpected extra argument ({args})",
+    "Takes {nargs} values but 1 was given.",
+    "Did you mean {possibility}?",
+    "{value!r} is not {choice}.",
+    "Option {name!r} requires an argument.",
+)
+"""What click says to users of ours; it asks gettext, by the first of two forms where it counts."""
+
+PLURALS = {
+    "Got unexpected extra argument ({args})": "Got unexpected extra arguments ({args})",
+    "Takes {nargs} values but 1 was given.": "Takes {nargs} values but {len} were given.",
+    "Did you mean {possibility}?": "(Did you mean one of: {possibilities}?)",
+    "{value!r} is not {choice}.": "{value!r} is not one of {choices}.",
+    "Option {name!r} requires an argument.": "Option {name!r} requires {nargs} arguments.",
+}
+"""The second."""
 
 WIDTH = 120
 
 
 def texts_of(stream, keywords, comment_tags, options) -> Iterator[tuple[int, str, str, list[str]]]:
-    """Yield what a Python file says, as a method of babel's: calls inside calls, and texts over several lines."""
-    for node in ast.walk(ast.parse(stream.read())):
+    """Yield what a Python file says, as a method of babel's: calls inside calls, texts over several lines or put in a name before."""
+    tree = ast.parse(stream.read())
+    named = [node for node in ast.walk(tree) if isinstance(node, ast.Assign)]
+    for node, argument in sayings(tree):
+        if isinstance(argument, ast.Name):
+            put = [each.value for each in named if argument.id in (getattr(target, "id", "") for target in each.targets)]
+            yield from ((node.lineno, "", text, []) for value in put for text in texts_in(value))
+        yield from ((node.lineno, "", text, []) for text in texts_in(argument))
+
+
+def sayings(tree: ast.AST) -> Iterator[tuple[ast.Call, ast.expr]]:
+    """Yield the calls that say something, and what they say."""
+    for node in ast.walk(tree):
         if isinstance(node, ast.Call) and node.args:
             name = getattr(node.func, "attr", getattr(node.func, "id", ""))
-            if name in SAYING | CHECKS or name.endswith("Error"):
-                yield from ((node.lineno, "", text, []) for text in _constants(node.args[0]))
+            if name in SAYING | CHECKS or (name.endswith("Error") and not hasattr(builtins, name)):
+                yield node, node.args[0]
             elif name == "map" and getattr(node.args[0], "id", "") in SAYING:
-                yield from ((node.lineno, "", text, []) for text in _constants(node.args[1]))
+                yield node, node.args[1]
 
 
-def _constants(node: ast.expr) -> Iterator[str]:
+def texts_in(node: ast.expr) -> Iterator[str]:
     """Yield the texts that an argument may be: one, either branch of a choice, or the members of a row."""
-    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+    if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value:
         yield node.value
     elif isinstance(node, ast.IfExp):
-        yield from _constants(node.body)
-        yield from _constants(node.orelse)
-    elif isinstance(node, ast.Tuple):
-        for part in node.elts:
-            yield from _constants(part)
+        yield from texts_in(node.body)
+        yield from texts_in(node.orelse)
+    elif isinstance(node, (ast.Tuple, ast.BoolOp)):
+        for part in node.elts if isinstance(node, ast.Tuple) else node.values:
+            yield from texts_in(part)
 
 
 def said_in_source() -> dict[str, str]:
@@ -84,17 +141,19 @@ def said_in_samples() -> dict[str, str]:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
         parts = [table, *table.get("stone", ()), *table.get("stones", ())]
         found |= {part["name"]: path.name for part in parts if "name" in part}
+    cemeteries = [sample.name for sample in list_samples() if sample.kind == "cemetery"]
+    found |= {read_cemetery(name).notes[0]: name for name in cemeteries}
     return found | dict.fromkeys((sample.kind for sample in list_samples()), "MANIFEST.toml")
 
 
-def said_by_click() -> set[str]:
-    """Return the texts that click itself may say."""
-    found: set[str] = set()
-    for module in ("core", "exceptions", "formatting", "decorators", "types", "parser"):
-        source = inspect.getsource(sys.modules[f"click.{module}"]).encode()
-        for _, text, _, _ in extract("python", io.BytesIO(source), keywords={"_": None, "ngettext": (1, 2)}):
-            found.add(text if isinstance(text, str) else text[0])
-    return found
+def said_in_evidence() -> dict[str, str]:
+    """Return what the cases of validation compare, and the notes on them."""
+    return {text: f"validation of {case.paper}" for case in cases() for text in (case.quantity, case.note) if text}
+
+
+def everything_said() -> dict[str, str]:
+    """Return every text that a catalogue holds: template and the place where it stands first."""
+    return dict.fromkeys(CLICKS, "click") | said_in_evidence() | said_in_source() | said_in_help() | said_in_samples()
 
 
 def path_of(language: str) -> Path:
@@ -112,13 +171,9 @@ def refresh(language: str) -> list[str]:
     """Bring a catalogue up to date; return what has no translation."""
     held, path = catalogue(language), path_of(language)
     fresh = Catalog(locale=language, project="seisblock", charset="utf-8", fuzzy=False, header_comment=held.header_comment)
-    clicks = said_by_click()
-    kept = [message for message in held if message.id and _key(message) in clicks]
-    for text, place in sorted((said_in_source() | said_in_help() | said_in_samples()).items(), key=lambda pair: (pair[1], pair[0])):
+    for text, place in sorted(everything_said().items(), key=lambda pair: (pair[1], pair[0])):
         known = held.get(text)
-        fresh.add(text, known.string if known else "", auto_comments=[place])
-    for message in kept:
-        fresh.add(message.id, message.string, auto_comments=["click"])
+        fresh.add((text, PLURALS[text]) if text in PLURALS else text, known.string if known else "", auto_comments=[place])
     with path.open("wb") as stream:
         write_po(stream, fresh, width=WIDTH, omit_header=False, ignore_obsolete=True)
     text = re.sub(
@@ -128,10 +183,10 @@ def refresh(language: str) -> list[str]:
         flags=re.MULTILINE,
     )
     path.write_text(text, encoding="utf-8")
-    return [message.id for message in fresh if message.id and not message.string]
+    return [key_of(message) for message in fresh if message.id and not any(message.string)]
 
 
-def _key(message) -> str:
+def key_of(message) -> str:
     """Return the singular of a message."""
     return message.id if isinstance(message.id, str) else message.id[0]
 

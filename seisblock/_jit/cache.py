@@ -13,6 +13,7 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any, TypeVar, cast
 
+from seisblock.errors import reason
 from seisblock.words import Said, said
 
 Compiled = TypeVar("Compiled")
@@ -112,7 +113,7 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
         try:
             return compiled(True)
         except UNREADABLE as error:
-            why = error.strerror if isinstance(error, OSError) and error.strerror else said("a damaged kernel")
+            why = reason(error) if isinstance(error, OSError) and error.strerror else said("a damaged kernel")
             _once(say, said("{place}: {why}: compiling afresh what cannot be read or kept there", place=str(place), why=why))
         try:
             _remove(cast(FunctionType, function))

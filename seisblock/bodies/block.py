@@ -9,7 +9,7 @@ from seisblock import checks
 from seisblock.bodies.inset import Inset
 from seisblock.errors import BodyError
 from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import said
+from seisblock.words import noted, said
 
 DENSITY = 2650.0
 """Density of granite, kg/m^3; a motion of a rigid block does not depend on it."""
@@ -73,7 +73,7 @@ class Block:
     centroid_height: float | None = None
     centroid_offset: float = 0.0
     centroid_inertia: float | None = None
-    name: str = "block"
+    name: str = noted("block")
     inset: float = 0.0
 
     def __post_init__(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from seisblock.errors import ParameterError
+from seisblock.words import noted
 
 
 @dataclass(frozen=True)
@@ -28,12 +29,14 @@ class Surface:
 
 
 SURFACES = {
-    "granite/granite": Surface(0.438, 0.438, "[Furukawa2009]_ table 2", "kinetic value of gravestones; the static one is taken as equal"),
-    "wood/stone": Surface(0.18, 0.17, "[Sugimoto2017]_ section 4.1", "ABS resin on steel, which the paper takes for posts on stone"),
-    "rubber/concrete": Surface(1.0, 0.7, "[Urone2022]_ table 5.1", "dry"),
+    "granite/granite": Surface(
+        0.438, 0.438, "[Furukawa2009]_ table 2", noted("kinetic value of gravestones; the static one is taken as equal")
+    ),
+    "wood/stone": Surface(0.18, 0.17, "[Sugimoto2017]_ section 4.1", noted("ABS resin on steel, which the paper takes for posts on stone")),
+    "rubber/concrete": Surface(1.0, 0.7, "[Urone2022]_ table 5.1", noted("dry")),
     "wood/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
     "metal/wood": Surface(0.5, 0.3, "[Urone2022]_ table 5.1"),
-    "steel/steel": Surface(0.6, 0.3, "[Urone2022]_ table 5.1", "dry"),
+    "steel/steel": Surface(0.6, 0.3, "[Urone2022]_ table 5.1", noted("dry")),
     "teflon/steel": Surface(0.04, 0.04, "[Urone2022]_ table 5.1"),
 }
 """Pairs in either order; real values scatter by a third, so that a probability varies them."""
@@ -56,4 +59,6 @@ def surface(pair: str) -> Surface:
     for name in ("/".join(parts), "/".join(reversed(parts))):
         if name in SURFACES:
             return SURFACES[name]
-    raise ParameterError(f"no friction is known of {pair!r}; there are {', '.join(SURFACES)}: or give the coefficient itself")
+    raise ParameterError(
+        "no friction is known of {pair!r}; there are {known}: or give the coefficient itself", pair=pair, known=list(SURFACES)
+    )

@@ -48,8 +48,10 @@ class Inset:
         depth = self.length_m + self.share * width
         if not depth < HALF * width:
             raise ParameterError(
-                f"an inset of {depth:g} m per side leaves nothing of a base {width:g} m wide: it must be below half of it "
-                "(a bare number is a share of the width, 0.1; a length has a unit, 1cm)"
+                "an inset of {depth:g} m per side leaves nothing of a base {width:g} m wide: it must be below half of it (a "
+                "bare number is a share of the width, 0.1; a length has a unit, 1cm)",
+                depth=depth,
+                width=width,
             )
         return depth
 

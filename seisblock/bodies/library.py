@@ -54,7 +54,7 @@ def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
     if kind == "pile":
         return load_pile(where).as_block()
     if kind != "block":
-        raise BodyError(f'{where}: expected kind = "block", "two-layer" or "pile", found {shown(kind)}')
+        raise BodyError('{where}: expected kind = "block", "two-layer" or "pile", found {kind}', where=where, kind=shown(kind))
     refuse_unknown(table, _KEYS)
     given: dict[str, Any] = {"width": length(table, "width"), "height": length(table, "height")}
     given |= {key: length(table, key) for key in _LENGTHS[2:] if key in table}

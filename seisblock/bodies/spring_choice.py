@@ -52,8 +52,8 @@ def spring_block(
     1.0
     """
     if width is None or height is None:
-        missing = "width" if width is None else "height"
-        raise BodyError(f"the block has no {missing}: give --width and --height, for example --width 1.2 --height 3")
+        missing = "--width" if width is None else "--height"
+        raise BodyError("{missing} is missing: give --width and --height, for example --width 1.2 --height 3", missing=missing)
     zeta = PAPER_DAMPING if damping is None else damping
     if stiffness is not None:
         if frequency_vertical is not None or beta is not None:
@@ -61,7 +61,7 @@ def spring_block(
         if mass is None:
             raise BodyError("--stiffness needs --mass, kg, to say how fast the block moves on its springs")
         if len(stiffness) != 3:
-            raise BodyError(f"--stiffness takes three numbers, kx,ky,kz in N/m per corner; found {len(stiffness)}")
+            raise BodyError("--stiffness takes three numbers, kx,ky,kz in N/m per corner; found {count}", count=len(stiffness))
         kx, ky, kz = stiffness
         return SpringBlock(width, width if depth is None else depth, height, mass, (kx, ky, kz), zeta)
     if frequency_vertical is None:

@@ -78,13 +78,15 @@ def subject(
     bare: tuple[float | None, float | None] = (None, None)
     name: str
     if sizes:
-        width, height = (parse_length(part, what=f"body {text}") for part in sizes.groups())
+        width, height = (parse_length(part, what=said("body {text}", text=text)) for part in sizes.groups())
         block, own_restitution = Block(width, height), None
         name = said("block {width:g} x {height:g} m", width=width, height=height)
     else:
         table = read_table(text)
         if table.get("kind") not in ("block", "two-layer"):
-            raise BodyError(f"{text} is no body of one piece: expected kind block or two-layer, found {table.get('kind')!r}")
+            raise BodyError(
+                "{text} is no body of one piece: expected kind block or two-layer, found {found!r}", text=text, found=table.get("kind")
+            )
         block, own_restitution = block_of(table, side=side), restitution_of(table, text)
         name = block.name
         if table["kind"] == "two-layer":

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock import checks
-from seisblock.errors import BodyError
+from seisblock.errors import BodyError, reason
 from seisblock.ledger import reading
 from seisblock.samples import sample_directory
 from seisblock.units import parse_length, parse_mass
@@ -35,16 +35,18 @@ def read_table(name: str | Path) -> dict[str, Any]:
     if not _is_there(path):
         bundled = sample_directory() / (path.name if path.suffix == ".toml" else f"{path.name}.toml")
         if path.parent != Path() or not _is_there(bundled):
-            known = ", ".join(sorted(p.stem for p in sample_directory().glob("*.toml") if p.stem != "MANIFEST"))
-            raise BodyError(f"no body file {str(name)[:LONGEST_SHOWN]}, and no bundled body of that name; bundled are {known}")
+            known = sorted(p.stem for p in sample_directory().glob("*.toml") if p.stem != "MANIFEST")
+            raise BodyError(
+                "no body file {name}, and no bundled body of that name; bundled are {known}", name=str(name)[:LONGEST_SHOWN], known=known
+            )
         path = bundled
     if path.is_dir():
-        raise BodyError(f"{name} is a directory: give a TOML file that describes a body")
+        raise BodyError("{name} is a directory: give a TOML file that describes a body", name=name)
     try:
         data = path.read_bytes()
         reading(path)
     except OSError as error:
-        raise BodyError("{name} cannot be read: {reason}", name=str(name), reason=error.strerror or str(error)) from error
+        raise BodyError("{name} cannot be read: {reason}", name=str(name), reason=reason(error)) from error
     try:
         table = tomllib.loads(data.decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:  # no UTF-8, no TOML, a date that is none, lists in lists in lists
@@ -62,7 +64,8 @@ def _is_there(path: Path) -> bool:
 
 def source_of(table: Mapping[str, Any]) -> str:
     """Return what messages call a table."""
-    return str(table.get("source", "body"))
+    source = table.get("source") or said("body")
+    return source if isinstance(source, str) else str(source)
 
 
 def number(table: Mapping[str, Any], key: str) -> float | None:
@@ -91,7 +94,7 @@ def subtable(table: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     value = table.get(key, {})
     if not isinstance(value, Mapping):
         raise BodyError("{source}: {key} must be a table, found {found}", source=source_of(table), key=key, found=shown(value))
-    return {**value, "source": f"{source_of(table)}: {key}"}
+    return {**value, "source": said("{source}: {key}", source=source_of(table), key=key)}
 
 
 def refuse_unknown(table: Mapping[str, Any], known: Collection[str]) -> None:
@@ -115,7 +118,7 @@ def of_kind(table: Mapping[str, Any], kind: str) -> None:
     """Refuse a table that describes another kind of body."""
     found = table.get("kind")
     if found != kind:
-        raise BodyError(f'{source_of(table)}: expected kind = "{kind}", found {shown(found)}')
+        raise BodyError('{source}: expected kind = "{kind}", found {found}', source=source_of(table), kind=kind, found=shown(found))
 
 
 def length(table: Mapping[str, Any], key: str) -> float:
@@ -143,7 +146,9 @@ def masses(table: Mapping[str, Any], key: str, count: int) -> tuple[float, ...]:
 def _required(table: Mapping[str, Any], key: str) -> Any:
     """Return an entry that must be there."""
     if key not in table:
-        raise BodyError(f"{source_of(table)}: {key} is missing; it has {', '.join(k for k in table if k != 'source')}")
+        raise BodyError(
+            "{source}: {key} is missing; it has {known}", source=source_of(table), key=key, known=[k for k in table if k != "source"]
+        )
     return table[key]
 
 
@@ -151,7 +156,13 @@ def _of_length(table: Mapping[str, Any], key: str, count: int) -> Sequence[Any]:
     """Return a required list of a given length."""
     values = _required(table, key)
     if not isinstance(values, list) or len(values) != count:
-        raise BodyError(f"{source_of(table)}: {key} must be a list of {count} values, found {shown(values)}")
+        raise BodyError(
+            "{source}: {key} must be a list of {count} values, found {values}",
+            source=source_of(table),
+            key=key,
+            count=count,
+            values=shown(values),
+        )
     return values
 
 

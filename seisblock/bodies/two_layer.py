@@ -13,7 +13,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.toml import length, lengths, masses, number, of_kind, read_table, refuse_unknown, subtable, text
 from seisblock.errors import BodyError, ParameterError
 from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import said
+from seisblock.words import noted, said
 
 _POSITIVE = {
     "width": (said("width"), "m"),
@@ -52,7 +52,7 @@ class TwoLayerBlock:
     lower_height: float
     upper_mass: float
     lower_mass: float
-    name: str = "two-layer block"
+    name: str = noted("two-layer block")
 
     def __post_init__(self) -> None:
         for key, (what, unit) in _POSITIVE.items():
@@ -197,7 +197,7 @@ def two_layer_block(table: Mapping[str, Any], side: str = "short") -> TwoLayerBl
         width, depth = length(table, "width"), length(table, "depth")
     else:
         if side not in ("short", "long"):
-            raise BodyError(f"{name}: side must be short or long, found {side!r}")
+            raise BodyError("{name}: side must be short or long, found {side!r}", name=name, side=side)
         width = length(table, side)
         depth = length(table, "long" if side == "short" else "short")
         name = said("{name}, short side", name=said(name)) if side == "short" else said("{name}, long side", name=said(name))
@@ -255,5 +255,5 @@ def load_contact(name: str | Path) -> Contact:
     table = read_table(name)
     found = contact(table)
     if "mu" not in found:
-        raise BodyError(f"{table.get('name', name)} brings no friction of its own: make a Contact(mu=...)")
+        raise BodyError("{name} brings no friction of its own: make a Contact(mu=...)", name=table.get("name", name))
     return Contact(**found)

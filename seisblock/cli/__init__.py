@@ -21,7 +21,7 @@ from seisblock.cli.help import Context, rows_of
 from seisblock.cli.language import answering
 from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, printable
 from seisblock.cli.talk import forget, say
-from seisblock.errors import OutputError, SeisblockError
+from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import ledger
 from seisblock.words import noted, on_a_screen, plain_text, said, tell
 
@@ -129,7 +129,7 @@ class SeisblockGroup(click.Group):
             ctx.exit(TERMINATED)
         except OSError as error:
             discard_stdout()
-            why = tell("cannot write {file}: {error}", file=error.filename or said("the answer"), error=error.strerror or str(error))
+            why = tell("cannot write {file}: {error}", file=error.filename or said("the answer"), error=reason(error))
             click.secho(f"seisblock: {why}", fg="red", err=True)
             ctx.exit(OutputError.exit_code)
         finally:

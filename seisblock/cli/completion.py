@@ -5,13 +5,14 @@ from __future__ import annotations
 import click
 
 from seisblock.cli.command import Command
+from seisblock.words import said
 
 VARIABLE = "_SEISBLOCK_COMPLETE"
 
 WHERE = {
-    "bash": 'add to ~/.bashrc: eval "$(seisblock completion bash)"',
-    "zsh": 'add to ~/.zshrc: eval "$(seisblock completion zsh)"',
-    "fish": "seisblock completion fish > ~/.config/fish/completions/seisblock.fish",
+    "bash": said("add to {file}: {line}", file="~/.bashrc", line='eval "$(seisblock completion bash)"'),
+    "zsh": said("add to {file}: {line}", file="~/.zshrc", line='eval "$(seisblock completion zsh)"'),
+    "fish": said("{line}", line="seisblock completion fish > ~/.config/fish/completions/seisblock.fish"),
 }
 
 

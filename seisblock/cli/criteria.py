@@ -58,7 +58,7 @@ def criteria(
     from seisblock.studies.criteria_card import criteria_card
 
     chosen = choose_block({**body, "restitution": restitution})
-    say(f"body: {chosen.says}")
+    say("body: {says}", says=chosen.says)
     source = along(source, azimuth)
     if mu is None and body.get("block"):
         mu, own = friction_of(read_table(body["block"]), body["block"])

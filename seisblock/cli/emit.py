@@ -64,11 +64,11 @@ def emit(
     for message in document.warnings:
         warn(message)
     if output.plot is not None and figure is None:
-        raise OutputError(f"{document.command} has no figure here: leave --plot out")
+        raise OutputError("{command} has no figure here: leave --plot out", command=document.command)
     if output.plot is None and (output.size is not None or output.title is not None):
         raise OutputError("--size and --title are the figure's: give --plot, too")
     if output.animate is not None and animation is None:
-        raise OutputError(f"{document.command} has no animation here: leave --animate out")
+        raise OutputError("{command} has no animation here: leave --animate out", command=document.command)
     _check_stdout(output)
     refuse_collisions(*(None if path == STDOUT else path for path in (output.csv, output.animate, output.plot)))
     if output.csv is not None:
@@ -82,12 +82,12 @@ def emit(
         say("wrote {file}", file=str(output.csv))
     if output.animate is not None and animation is not None:
         _animate(animation, output)
-        say(f"wrote {output.animate}")
+        say("wrote {path}", path=output.animate)
     if output.plot is not None and figure is not None:
         _draw(figure, output.plot, output)
         if output.plot == STDOUT:
             return
-        say(f"wrote {output.plot}")
+        say("wrote {path}", path=output.plot)
     # stdout comes last: a reader that goes away (| head) takes no file with it
     if output.json:
         click.echo(to_json(document))

@@ -14,10 +14,10 @@ from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, INSET, LENGTH
-from seisblock.words import noted
+from seisblock.words import noted, said, tell
 
 DEFAULT_BLOCK = "chozusha"
-FORMS = "--cemetery (with --rate, or with a column fallen), --slid or --jumped"
+FORMS = noted("--cemetery (with --rate, or with a column fallen), --slid or --jumped")
 
 
 @click.command(
@@ -99,15 +99,17 @@ def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str |
     forms = {"--cemetery": cemetery or None, "--slid": asked["slid"], "--jumped": asked["jumped"]}
     asks = [name for name, value in forms.items() if value is not None]
     if len(asks) != 1:
-        raise click.UsageError(f"give one of {FORMS}; found {' and '.join(asks) or 'none'}")
+        raise click.UsageError(tell("give one of {forms}; found {asks}", forms=said(FORMS), asks=asks or said("none")))
     if not cemetery:
         if rate is not None:
-            raise click.UsageError("--rate needs --cemetery, the proportions of the stones: for example aoyama.csv")
+            raise click.UsageError(tell("--rate needs --cemetery, the proportions of the stones: for example aoyama.csv"))
         return _displacement(source, output, asked)
     if source.record:
-        raise click.UsageError(f"stones need no RECORD, found {source.record[0]}; give its equivalent frequency with --frequency")
+        raise click.UsageError(
+            tell("stones need no RECORD, found {record}; give its equivalent frequency with --frequency", record=source.record[0])
+        )
     if len(cemetery) > 1 and rate is not None:
-        raise click.UsageError("--rate is of one place: several cemeteries need a column fallen each")
+        raise click.UsageError(tell("--rate is of one place: several cemeteries need a column fallen each"))
     return _stones(output, cemetery, rate, asked)
 
 
@@ -124,7 +126,7 @@ def _stones(output: Output, cemetery: tuple[str, ...], rate: str | None, asked: 
     places = [read_cemetery(name) for name in cemetery]
     for name, place in zip(cemetery, places, strict=True):
         for note in place.notes[:1]:
-            say("{cemetery}: {note}", cemetery=name, note=note)
+            say("{cemetery}: {note}", cemetery=name, note=said(note))
     surveys = [(p.name, marked_survey(p) if rate is None else counted_survey(p, *parse_rate(rate))) for p in places]
     assumptions = _assumptions(asked)
     frequencies = asked["frequency"] or (None, *FREQUENCIES)
@@ -199,7 +201,7 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     from seisblock.studies.inverse.factors import scale_factors
 
     if asked["slid"] is not None and asked["mu"] is None:
-        raise click.UsageError("--slid needs --mu, the static friction coefficient, for example --mu 0.3")
+        raise click.UsageError(tell("--slid needs --mu, the static friction coefficient, for example --mu 0.3"))
     observed = asked["jumped"] if asked["slid"] is None else asked["slid"]
     moves, document = _moving_object(source, asked)
     curves: list[tuple[Any, Any]] = []
@@ -207,8 +209,8 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     for record in load(source, whole=asked["jumped"] is not None):
         for motion in motions(record, source):
             displacement = moves(motion)
-            with progress(f"{motion.name}: factors up to {asked['limit']:g}") as tell:
-                found = scale_factors(displacement, observed, motion, limit=asked["limit"], steps=asked["steps"], progress=tell)
+            with progress("{name}: factors up to {limit:g}", name=motion.name, limit=asked["limit"]) as advance:
+                found = scale_factors(displacement, observed, motion, limit=asked["limit"], steps=asked["steps"], progress=advance)
             curves.append((record, found))
     answer = document(curves, observed_m=observed, limit=asked["limit"], steps=asked["steps"])
 
@@ -248,7 +250,7 @@ def _moving_object(source: Source, asked: dict[str, Any]) -> tuple[Any, Any]:
     from seisblock.cli.bodies.two_layer import two_layer_choice
 
     chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
-    say(f"body: {chosen.block.name}; {chosen.says}")
+    say("body: {name}; {says}", name=said(chosen.block.name), says=chosen.says)
     if asked["first"]:
         say("the first chain of motion in each record counts; without --first all are added up, as in seisblock jump")
     body: dict[str, Any] = {"contact": chosen.contact, "flight_only": asked["flight_only"]}

@@ -14,6 +14,7 @@ from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
 from seisblock.cli.types import LENGTH, LENGTHS, MASSES
+from seisblock.words import said, tell
 
 DEFAULT_BLOCK = "chozusha"
 
@@ -68,9 +69,9 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **as
     from seisblock.solvers.jump.solve import solve_jump
 
     if repeat and asked["first"]:
-        raise click.UsageError("give either --first or --repeat, which is the default")
+        raise click.UsageError(tell("give either --first or --repeat, which is the default"))
     chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
-    say(f"body: {chosen.block.name}; {chosen.says}")
+    say("body: {name}; {says}", name=said(chosen.block.name), says=chosen.says)
     options = {key: asked[key] for key in ("drop", "spin", "direction", "landing", "first", "gravity")}
     responses = [
         solve_jump(chosen.block, motion, contact=chosen.contact, windows=source.window, **options)

@@ -14,6 +14,7 @@ from seisblock.cli.talk import say
 from seisblock.cli.types import LENGTH
 from seisblock.errors import InputError
 from seisblock.units import parse_acceleration
+from seisblock.words import said, tell
 
 if TYPE_CHECKING:
     from seisblock.measures.duration import Side
@@ -28,15 +29,15 @@ def _acceleration(ctx: click.Context, param: click.Parameter, value: str | None)
     if value is None:
         return None
     try:
-        return parse_acceleration(value, what="the threshold")
+        return parse_acceleration(value, what=said("the threshold"))
     except InputError as error:
-        raise click.BadParameter(str(error), ctx, param) from error
+        raise click.BadParameter(tell(error.said), ctx, param) from error
 
 
 def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float | None:
     """Refuse a negative corner; 0 is none."""
     if not 0.0 <= value < float("inf"):
-        raise click.BadParameter(f"must be 0 (none) or a positive number of Hz, found {value}", ctx, param)
+        raise click.BadParameter(tell("must be 0 (none) or a positive number of Hz, found {value}", value=value), ctx, param)
     return value or None
 
 
@@ -107,10 +108,10 @@ def measure(
         from seisblock.present.figures.measure import measure_figure
 
         if len(records) > 1:
-            raise InputError(f"--plot draws one record, found {len(records)}: give one, or run the command for each")
+            raise InputError("--plot draws one record, found {count}: give one, or run the command for each", count=len(records))
         return measure_figure(records[0], answers[0], gal=output.gal)
 
-    say(f"threshold of the durations: {level:.4g} m/s^2 ({origin})")
+    say("threshold of the durations: {level:.4g} m/s^2 ({origin})", level=level, origin=origin)
     emit(answer, output, tables=tables, csv=lambda path: _write(path, records, answers), figure=figure)
 
 
@@ -120,24 +121,26 @@ def _threshold(
     """Return the threshold, m/s^2, and where it comes from, from whichever of its forms was given."""
     sizes = width is not None or height is not None
     if (threshold is not None) + sizes + (block is not None) > 1:
-        raise click.UsageError("give one of --threshold, --width with --height, and --block")
+        raise click.UsageError(tell("give one of --threshold, --width with --height, and --block"))
     if block is not None:
         from seisblock.bodies.toml import read_table
         from seisblock.bodies.two_layer import two_layer_block
 
         body = two_layer_block(read_table(block), side)
-        return body.rocking_threshold(gravity), f"rocking threshold of {body.name}"
+        return body.rocking_threshold(gravity), said("rocking threshold of {name}", name=said(body.name))
     if sizes:
         from seisblock.measures import block_threshold
 
         if width is None or height is None:
-            raise click.UsageError("the rocking threshold g B/H of a block needs both --width and --height")
-        return block_threshold(width, height, gravity=gravity), f"g B/H of a block {width:g} m wide and {height:g} m high"
+            raise click.UsageError(tell("the rocking threshold g B/H of a block needs both --width and --height"))
+        return block_threshold(width, height, gravity=gravity), said(
+            "g B/H of a block {width:g} m wide and {height:g} m high", width=width, height=height
+        )
     if threshold is not None:
-        return threshold, "given"
+        return threshold, said("given")
     from seisblock.measures.summary import DEFAULT_THRESHOLD
 
-    return DEFAULT_THRESHOLD, "default, 0.1 g"
+    return DEFAULT_THRESHOLD, said("default, 0.1 g")
 
 
 def _write(path: Path, records: list[Any], answers: list[Any]) -> None:

@@ -17,6 +17,7 @@ from seisblock.cli.talk import quietly
 from seisblock.cli.types import SIZE, WINDOW
 from seisblock.errors import ParameterError
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted, tell
 
 Function = Callable[..., Any]
 
@@ -61,9 +62,9 @@ def checked(check: Callable[[str, float], float]) -> Callable[[click.Context, cl
 
     def refuse(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
         try:
-            return None if value is None else check("it", value)
+            return None if value is None else check(noted("it"), value)
         except ParameterError as error:
-            raise click.BadParameter(error.said, ctx, param) from None
+            raise click.BadParameter(tell(error.said), ctx, param) from None
 
     return refuse
 

@@ -16,6 +16,7 @@ from seisblock.cli.options import Output, Source, checked, gravity_option, outpu
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, INSET, LENGTH
+from seisblock.words import said, tell
 
 if TYPE_CHECKING:
     from seisblock.studies.cemetery.shaking import FrequencyKind
@@ -23,7 +24,9 @@ if TYPE_CHECKING:
 KINDS: dict[str, FrequencyKind] = {"pga-pgv": "pga_pgv", "fourier": "fourier", "pulse-width": "pulse_width"}
 """Definitions of the equivalent frequency, as they are spelled here and in the library."""
 
-FITTED_EDGES = "--inset changes nothing here: (9), (10) were fitted to stones whose edges are not sharp; --criterion rigid, simulate use it"
+FITTED_EDGES = said(
+    "--inset changes nothing here: (9), (10) were fitted to stones whose edges are not sharp; --criterion rigid, simulate use it"
+)
 
 
 def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[float, float, float] | None:
@@ -33,7 +36,9 @@ def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
     try:
         p, q, r = (float(part) for part in value.split(","))
     except ValueError as error:
-        raise click.BadParameter(f"{value!r} is not P,Q,R in gal, Hz and 1, for example 826.8,1.92,4.6", ctx, param) from error
+        raise click.BadParameter(
+            tell("{value!r} is not P,Q,R in gal, Hz and 1, for example 826.8,1.92,4.6", value=value), ctx, param
+        ) from error
     return p, q, r
 
 
@@ -122,23 +127,23 @@ def overturn_rate(
     from seisblock.studies.cemetery.rate import FREQUENCIES
 
     if reinforced + both + (most_fragile is not None) > 1:
-        raise click.UsageError("give one of --reinforced, --both and --most-fragile")
+        raise click.UsageError(tell("give one of --reinforced, --both and --most-fragile"))
     stones = read_cemetery(cemetery)
     for note in stones.notes[:1]:
-        say(f"{cemetery}: {note}")
+        say("{cemetery}: {note}", cemetery=cemetery, note=said(note))
     stones = stones.dowelled() if reinforced else stones
     after = stones.dowelled(most_fragile) if both or most_fragile else None
     inset, notes = _edges(asked["inset"], asked["criterion"])
     method = _method({**asked, "inset": inset})
     groups = _groups(source, asked)
-    with progress("rates against PGA") as tell:
+    with progress("rates against PGA") as advance:
         judged = [
-            (record, [study.judge_cemetery(stones, each, method, after=after, progress=tell) for each in shakings])
+            (record, [study.judge_cemetery(stones, each, method, after=after, progress=advance) for each in shakings])
             for record, shakings in groups
         ]
         frequencies = asked["frequency"] or FREQUENCIES
         simulated = [point for _, rates in judged for each in rates for point in each.curve] if method.criterion == "simulate" else []
-        curve = simulated or study.curve_of(stones, method, frequencies=frequencies, progress=tell)
+        curve = simulated or study.curve_of(stones, method, frequencies=frequencies, progress=advance)
     found = [(record, [*rates, study.larger_of(rates)] if record is not None and len(rates) > 1 else rates) for record, rates in judged]
     warnings = notes + study.warnings_of(stones, [each for _, shakings in groups for each in shakings], method, after=after)
     frequency_kind = "given" if asked["frequency"] else KINDS[asked["equivalent"]]
@@ -182,13 +187,19 @@ def _edges(inset: Inset | None, criterion: str) -> tuple[Inset, list[str]]:
     """Return the inset that is meant, and what must be said of how it was understood."""
     if inset is None:
         if criterion != "furukawa":
-            say(f"stones turn about edges worn by {WORN.share:g} of their width per side; --inset 0 for sharp ones")
+            say("stones turn about edges worn by {share:g} of their width per side; --inset 0 for sharp ones", share=WORN.share)
         return WORN, []
     if criterion == "furukawa":
         return inset, [FITTED_EDGES]
     if inset.length_m == 0.0 and HALF < inset.share <= 1.0:
         told = Inset(share=round((1.0 - inset.share) / 2, 12))
-        return told, [f"--inset {inset.share:g} is understood as in 0.1.0, pivots over half width: {told.share:g} of the width per side"]
+        return told, [
+            said(
+                "--inset {given:g} is understood as in 0.1.0, pivots over half width: {share:g} of the width per side",
+                given=inset.share,
+                share=told.share,
+            )
+        ]
     return inset, []
 
 
@@ -201,9 +212,9 @@ def _groups(source: Source, asked: dict[str, Any]) -> list[tuple[Any, list[Any]]
     if not source.record:
         return [(None, [Shaking(a / 100.0, f) for a in pga for f in frequency or FREQUENCIES])] if pga else []
     if pga:
-        raise click.UsageError("give either RECORD or --pga; --target-pga scales a record")
+        raise click.UsageError(tell("give either RECORD or --pga; --target-pga scales a record"))
     if frequency and len(frequency) > 1:
-        raise click.UsageError(f"with RECORD --frequency takes one value, found {len(frequency)}")
+        raise click.UsageError(tell("with RECORD --frequency takes one value, found {count}", count=len(frequency)))
     from seisblock.cli.inputs import components, load
 
     own = frequency[0] if frequency else None

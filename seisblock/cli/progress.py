@@ -6,7 +6,9 @@ import contextlib
 import sys
 import time
 from collections.abc import Callable, Iterator
+from typing import Any
 
+from seisblock import words
 from seisblock.cli import talk
 
 PATIENCE_S = 1.0
@@ -14,8 +16,8 @@ PATIENCE_S = 1.0
 
 
 @contextlib.contextmanager
-def progress(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Give a function to call with the number done and the number in all; the bar disappears when the block ends."""
+def progress(what: str, /, **values: Any) -> Iterator[Callable[[int, int], None]]:
+    """Give a function to call with the number done and the number in all; the bar, with a text that is told, goes when the block ends."""
     if talk.is_quiet() or not sys.stderr.isatty():
         yield lambda done, total: None
         return
@@ -24,9 +26,9 @@ def progress(what: str) -> Iterator[Callable[[int, int], None]]:
     from seisblock.present.text.tables import console
 
     began = time.monotonic()
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     bar = Progress(*columns, console=console(stderr=True), transient=True)
-    task = bar.add_task(what)
+    task = bar.add_task(words.tell(what, **values))
     started = False
 
     def tell(done: int, total: int) -> None:

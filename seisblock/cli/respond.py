@@ -80,7 +80,7 @@ def respond(
 
     widths = {name: given.pop(f"vary_{name.removesuffix('_deg')}") for name in VARIED}
     chosen = choose_standing(given)
-    say(f"body: {chosen.says}")
+    say("body: {says}", says=chosen.says)
     options: dict[str, Any] = {
         "mu": chosen.mu,
         "mu_kinetic": chosen.mu_kinetic,
@@ -94,8 +94,8 @@ def respond(
         extra: dict[str, Any] = {}
         if runs:
             same = {**options, "vertical": vertical is not False, "runs": runs, "moved_m": moved, "seed": seed}
-            with progress(f"versions {motion.name}") as tell:
-                extra["probability"] = respond_probability(chosen.block, motion, versions=Versions(**widths), progress=tell, **same)
+            with progress("versions {name}", name=motion.name) as advance:
+                extra["probability"] = respond_probability(chosen.block, motion, versions=Versions(**widths), progress=advance, **same)
         if sweep:
             extra["directions"] = sweep
         extras.append(extra)
@@ -113,5 +113,5 @@ def _motions(source: Source, block: Block, vertical: bool | None, options: dict[
             yield from ((motion, []) for motion in motions(record, source))
             continue
         found = respond_directions(block, record, vertical=vertical is not False, **options)
-        say(f"worst of {len(found)} directions: azimuth {found[0].azimuth_deg:g} degrees")
+        say("worst of {count} directions: azimuth {azimuth:g} degrees", count=len(found), azimuth=found[0].azimuth_deg)
         yield motion_of(record, f"{found[0].azimuth_deg:g}"), found

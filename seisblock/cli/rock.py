@@ -15,6 +15,7 @@ from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
 from seisblock.errors import ComponentError, ParameterError
+from seisblock.words import tell
 
 if TYPE_CHECKING:
     from seisblock.records import Motion
@@ -82,7 +83,7 @@ def rock(
     from seisblock.studies.rocking.perturb import perturb as perturbed
 
     chosen = choose_block({**body, "restitution": restitution})
-    say(f"body: {chosen.says}")
+    say("body: {says}", says=chosen.says)
     options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
     source = along(source, azimuth)
     if mu is not None and not 0.0 <= mu < float("inf"):
@@ -95,12 +96,12 @@ def rock(
         if mu is not None:
             extra["friction_suffices"] = friction_suffices(responses[-1].outcome, mu, gravity)
         if margin:
-            with progress(f"margin {motion.name}") as tell:
-                extra["margin"] = find_margin(chosen.block, motion, limit=margin_limit, progress=tell, **options)
+            with progress("margin {name}", name=motion.name) as advance:
+                extra["margin"] = find_margin(chosen.block, motion, limit=margin_limit, progress=advance, **options)
         if margin or perturb is not None:
             widths, runs = Spread(spread, spread, spread, spread), perturb or VERSIONS
-            with progress(f"perturb {motion.name}") as tell:
-                extra["perturbation"] = perturbed(chosen.block, motion, runs, spread=widths, seed=seed, progress=tell, **options)
+            with progress("perturb {name}", name=motion.name) as advance:
+                extra["perturbation"] = perturbed(chosen.block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
         extras.append(extra)
     emit(
         document(responses, chosen.block, extras, margin_limit=margin_limit if margin else None, mu=mu),
@@ -116,7 +117,9 @@ def rock(
 def need_vertical(motion: Motion, vertical: bool) -> None:
     """Refuse ``--vertical`` where the record has no vertical component."""
     if vertical and motion.record is not None and motion.record.vertical is None:
-        raise ComponentError(f"{motion.record.source}: --vertical needs a vertical component; it has {', '.join(motion.record.codes)}")
+        raise ComponentError(
+            "{source}: --vertical needs a vertical component; it has {codes}", source=motion.record.source, codes=motion.record.codes
+        )
 
 
 def along(source: Source, azimuth: tuple[str, ...]) -> Source:
@@ -128,5 +131,7 @@ def along(source: Source, azimuth: tuple[str, ...]) -> Source:
         try:
             float(name)
         except ValueError:
-            raise click.BadParameter(f"{name!r} is not a number of degrees clockwise from north", param_hint="--azimuth") from None
+            raise click.BadParameter(
+                tell("{name!r} is not a number of degrees clockwise from north", name=name), param_hint="--azimuth"
+            ) from None
     return replace(source, component=(*source.component, *names))

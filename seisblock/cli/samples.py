@@ -37,9 +37,9 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
         if directory is not None:
             written = shown.copy_samples(chosen, directory, overwrite=overwrite)
             for path in written:
-                say(f"wrote {path}")
+                say("wrote {path}", path=path)
             if not written:
-                say(f"{directory} holds them already")
+                say("{directory} holds them already", directory=directory)
     if as_json:
         from seisblock.present.documents.library import samples_document
         from seisblock.present.documents.write import to_json

@@ -15,6 +15,7 @@ from seisblock.cli.options import Output, Source, gravity_option, output_options
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, LENGTH
+from seisblock.words import said, tell
 
 if TYPE_CHECKING:
     from seisblock.records import Motion, Record
@@ -27,8 +28,10 @@ def _needed(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
     """Say what --mu is when it is missing."""
     if value is None and not ctx.resilient_parsing:
         raise click.UsageError(
-            "--mu is needed: the static friction coefficient between the object and its base, for example --mu 0.2; "
-            "a list 0.1,0.2 or a range 0.05:0.20:0.005 makes a parameter study",
+            tell(
+                "--mu is needed: the static friction coefficient between the object and its base, for example --mu 0.2; a list "
+                "0.1,0.2 or a range 0.05:0.20:0.005 makes a parameter study"
+            ),
             ctx,
         )
     return value
@@ -135,7 +138,7 @@ def _one(
             points = slide_study(motions=_motions(record, source, directions), **single, **fixed)  # type: ignore[arg-type]
             sweep += points
             worst = worst_directions(points)[0].component
-            say(f"largest slip of {len(directions)} directions at azimuth {worst} degrees")
+            say("largest slip of {count} directions at azimuth {azimuth} degrees", count=len(directions), azimuth=worst)
             chosen = [motion_of(record, worst)]
         responses += [solve_slide(base, motion, vertical=vertical, gravity=fixed["gravity"]) for motion in chosen]
     emit(
@@ -160,12 +163,16 @@ def _study(
 
     points = []
     for record in records:
-        with progress("sliding") as tell:
-            found = slide_study(motions=_motions(record, source, directions), **choice, **fixed, progress=tell)
+        with progress("sliding") as advance:
+            found = slide_study(motions=_motions(record, source, directions), **choice, **fixed, progress=advance)
         points.append(found if directions is None else worst_directions(found))
     pairs = [(record, point) for record, found in zip(records, points, strict=True) for point in found]
     steep = sum(not point.holds_at_rest for found in points for point in found)
-    warnings = [f"{steep} combinations were left out: friction does not hold at rest, or kinetic exceeds static friction"] if steep else []
+    warnings = (
+        [said("{count} combinations were left out: friction does not hold at rest, or kinetic exceeds static friction", count=steep)]
+        if steep
+        else []
+    )
     parameters = {**choice, "slope_length_m": fixed["slope_length"], "one_way": fixed["one_way"], "gravity_m_s2": fixed["gravity"]}
     emit(
         study_document(parameters, pairs, warnings),

@@ -16,6 +16,7 @@ from seisblock.cli.options import Output, Source, gravity_option, output_options
 from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.types import FLOATS, INSET, LENGTHS
 from seisblock.errors import ParameterError
+from seisblock.words import said
 
 KINDS = ("rocking", "overturning", "sliding", "modes")
 
@@ -139,8 +140,8 @@ def spectrum(
     for record in load(source):
         for motion in motions(record, source):
             need_vertical(motion, vertical)
-            with progress(f"spectrum {motion.name}") as tell:
-                found.append((motion, rocking_spectrum(diagonals, alphas, motion, gravity=gravity, progress=tell, **options)))
+            with progress("spectrum {name}", name=motion.name) as advance:
+                found.append((motion, rocking_spectrum(diagonals, alphas, motion, gravity=gravity, progress=advance, **options)))
     emit(
         document(found, kind, options, gravity=gravity),
         output,
@@ -154,7 +155,7 @@ def _refuse(kind: str, given: dict[str, Any]) -> None:
     """Refuse options that mean nothing to a kind of spectrum."""
     for name, value in given.items():
         if value:
-            raise ParameterError(f"--{name} means nothing to --kind {kind}: leave it out")
+            raise ParameterError("--{name} means nothing to --kind {kind}: leave it out", name=name, kind=kind)
 
 
 def _sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ...] | None, vertical: bool) -> None:
@@ -170,8 +171,8 @@ def _sliding(source: Source, output: Output, gravity: float, mu: tuple[float, ..
     found = []
     for motion in (motion for record in load(source) for motion in motions(record, source)):
         need_vertical(motion, vertical)
-        with progress(f"sliding {motion.name}") as tell:
-            found.append((motion, slide_study(frictions, motion, vertical=vertical, gravity=gravity, progress=tell)))
+        with progress("sliding {name}", name=motion.name) as advance:
+            found.append((motion, slide_study(frictions, motion, vertical=vertical, gravity=gravity, progress=advance)))
     emit(
         sliding_document(found, gravity=gravity, vertical=vertical),
         output,
@@ -199,8 +200,8 @@ def _modes(
     axes = _axes(shaken, grid, gravity, vertical=acts)
     found = []
     for motion in shaken:
-        with progress(f"modes {motion.name}") as tell:
-            each = mode_map(*axes, motion, inset=inset, restitution=restitution, vertical=acts, gravity=gravity, progress=tell)
+        with progress("modes {name}", name=motion.name) as advance:
+            each = mode_map(*axes, motion, inset=inset, restitution=restitution, vertical=acts, gravity=gravity, progress=advance)
             found.append((motion, each))
     emit(
         modes_document(found, gravity=gravity, restitution=restitution, inset=inset, vertical=acts),
@@ -229,13 +230,15 @@ def _axes(shaken: Sequence[Any], grid: tuple[Any, Any, Any, int], gravity: float
 
 def _worn(inset: Inset | None) -> str:
     """Return a remark on worn edges, empty where there are none."""
-    return f"; edges worn by {inset.share:g} B + {inset.length_m:g} m per side" if inset and inset != SHARP else ""
+    if not inset or inset == SHARP:
+        return ""
+    return said("; edges worn by {share:g} B + {length:g} m per side", share=inset.share, length=inset.length_m)
 
 
 def _one_of(first: Any, name: str, second: Any, other: str) -> None:
     """Refuse two ways of saying the same."""
     if first and second:
-        raise ParameterError(f"give either {name} or {other}, not both")
+        raise ParameterError("give either {name} or {other}, not both", name=name, other=other)
 
 
 def _draw(*shown: Any) -> Any:

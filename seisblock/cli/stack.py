@@ -12,6 +12,7 @@ from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
+from seisblock.words import said
 
 if TYPE_CHECKING:
     from seisblock.bodies.pile.pile import Pile
@@ -98,7 +99,13 @@ def stack(
         raise ParameterError("give --young or --joint-stiffness, not both")
     contact = PileContact(young=asked.pop("young"), stiffness=asked.pop("joint_stiffness"), damping_ratio=asked.pop("damping"))
     body = _pile(stones, reinforced, mu, without, fix)
-    say(f"pile: {body.name}, {len(body.stones)} stones, mu {body.mu:g}{', dowels in' if body.dowels else ''}")
+    say(
+        "pile: {name}, {count} stones, mu {mu:g}{dowels}",
+        name=said(body.name),
+        count=len(body.stones),
+        mu=body.mu,
+        dowels=said(", dowels in") if body.dowels else "",
+    )
     if criterion:
         _study(source, output, body, contact, grid, resume, points=asked["points"], gravity=asked["gravity"], reinforced=reinforced)
         return
@@ -117,7 +124,7 @@ def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, .
     body = load_pile(stones, reinforced=reinforced, mu=mu)
     for name in without:
         if name not in body.names:
-            raise BodyError(f"--without names {name!r}, but the pile {body.name} has {', '.join(body.names)}")
+            raise BodyError("--without names {name!r}, but the pile {pile} has {names}", name=name, pile=body.name, names=list(body.names))
     body = body.without(*without) if without else body
     return replace(body, fixed=(*body.fixed, *fix)) if fix else body
 
@@ -135,8 +142,8 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
         turned = list(motions(record, source))
         # all components act in every run: without --component one run tells all
         for motion in turned if source.component else turned[:1]:
-            with progress(f"{record.station} {motion.name}".strip()) as tell:
-                responses.append(solve_stack(body, motion, contact=contact, progress=tell, **asked))
+            with progress(f"{record.station} {motion.name}".strip()) as advance:
+                responses.append(solve_stack(body, motion, contact=contact, progress=advance, **asked))
     agreements = [pile_agreement(response) for response in responses]
     emit(
         document(responses, body, contact, agreements),
@@ -171,14 +178,14 @@ def _study(
         "contact": contact,
         "gravity": gravity,
     }
-    with progress("sines") as tell:
-        study = criterion_study(body, **same, resume=resume, progress=tell)
+    with progress("sines") as advance:
+        study = criterion_study(body, **same, resume=resume, progress=advance)
     records = load(source) if source.record else []
     scaled = {}
     for record in records:
         for motion in motions(record, source):
-            with progress(f"{record.station} {motion.name}".strip()) as tell:
-                scaled[f"{record.station} {motion.name}".strip()] = record_thresholds(body, motion, **same, progress=tell)
+            with progress(f"{record.station} {motion.name}".strip()) as advance:
+                scaled[f"{record.station} {motion.name}".strip()] = record_thresholds(body, motion, **same, progress=advance)
     rigid = rigid_levels(study, body, points=points, gravity=gravity)
     chosen: dict[str, Any] = {"pile": body, "contact": contact, "points": points, "gravity": gravity, "grid": grid}
     emit(

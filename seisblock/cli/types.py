@@ -10,6 +10,7 @@ import click
 from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.errors import InputError
 from seisblock.units import parse_length, parse_mass
+from seisblock.words import said, tell
 
 MOST_VALUES = 1_000_000
 """Longest range that is taken for what the user meant."""
@@ -29,9 +30,9 @@ class Length(click.ParamType):  # type: ignore[type-arg]
         if isinstance(value, float):
             return value  # a default, or converted already
         try:
-            return parse_length(value, what=(param.name or "length").replace("_", " ") if param else "length")
+            return parse_length(value, what=said((param.name or "length").replace("_", " ") if param else "length"))
         except InputError as error:
-            self.fail(str(error), param, ctx)
+            self.fail(tell(error.said), param, ctx)
 
 
 class Mass(click.ParamType):  # type: ignore[type-arg]
@@ -44,7 +45,7 @@ class Mass(click.ParamType):  # type: ignore[type-arg]
         try:
             return parse_mass(value)
         except InputError as error:
-            self.fail(str(error), param, ctx)
+            self.fail(tell(error.said), param, ctx)
 
 
 class InsetType(click.ParamType):  # type: ignore[type-arg]
@@ -57,7 +58,7 @@ class InsetType(click.ParamType):  # type: ignore[type-arg]
         try:
             return value if isinstance(value, Inset) else parse_inset(value)
         except InputError as error:
-            self.fail(str(error), param, ctx)
+            self.fail(tell(error.said), param, ctx)
 
 
 class Floats(click.ParamType):  # type: ignore[type-arg]
@@ -77,7 +78,7 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
         try:
             return tuple(x for part in value.split(",") for x in self._range(part, param, ctx))
         except ValueError:
-            self.fail(f"{value!r} is not a number, a list a,b,c or a range first:last:step", param, ctx)
+            self.fail(tell("{value!r} is not a number, a list a,b,c or a range first:last:step", value=value), param, ctx)
 
     def _range(self, text: str, param: click.Parameter | None, ctx: click.Context | None) -> list[float]:
         """Return the values of one part of the list."""
@@ -88,10 +89,10 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
             raise ValueError(text)
         first, last, step = pieces
         if step == 0 or (last - first) * step < 0:
-            self.fail(f"{text!r}: the step does not lead from the first value to the last", param, ctx)
+            self.fail(tell("{text!r}: the step does not lead from the first value to the last", text=text), param, ctx)
         count = math.floor((last - first) / step + 1e-9) + 1
         if count > MOST_VALUES:
-            self.fail(f"{text!r} has {count} values; at most {MOST_VALUES}", param, ctx)
+            self.fail(tell("{text!r} has {count} values; at most {most}", text=text, count=count, most=MOST_VALUES), param, ctx)
         return [round(first + i * step, 12) for i in range(count)]
 
     def _number(self, text: str) -> float:
@@ -113,14 +114,23 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
             return value
         sides = value.lower().replace("×", "x").split("x")
         if len(sides) != 2:
-            self.fail(f"{value!r} is not a width and a height such as 18x12 (cm)", param, ctx)
+            self.fail(tell("{value!r} is not a width and a height such as 18x12 (cm)", value=value), param, ctx)
         try:
             width, height = (parse_length(side if side.strip()[-1:].isalpha() else f"{side}cm", what="size") for side in sides)
         except InputError as error:
             self.fail(str(error), param, ctx)
         for side in (width, height):
             if not SMALLEST_SIDE <= side <= LARGEST_SIDE:
-                self.fail(f"{value!r}: a figure is between {SMALLEST_SIDE * 100:g} and {LARGEST_SIDE * 100:g} cm wide and high", param, ctx)
+                self.fail(
+                    tell(
+                        "{value!r}: a figure is between {least:g} and {most:g} cm wide and high",
+                        value=value,
+                        least=SMALLEST_SIDE * 100,
+                        most=LARGEST_SIDE * 100,
+                    ),
+                    param,
+                    ctx,
+                )
         return width, height
 
 
@@ -136,11 +146,11 @@ class WindowType(click.ParamType):  # type: ignore[type-arg]
         try:
             first, last = (float(piece) if piece.strip() else None for piece in value.split(":"))
         except ValueError:
-            self.fail(f"{value!r} is not a window T0:T1 in seconds, for example 20:35", param, ctx)
+            self.fail(tell("{value!r} is not a window T0:T1 in seconds, for example 20:35", value=value), param, ctx)
         if any(end is not None and not math.isfinite(end) for end in (first, last)):
-            self.fail(f"{value!r}: both ends must be finite", param, ctx)
+            self.fail(tell("{value!r}: both ends must be finite", value=value), param, ctx)
         if first is not None and last is not None and last <= first:
-            self.fail(f"{value!r} ends before it begins", param, ctx)
+            self.fail(tell("{value!r} ends before it begins", value=value), param, ctx)
         return first, last
 
 

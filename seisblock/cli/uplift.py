@@ -90,7 +90,7 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
 
     only = [_flag(name) for name in (*SHAKING, "frequency_ratio", "corner") if given.pop(name) is not None]
     if only:
-        raise ParameterError(f"{', '.join(only)} speak of harmonic shaking: add --harmonic, or leave them out")
+        raise ParameterError("{only} speak of harmonic shaking: add --harmonic, or leave them out", only=only)
     body = spring_block(**{name: _single(name, value) for name, value in given.items()})
     responses = [solve_uplift(body, motion, gravity=gravity) for record in load(source) for motion in motions(record, source)]
     emit(
@@ -108,7 +108,9 @@ def _harmonic(source: Source, output: Output, figure: int | None, given: dict[st
     from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_region
 
     if source.record:
-        raise ParameterError(f"--harmonic shakes with a sine: leave the record {source.record[0]} out, or leave --harmonic out")
+        raise ParameterError(
+            "--harmonic shakes with a sine: leave the record {record} out, or leave --harmonic out", record=source.record[0]
+        )
     ratios, is_range = given["frequency_ratio"] or (DEFAULT_RATIOS, False)
     between = (min(ratios), max(ratios)) if is_range else None
     if given["frequency_vertical"] is None and given["stiffness"] is None:
@@ -144,7 +146,9 @@ def _single(name: str, value: Any) -> Any:
     if name not in RATIOS or value is None:
         return value
     if len(value) != 1:
-        raise ParameterError(f"{_flag(name)} takes one number with a record, found {len(value)}: lists go with --harmonic")
+        raise ParameterError(
+            "{name} takes one number with a record, found {count}: lists go with --harmonic", name=_flag(name), count=len(value)
+        )
     return value[0]
 
 

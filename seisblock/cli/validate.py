@@ -34,16 +34,16 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: boo
     chosen = [case for case in cases_of(paper) if case.quick or not quick]
     with quietly(quiet):
         results = []
-        with progress("validating") as tell:
+        with progress("validating") as advance:
             for done, case in enumerate(chosen):
-                tell(done, len(chosen))
+                advance(done, len(chosen))
                 results.append(case.run())
         if html is not None:
             from seisblock.present.files import write_text
             from seisblock.present.pages.gallery import gallery
 
             write_text(html, gallery(results))
-            say(f"wrote {html}")
+            say("wrote {path}", path=html)
     if as_json:
         from seisblock.present.documents.validate import document
         from seisblock.present.documents.write import to_json

@@ -15,6 +15,7 @@ from seisblock import checks
 from seisblock.errors import ParameterError
 from seisblock.typing import ArrayLike, BoolArray, FloatArray
 from seisblock.units import GAL
+from seisblock.words import noted, said
 
 FITTED_RATIO = (1.25, 6.5)
 """H/B of the stones behind the fit ([Furukawa2009]_ table 1)."""
@@ -31,7 +32,7 @@ ON_THE_LINE = 0.1
 ROUND_OFF = 1e-9
 """Relative slack at the ends of these ranges: 2.6 - 2.5 is not 0.1 to the last bit."""
 
-DOWELLED_REMARK = (
+DOWELLED_REMARK = said(
     "reinforced stones: (10) as printed, p = 1162.9 gal; two verdicts of the paper's table 5 need 1342 to 1409 gal, so that fewer may fall"
 )
 """What to tell a user who relies on (10)."""
@@ -103,7 +104,7 @@ def overturning_level(frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> Float
     >>> float(overturning_level(2.0).round(4))
     12.2817
     """
-    f = _checked(frequency, "frequency", "Hz", zero=True)
+    f = _checked(frequency, noted("frequency"), "Hz", zero=True)
     return fit.p_m_s2 * np.sqrt(1.0 + (f / fit.q_hz) ** fit.r)
 
 
@@ -117,12 +118,12 @@ def overturning_ratio(pga: ArrayLike, frequency: ArrayLike, fit: GravestoneFit =
     frequency : array, Hz
     fit : GravestoneFit
     """
-    return overturning_level(frequency, fit) / _checked(pga, "PGA", "m/s^2")
+    return overturning_level(frequency, fit) / _checked(pga, noted("PGA"), "m/s^2")
 
 
 def overturning_pga(ratio: ArrayLike, frequency: ArrayLike, fit: GravestoneFit = PLAIN) -> FloatArray:
     """Return the least PGA, m/s^2, that overturns a stone of a given H/B: [Furukawa2009]_ eq. (7) solved for PGA."""
-    return overturning_level(frequency, fit) / _checked(ratio, "height over width", "1")
+    return overturning_level(frequency, fit) / _checked(ratio, noted("height over width"), "1")
 
 
 def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit = PLAIN) -> FloatArray:
@@ -130,7 +131,7 @@ def overturning_frequency(pga: ArrayLike, ratio: ArrayLike, fit: GravestoneFit =
 
     [Furukawa2009]_ eqs. (7), (8) solved for f.
     """
-    level = _checked(pga, "PGA", "m/s^2") * _checked(ratio, "height over width", "1")
+    level = _checked(pga, noted("PGA"), "m/s^2") * _checked(ratio, noted("height over width"), "1")
     surplus = (level / fit.p_m_s2) ** 2 - 1.0
     return np.where(surplus >= 0.0, fit.q_hz * np.maximum(surplus, 0.0) ** (1.0 / fit.r), np.nan)
 
@@ -161,11 +162,17 @@ def outside_fit(pga: float, frequency: float, ratios: ArrayLike = ()) -> tuple[s
     found = []
     (low, high), stones = FITTED_PGA, np.asarray(ratios, dtype=np.float64)
     if _outside(pga, FITTED_PGA).any():
-        found.append(f"a PGA of {pga / GAL:.4g} gal lies outside the range of the fit, {low / GAL:g} to {high / GAL:g} gal")
+        text = "a PGA of {pga:.4g} gal lies outside the range of the fit, {low:g} to {high:g} gal"
+        found.append(said(text, pga=pga / GAL, low=low / GAL, high=high / GAL))
     if _outside(frequency, FITTED_FREQUENCY).any():
-        found.append("a frequency of {:.3g} Hz lies outside the range of the fit, {:g} to {:g} Hz".format(frequency, *FITTED_FREQUENCY))
+        slow, fast = FITTED_FREQUENCY
+        found.append(
+            said("a frequency of {f:.3g} Hz lies outside the range of the fit, {slow:g} to {fast:g} Hz", f=frequency, slow=slow, fast=fast)
+        )
     if count := int(np.count_nonzero(_outside(stones, FITTED_RATIO))):
-        found.append("{} of {} stones have H/B outside the range of the fit, {:g} to {:g}".format(count, stones.size, *FITTED_RATIO))
+        least, most = FITTED_RATIO
+        text = "{count} of {stones} stones have H/B outside the range of the fit, {least:g} to {most:g}"
+        found.append(said(text, count=count, stones=stones.size, least=least, most=most))
     return tuple(found)
 
 
@@ -181,5 +188,10 @@ def _checked(values: ArrayLike, what: str, unit: str, *, zero: bool = False) -> 
     array = np.asarray(values, dtype=np.float64)
     good = (array >= 0.0 if zero else array > 0.0) & np.isfinite(array)
     if not good.all():
-        raise ParameterError(f"{what} must be {'zero or ' if zero else ''}positive, in {unit}; found {array[~good].flat[0]}")
+        raise ParameterError(
+            "{what} must be zero or positive, in {unit}; found {found}" if zero else "{what} must be positive, in {unit}; found {found}",
+            what=said(what),
+            unit=unit,
+            found=array[~good].flat[0],
+        )
     return array

@@ -155,7 +155,7 @@ def velocity_step(slenderness: float, frequency_parameter: float, gravity: float
     """
     _all_positive(slenderness=slenderness, frequency_parameter=frequency_parameter, gravity=gravity)
     if slenderness >= math.pi / 2:
-        raise ParameterError(f"the slenderness must be below pi/2 rad, found {slenderness}")
+        raise ParameterError("the slenderness must be below pi/2 rad, found {found}", found=slenderness)
     return gravity / frequency_parameter * 2 * math.sin(slenderness / 2) / math.cos(slenderness)
 
 

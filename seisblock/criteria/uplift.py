@@ -178,5 +178,5 @@ def _chosen(corner: int | None) -> tuple[tuple[int, int], ...]:
     if corner is None:
         return CORNERS
     if corner not in (1, 2, 3, 4):
-        raise ParameterError(f"there are corners 1 to 4, found {corner}")
+        raise ParameterError("there are corners 1 to 4, found {corner}", corner=corner)
     return (CORNERS[corner - 1],)

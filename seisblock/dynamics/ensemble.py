@@ -20,6 +20,7 @@ from seisblock.dynamics.status import FAILURES, PAUSED
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records.motion import Motion
 from seisblock.typing import ArrayLike, FloatArray, IntArray
+from seisblock.words import said
 
 _t = types()
 
@@ -143,7 +144,7 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     """
     p = np.array(parameters, dtype=np.float64, order="C")
     if p.ndim != 2:
-        raise ParameterError(f"an ensemble needs one row of parameters per trajectory, found shape {p.shape}")
+        raise ParameterError("an ensemble needs one row of parameters per trajectory, found shape {shape}", shape=str(p.shape))
     m, n_states = p.shape[0], len(model.states)
     states = np.array(np.broadcast_to(np.asarray(initial, dtype=np.float64), (m, n_states)), order="C")
     scale = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (m, 3)), order="C")
@@ -165,7 +166,11 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     end_time = rows.places[:, SAMPLE] * motion.dt + rows.clocks[:, TAU]
     for row in np.flatnonzero(np.isin(rows.statuses, list(FAILURES)))[:1]:
         raise SolverError(
-            f"{model.name}, row {row}: given up at {motion.start_s + end_time[row]:.6f} s, where {FAILURES[int(rows.statuses[row])]}"
+            "{name}, row {row}: given up at {at:.6f} s, where {failure}",
+            name=model.name,
+            row=row,
+            at=motion.start_s + end_time[row],
+            failure=said(FAILURES[int(rows.statuses[row])]),
         )
     return Ensemble(
         model,

@@ -31,6 +31,7 @@ from seisblock.dynamics.status import FAILURES, PAUSED, TOO_MANY_EVENTS
 from seisblock.errors import SolverError
 from seisblock.records.motion import Motion
 from seisblock.typing import ArrayLike, FloatArray, IntArray
+from seisblock.words import said
 
 ORDER = 12
 """Terms of the power series; at 100 Hz the thirteenth is below round-off."""
@@ -245,7 +246,7 @@ def follow(
     ended = Instant(int(cursor.place[SAMPLE]), float(cursor.clock[TAU]))
     if status in FAILURES:
         at = motion.start_s + ended.sample * motion.dt + ended.tau
-        raise SolverError(f"{model.name}: given up at {at:.6f} s, where {FAILURES[status]}")
+        raise SolverError("{name}: given up at {at:.6f} s, where {failure}", name=model.name, at=at, failure=said(FAILURES[status]))
     changes = _changes(events[:found], times[:found], limits[:found], motion.dt) if keep_events else ()
     first = start.sample if start.tau == 0.0 else start.sample + 1
     return Trajectory(model, motion.dt, status, first, path, modes, changes, found, extrema, ended, cursor.state, final_mode)

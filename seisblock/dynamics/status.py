@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from enum import IntEnum
 
+from seisblock.words import noted
+
 
 class Status(IntEnum):
     """How an integration ended; every compiled kernel returns one of these, never an exception."""
@@ -21,9 +23,9 @@ RECORD_ENDED, STOPPED, TOO_MANY_EVENTS, CHATTERING, NOT_FINITE, STEP_TOO_SMALL, 
 """The same as plain integers. PAUSED is no end: the allowance of steps is used up, and the kernel wants to be called again."""
 
 FAILURES = {
-    TOO_MANY_EVENTS: "it changes its mode without end",
-    CHATTERING: "two modes return to each other at one instant",
-    NOT_FINITE: "its state overflows",
-    STEP_TOO_SMALL: "its power series does not converge on any step",
+    TOO_MANY_EVENTS: noted("it changes its mode without end"),
+    CHATTERING: noted("two modes return to each other at one instant"),
+    NOT_FINITE: noted("its state overflows"),
+    STEP_TOO_SMALL: noted("its power series does not converge on any step"),
 }
 """Statuses that are no answer, in words."""

@@ -89,7 +89,7 @@ def stretches_above(acceleration: FloatArray, dt: float, threshold: float, *, si
     checks.positive("the threshold", threshold, "m/s^2")
     signs = {"both": (1.0, -1.0), "positive": (1.0,), "negative": (-1.0,)}.get(side)
     if signs is None:
-        raise ParameterError(f"side must be both, positive or negative, found {side!r}")
+        raise ParameterError("side must be both, positive or negative, found {side!r}", side=side)
     # the two sides cannot touch: a stretch of one sign ends before the other begins
     found = np.concatenate([_one_side(sign * acceleration, dt, threshold) for sign in signs])
     ordered: FloatArray = found[found[:, 0].argsort()]

@@ -104,7 +104,12 @@ def dominant_frequency(
     """
     low, high = band_hz[0], min(band_hz[1], 0.5 / dt)
     if not 0 <= low < high:
-        raise ParameterError(f"the band {band_hz[0]:g}-{band_hz[1]:g} Hz is empty below {0.5 / dt:g} Hz, half the sampling rate")
+        raise ParameterError(
+            "the band {low:g}-{high:g} Hz is empty below {nyquist:g} Hz, half the sampling rate",
+            low=band_hz[0],
+            high=band_hz[1],
+            nyquist=0.5 / dt,
+        )
     frequency, amplitude = fourier_amplitude(acceleration, dt, smoothing_hz=smoothing_hz)
     inside = np.flatnonzero((frequency >= low) & (frequency <= high))
     if inside.size == 0:

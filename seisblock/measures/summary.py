@@ -226,14 +226,19 @@ def _baseline_warnings(record: Record, rules: Conventions) -> list[str]:
     if not corner or record.duration_s * corner >= 1.0:
         return []
     return [
-        f"the record ({record.duration_s:g} s) is shorter than the corner period of the high-pass behind PGV ({1 / corner:g} s): "
-        "an offset cannot be told from slow motion; where the level is known to be right, choose no high-pass"
+        said(
+            "the record ({duration:g} s) is shorter than the corner period of the high-pass behind PGV ({period:g} s): "
+            "an offset cannot be told from slow motion; where the level is known to be right, choose no high-pass",
+            duration=record.duration_s,
+            period=1 / corner,
+        )
     ]
 
 
 def _component_warnings(m: ComponentMeasures) -> list[str]:
     """Say what is doubtful about one component."""
-    found = []
+    found: list[str] = []
     if m.pulse_width_ambiguous:
-        found.append(f"{m.component}: the record begins or ends inside the pulse that holds the PGA; its frequency is an upper bound")
+        text = "{component}: the record begins or ends inside the pulse that holds the PGA; its frequency is an upper bound"
+        found.append(said(text, component=m.component))
     return found

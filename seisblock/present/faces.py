@@ -46,7 +46,7 @@ def face_of(model: str) -> Face:
         If no such model is shown.
     """
     if model not in FACES:
-        raise ParameterError(f"there is no figure of the model {model!r}; there are {', '.join(FACES)}")
+        raise ParameterError("there is no figure of the model {model!r}; there are {known}", model=model, known=list(FACES))
     return FACES[model]
 
 

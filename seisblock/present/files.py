@@ -14,9 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.errors import OutputError, SeisblockError
+from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import refuse_collision, wrote
 from seisblock.results import Response
+from seisblock.words import said
 
 
 @contextlib.contextmanager
@@ -53,8 +54,8 @@ def replacing(path: Path | str) -> Iterator[Path]:
     except (SeisblockError, BrokenPipeError):
         raise
     except OSError as error:
-        kept = "; what was there is unchanged" if target.is_file() else ""
-        raise OutputError(f"cannot write {target}: {error.strerror or error}{kept}") from error
+        kept = said("; what was there is unchanged") if target.is_file() else ""
+        raise OutputError("cannot write {target}: {reason}{kept}", target=target, reason=reason(error), kept=kept) from error
     wrote(real)
 
 
@@ -69,11 +70,15 @@ def checked_target(path: Path | str) -> Path:
     target = Path(path)
     real = target.resolve()
     if real.is_dir():
-        raise OutputError(f"{target} is a directory: give a file name")
+        raise OutputError("{target} is a directory: give a file name", target=target)
     if not real.parent.is_dir():
-        raise OutputError(f"cannot write {target}: there is no directory {real.parent if target.is_symlink() else target.parent}")
+        raise OutputError(
+            "cannot write {target}: there is no directory {parent}",
+            target=target,
+            parent=real.parent if target.is_symlink() else target.parent,
+        )
     if real.is_file() and not real.stat().st_mode & 0o222:
-        raise OutputError(f"{target} is read-only: make it writable, or give another name")
+        raise OutputError("{target} is read-only: make it writable, or give another name", target=target)
     refuse_collision(target)
     return real
 
@@ -90,7 +95,7 @@ def refuse_collisions(*targets: Path | str | None) -> None:
     for target in (Path(each) for each in targets if each is not None):
         real = checked_target(target)
         if real in seen and (real.is_file() or not real.exists()):
-            raise OutputError(f"{seen[real]} and {target} are one file: give each output its own name")
+            raise OutputError("{first} and {target} are one file: give each output its own name", first=seen[real], target=target)
         seen[real] = target
 
 
@@ -129,7 +134,7 @@ def write_histories(path: Path | str, responses: Sequence[Response[Any]]) -> Non
     Rows stand at the samples and at both limits of every event; floats keep all their digits.
     """
     if not responses:
-        raise OutputError(f"cannot write {path}: there is no time history to write")
+        raise OutputError("cannot write {path}: there is no time history to write", path=path)
     blocks = [response.to_columns() for response in responses]
     names = list(dict.fromkeys(name for block in blocks for name in block))
     rows: list[list[Any]] = []

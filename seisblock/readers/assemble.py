@@ -8,6 +8,7 @@ from dataclasses import replace
 from seisblock.errors import ComponentError, RecordError
 from seisblock.readers.source import LONGEST_SHOWN
 from seisblock.records import Component, Record
+from seisblock.words import said
 
 LEVELS = ("surface", "borehole")
 _ORDER = {"NS": 0, "EW": 1, "UD": 3}  # anything else: before the vertical
@@ -39,11 +40,11 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
     chosen, told = _at_level(name, _of_station(name, parts, station), level)
     starts = sorted({str(p.start or p.metadata.get("event", "")) for p in chosen})
     if len(starts) > 1:
-        raise RecordError(f"{name}: not one recording, the starts differ ({', '.join(starts)}): read these files one by one")
+        raise RecordError("{name}: not one recording, the starts differ ({starts}): read these files one by one", name=name, starts=starts)
     intervals = sorted({p.dt for p in chosen})
     if len(intervals) > 1:
-        found = ", ".join(f"{dt:g} s" for dt in intervals)
-        raise RecordError(f"{name}: the sampling intervals differ ({found}): give files of one recording")
+        found = [f"{dt:g} s" for dt in intervals]
+        raise RecordError("{name}: the sampling intervals differ ({found}): give files of one recording", name=name, found=found)
     components = [c for part in chosen for c in part.components]
     history = dict.fromkeys(line for part in chosen for line in part.history)
     if chosen[0].format == "AT2":
@@ -78,15 +79,17 @@ def continues(parts: Sequence[Record], others: Sequence[Record]) -> bool:
 def _of_station(name: str, parts: Sequence[Record], station: str | None) -> Sequence[Record]:
     """Return the parts of one station."""
     stations = list(dict.fromkeys(p.station for p in parts))
-    listed = ", ".join(s or "(unnamed)" for s in stations)
+    listed = [s or said("(unnamed)") for s in stations]
     if station is not None:
         wanted = station.strip().lower()
         chosen = [p for p in parts if wanted in (p.station.lower(), str(p.metadata.get("station_name", "")).lower())]
         if not chosen:
-            raise ComponentError(f"{name}: no station {station!r}; it holds {listed}")
+            raise ComponentError("{name}: no station {station!r}; it holds {listed}", name=name, station=station, listed=listed)
         return chosen
     if len(stations) > 1:
-        raise ComponentError(f"{name} holds {len(stations)} stations: choose one with --station: {listed}")
+        raise ComponentError(
+            "{name} holds {count} stations: choose one with --station: {listed}", name=name, count=len(stations), listed=listed
+        )
     return parts
 
 
@@ -94,17 +97,22 @@ def _at_level(name: str, parts: Sequence[Record], level: str | None) -> tuple[Se
     """Return the parts of one KiK-net sensor and a line for the history; parts of other networks pass."""
     levels = {str(p.metadata["level"]) for p in parts if "level" in p.metadata}
     if level is not None and level not in LEVELS:
-        raise ComponentError(f"unknown level {level!r}: give surface or borehole")
+        raise ComponentError("unknown level {level!r}: give surface or borehole", level=level)
     if not levels:
         if level == "borehole":
-            raise ComponentError(f"{name} has no borehole sensor: only KiK-net stations have one; leave --level out")
+            raise ComponentError("{name} has no borehole sensor: only KiK-net stations have one; leave --level out", name=name)
         return parts, ()
     taken = level or ("surface" if "surface" in levels else "borehole")
     chosen = [p for p in parts if p.metadata.get("level") == taken]
     if not chosen:
-        raise ComponentError(f"{name} holds no {taken} components, only {', '.join(sorted(levels))}")
-    why = "as asked" if level else "the default" if len(levels) > 1 else "the only one given"
-    return chosen, (f"took the {taken} sensor of the KiK-net station ({why})",)
+        raise ComponentError("{name} holds no {taken} components, only {levels}", name=name, taken=taken, levels=sorted(levels))
+    why = said("as asked") if level else said("the default") if len(levels) > 1 else said("the only one given")
+    text = (
+        "took the surface sensor of the KiK-net station ({why})"
+        if taken == "surface"
+        else "took the borehole sensor of the KiK-net station ({why})"
+    )
+    return chosen, (said(text, why=why),)
 
 
 def _cut_to_shortest(components: Sequence[Component]) -> tuple[list[Component], list[str]]:
@@ -113,9 +121,9 @@ def _cut_to_shortest(components: Sequence[Component]) -> tuple[list[Component], 
     shortest = min(lengths)
     if max(lengths) == shortest or max(lengths) > (1.0 + CUT_TOLERANCE) * shortest:
         return list(components), []
-    told = ", ".join(f"{c.code} {n}" for c, n in zip(components, lengths, strict=True))
+    told = [f"{c.code} {n}" for c, n in zip(components, lengths, strict=True)]
     cut = [replace(c, acceleration=c.acceleration[:shortest]) for c in components]
-    return cut, [f"cut all components to the shortest, {shortest} samples (the files hold {told})"]
+    return cut, [said("cut all components to the shortest, {shortest} samples (the files hold {lengths})", shortest=shortest, lengths=told)]
 
 
 def _merged_metadata(parts: Sequence[Record]) -> dict[str, object]:

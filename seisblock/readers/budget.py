@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from seisblock.errors import ParameterError, RecordError
+from seisblock.words import noted, said
 
 MIB = 2**20
 _CHUNK = MIB
@@ -69,18 +70,18 @@ class Budget:
         """Count one member of an archive."""
         self.members_spent += 1
         if self.members_spent > self.limits["SEISBLOCK_READ_MEMBERS"]:
-            self._refuse(name, self.members_spent, "SEISBLOCK_READ_MEMBERS", "files")
+            self._refuse(name, self.members_spent, "SEISBLOCK_READ_MEMBERS", noted("files"))
 
     def check_nesting(self, name: str, depth: int) -> None:
         """Refuse an archive that lies too deep in others."""
         if depth > self.limits["SEISBLOCK_READ_NESTING"]:
-            self._refuse(name, depth, "SEISBLOCK_READ_NESTING", "archives within archives")
+            self._refuse(name, depth, "SEISBLOCK_READ_NESTING", noted("archives within archives"))
 
     def spend_samples(self, name: str, count: int) -> None:
         """Count samples that were read."""
         self.samples_spent += count
         if self.samples_spent > self.limits["SEISBLOCK_READ_SAMPLES"]:
-            self._refuse(name, self.samples_spent, "SEISBLOCK_READ_SAMPLES", "samples")
+            self._refuse(name, self.samples_spent, "SEISBLOCK_READ_SAMPLES", noted("samples"))
 
     def _refuse(self, name: str, found: int, variable: str, what: str) -> None:
         """Say what was found, what is allowed, and what lifts it."""
@@ -88,7 +89,7 @@ class Budget:
             "{name}: {found} {what}, and {limit} may be read: set {variable} to read more",
             name=name,
             found=found,
-            what=what,
+            what=said(what),
             limit=self.limits[variable],
             variable=variable,
         )

@@ -12,6 +12,7 @@ import numpy as np
 from seisblock.errors import RecordFormatError
 from seisblock.typing import FloatArray
 from seisblock.units import ACCELERATION_UNITS
+from seisblock.words import said
 
 _SHIFTS = {0.01: 2, 1e-3: 3}
 """Decimal places between a unit and m/s^2."""
@@ -68,12 +69,12 @@ def columns_of(
         If there is no line, or a cell is missing, is text or is not finite; the message names the line.
     """
     if not any(line.strip() for line in lines):
-        raise RecordFormatError(f"{name} ends after its header (line {first_line - 1}): there are no samples in it")
+        raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=first_line - 1)
     table = _fast(lines, columns, separator) if _is_even(lines, separator) else None
     if table is None or not np.isfinite(table).all():
         table = _careful(name, lines, first_line, columns, width, separator)
     if not table.size:
-        raise RecordFormatError(f"{name}: the lines after its header (line {first_line - 1}) hold no samples")
+        raise RecordFormatError("{name}: the lines after its header (line {line}) hold no samples", name=name, line=first_line - 1)
     return np.ascontiguousarray(table.T)
 
 
@@ -110,7 +111,7 @@ def _careful(name: str, lines: Sequence[str], first_line: int, columns: Mapping[
             continue
         cells = line.split(separator)
         if any(cell.strip() for cell in cells[width:]):
-            fail(name, first_line + offset, f"expected {width} cells, found {len(cells)}")
+            fail(name, first_line + offset, said("expected {width} cells, found {count}", width=width, count=len(cells)))
         rows.append([_number(name, first_line + offset, label, cells, index) for label, index in columns.items()])
     return np.array(rows, dtype=np.float64)
 
@@ -123,14 +124,14 @@ def _number(name: str, line: int, label: str, cells: Sequence[str], index: int) 
     except ValueError:
         value = float("nan")
         if cell:
-            fail(name, line, f"expected a number in column {label}, found {cell!r}")
+            fail(name, line, said("expected a number in column {label}, found {cell!r}", label=label, cell=cell))
     if not cell:
-        fail(name, line, f"the cell of column {label} is empty")
+        fail(name, line, said("the cell of column {label} is empty", label=label))
     if not isfinite(value):
-        fail(name, line, f"column {label} holds {cell!r}, which is no acceleration")
+        fail(name, line, said("column {label} holds {cell!r}, which is no acceleration", label=label, cell=cell))
     return value
 
 
 def fail(name: str, line: int, what: str) -> NoReturn:
     """Raise the error that a line of a file deserves."""
-    raise RecordFormatError(f"{name}, line {line}: {what}; correct the file or cut it before that line")
+    raise RecordFormatError("{name}, line {line}: {what}; correct the file or cut it before that line", name=name, line=line, what=what)

@@ -45,7 +45,7 @@ def even_dt(name: str, times: FloatArray, written: Callable[[], Sequence[str]] |
     seconds = times * unit
     count = seconds.size
     if count < 2:
-        raise RecordFormatError(f"{name}: a record needs at least 2 samples, found {count}")
+        raise RecordFormatError("{name}: a record needs at least 2 samples, found {count}", name=name, count=count)
     dt = float(seconds[-1] - seconds[0]) / (count - 1)
     # the interval that most rows have shows which row is wrong; the mean only that one is
     usual = float(np.median(np.diff(seconds)))
@@ -58,11 +58,15 @@ def even_dt(name: str, times: FloatArray, written: Callable[[], Sequence[str]] |
             if _explains(plain, seconds, slack):
                 return plain
     if not usual > 0.0:
-        raise RecordFormatError(f"{name}: its time does not increase (step {usual:g} s): expected an even time in s")
+        raise RecordFormatError("{name}: its time does not increase (step {usual:g} s): expected an even time in s", name=name, usual=usual)
     row = int(np.argmax(np.abs(np.diff(seconds) - usual)))
     raise RecordFormatError(
-        f"{name}: its time is uneven: from {seconds[row]:.9g} to {seconds[row + 1]:.9g} s, where most steps are {usual:.9g} s: a line is "
-        "missing or stands twice, or the sampling is uneven; expected steps even to 1e-6 s or within the digits printed"
+        "{name}: its time is uneven: from {first:.9g} to {second:.9g} s, where most steps are {usual:.9g} s: a line is "
+        "missing or stands twice, or the sampling is uneven; expected steps even to 1e-6 s or within the digits printed",
+        name=name,
+        first=seconds[row],
+        second=seconds[row + 1],
+        usual=usual,
     )
 
 

@@ -10,8 +10,9 @@ from dataclasses import dataclass, replace
 from seisblock.errors import RecordFormatError, UnitError
 from seisblock.readers.directions import Direction, direction_of
 from seisblock.readers.naming import TIME, bare_name, code_of, normal_unit, other_quantity, split_unit, time_unit
+from seisblock.words import said
 
-UNDERSTOOD = (
+UNDERSTOOD = said(
     "a direction (NS, EW, UD; N10E or 10°; X, Y, Z; L, T, V; HNN, HNE, HNZ), time, or an acceleration by its unit, as in 'table (gal)'"
 )
 _NO_NAME = {"true", "false", "nan", "inf", "null", "none", "yes", "no"}
@@ -77,7 +78,9 @@ def columns_of_header(name: str, names: Sequence[str], units: str | None = None)
         If a unit is unknown, missing or contradicts the option.
     """
     told = [_first_look(name, index, written) for index, written in enumerate(names)]
-    remarks = [f"left out column {names[i]!r}: {what}" for i, what in enumerate(told) if isinstance(what, str)]
+    remarks = [
+        said("left out column {name!r}: {what}", name=names[i], what=said(what)) for i, what in enumerate(told) if isinstance(what, str)
+    ]
     kept = [what for what in told if not isinstance(what, str)]
     kept = _transverse(name, names, kept, units)
     _check_guesses(name, names, kept, units)
@@ -87,10 +90,15 @@ def columns_of_header(name: str, names: Sequence[str], units: str | None = None)
     sharers = [column for column in kept if column.code != TIME and not column.unit]
     if sharers and len(stated) == 1 and option is None:
         shared = next(iter(stated))
-        remarks.append(f"took {shared}, which {_quoted(names, [c for c in kept if c.unit])} states, for {_quoted(names, sharers)}, too")
+        states = _quoted(names, [c for c in kept if c.unit])
+        remarks.append(
+            said("took {unit}, which {states} states, for {others}, too", unit=shared, states=states, others=_quoted(names, sharers))
+        )
         option = shared
     read = tuple(_with_unit(name, names[column.index], column, option, units) for column in kept)
-    remarks += [f"turned the sign of {names[c.index]!r}, which is positive down, to UD, positive up" for c in read if c.sign < 0]
+    remarks += [
+        said("turned the sign of {name!r}, which is positive down, to UD, positive up", name=names[c.index]) for c in read if c.sign < 0
+    ]
     return Columns(read, tuple(remarks))
 
 
@@ -115,13 +123,24 @@ def _first_look(name: str, index: int, written: str) -> Column | str:
             understood=UNDERSTOOD,
         )
     if normal_unit(plain) or plain.lower() in _NO_NAME:
-        raise RecordFormatError(f"{name}: {written!r} stands where column {index + 1} should have a name: expected {UNDERSTOOD}")
+        raise RecordFormatError(
+            "{name}: {written!r} stands where column {index} should have a name: expected {understood}",
+            name=name,
+            written=written,
+            index=index + 1,
+            understood=UNDERSTOOD,
+        )
     direction = direction_of(plain)
     if unit:
         return _acceleration(index, written, direction or _channel(plain), unit)
     if code_of(written) == TIME or seconds:
         if unit_text and seconds is None:
-            raise UnitError(f"{name}: column {written!r} has the unknown unit of time {unit_text!r}: expected s, ms or min")
+            raise UnitError(
+                "{name}: column {written!r} has the unknown unit of time {unit_text!r}: expected s, ms or min",
+                name=name,
+                written=written,
+                unit_text=unit_text,
+            )
         return Column(index, written, TIME, seconds=seconds or 1.0)
     if direction is not None and (not unit_text or unit_text.lower() == "deg"):
         return _acceleration(index, written, direction, "")
@@ -129,7 +148,12 @@ def _first_look(name: str, index: int, written: str) -> Column | str:
     if other is not None:
         return other
     if unit_text:
-        raise UnitError(f"{name}: column {written!r} has the unknown unit {unit_text!r}: expected gal, m/s2 or g, or no such column")
+        raise UnitError(
+            "{name}: column {written!r} has the unknown unit {unit_text!r}: expected gal, m/s2 or g, or no such column",
+            name=name,
+            written=written,
+            unit_text=unit_text,
+        )
     if code_of(written) == "ACC":
         return Column(index, written, "ACC")
     return Column(index, written or f"number {index + 1}", "", unit="")
@@ -154,8 +178,11 @@ def _transverse(name: str, names: Sequence[str], columns: list[Column], units: s
         return columns
     if units is None and not any(c.unit for c in columns):
         raise UnitError(
-            f"{name}: columns {', '.join(repr(n) for n in names)} without a unit: {names[lone.index]!r} may be the time or the transverse "
-            "direction; name the unit in the header, as in 'T (s)' or 'T (gal)', or give --units gal|m/s2|g"
+            "{name}: columns {names} without a unit: {one!r} may be the time or the transverse direction; name the unit in "
+            "the header, as in 'T (s)' or 'T (gal)', or give --units gal|m/s2|g",
+            name=name,
+            names=[repr(n) for n in names],
+            one=names[lone.index],
         )
     return [replace(c, code="T") if c is lone else c for c in columns]
 
@@ -165,20 +192,27 @@ def _check_guesses(name: str, names: Sequence[str], columns: list[Column], units
     bare = [c for c in columns if not c.unit and (d := direction_of(bare_name(names[c.index]))) and d.bare]
     if bare and not (len(bare) == 2 and _perpendicular(*bare)):
         raise RecordFormatError(
-            f"{name}: no names in the header: {_quoted(names, bare)}; azimuths come as a perpendicular pair (10,280), with N and E (N10E), "
-            "or with a degree sign (10°)"
+            "{name}: no names in the header: {names}; azimuths come as a perpendicular pair (10,280), with N and E (N10E), or "
+            "with a degree sign (10°)",
+            name=name,
+            names=_quoted(names, bare),
         )
     seismometers = [c for c in columns if not c.unit and units is None and (d := direction_of(bare_name(names[c.index]))) and d.velocity]
     if seismometers:
         raise UnitError(
-            f"{name}: codes of instruments that measure velocity: {_quoted(names, seismometers)}; expected accelerations: "
-            "if they are, name the unit in the header, as in 'HHN (gal)', or give --units gal|m/s2|g"
+            "{name}: codes of instruments that measure velocity: {names}; expected accelerations: if they are, name the unit in "
+            "the header, as in 'HHN (gal)', or give --units gal|m/s2|g",
+            name=name,
+            names=_quoted(names, seismometers),
         )
     strange = [c for c in columns if not c.code]
     known = [c for c in columns if c.code and c.code != TIME]
     if strange and (known or units is None):
         raise RecordFormatError(
-            f"{name}: column not understood: {_quoted(names, strange)}; expected {UNDERSTOOD}; name it so, or take it out"
+            "{name}: column not understood: {names}; expected {understood}; name it so, or take it out",
+            name=name,
+            names=_quoted(names, strange),
+            understood=UNDERSTOOD,
         )
     for position, column in enumerate(columns):
         if not column.code:  # the option says that they are accelerations
@@ -195,9 +229,12 @@ def _check_repeats(name: str, names: Sequence[str], columns: Sequence[Column]) -
     """Refuse two columns that mean the same."""
     for code, count in Counter(c.code for c in columns).items():
         if count > 1:
-            meant = "the time" if code == TIME else code
+            meant = said("the time") if code == TIME else code
             raise RecordFormatError(
-                f"{name}: several columns mean {meant} ({_quoted(names, [c for c in columns if c.code == code])}): keep one of them"
+                "{name}: several columns mean {meant} ({names}): keep one of them",
+                name=name,
+                meant=meant,
+                names=_quoted(names, [c for c in columns if c.code == code]),
             )
 
 
@@ -205,7 +242,7 @@ def _option(units: str | None) -> str | None:
     """Return the unit that the caller states."""
     option = None if units is None else normal_unit(units)
     if units is not None and option is None:
-        raise UnitError(f"unknown unit of acceleration {units!r}: give gal, m/s2 or g")
+        raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=units)
     return option
 
 
@@ -216,11 +253,18 @@ def _with_unit(name: str, written: str, column: Column, option: str | None, unit
     unit = column.unit or option
     if unit is None:
         raise UnitError(
-            f"{name}: column {written or column.index + 1!r} has no unit: name it in the header, as in 'EW (gal)', "
-            "or give --units gal|m/s2|g"
+            "{name}: column {written!r} has no unit: name it in the header, as in 'EW (gal)', or give --units gal|m/s2|g",
+            name=name,
+            written=written or column.index + 1,
         )
     if units is not None and unit != option:
-        raise UnitError(f"{name}: column {written!r} is in {unit}, the option says {units}: leave the option out")
+        raise UnitError(
+            "{name}: column {written!r} is in {unit}, the option says {units}: leave the option out",
+            name=name,
+            written=written,
+            unit=unit,
+            units=units,
+        )
     return replace(column, unit=unit)
 
 

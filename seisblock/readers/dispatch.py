@@ -18,6 +18,7 @@ from seisblock.readers.formats.plain_csv import read_plain_csv
 from seisblock.readers.naming import normal_unit
 from seisblock.readers.source import Blob
 from seisblock.records import Record
+from seisblock.words import said
 
 _SELF_DESCRIBING: dict[str, Callable[[Blob], Record]] = {"JMA-CSV": read_jma_csv, "KNET": read_knet, "AT2": read_at2}
 _SPELLINGS = {"JMA": "JMA-CSV", "JMACSV": "JMA-CSV", "KIKNET": "KNET", "KNETCSV": "KNET-CSV", "K-NET": "KNET", "KIK-NET": "KNET"}
@@ -68,8 +69,10 @@ def _of_bundle(blob: Blob, options: Options) -> list[Record]:
             continue
         parts.extend(replace(part, metadata={**part.metadata, "bundle": blob.name}) for part in parts_of(member, options))
     if not parts:
-        held = ", ".join(m.basename for m in members[:8]) or "nothing but plots"
-        raise RecordFormatError(f"{blob.name}: no record in this bundle, only {held}: expected K-NET, KiK-net, JMA, AT2 or plain tables")
+        held = [m.basename for m in members[:8]] or said("nothing but plots")
+        raise RecordFormatError(
+            "{name}: no record in this bundle, only {held}: expected K-NET, KiK-net, JMA, AT2 or plain tables", name=blob.name, held=held
+        )
     return parts
 
 
@@ -79,11 +82,19 @@ def _checked(record: Record, options: Options) -> Record:
     if options.units is not None and stated:
         wanted = normal_unit(options.units)
         if wanted is None:
-            raise UnitError(f"unknown unit of acceleration {options.units!r}: give gal, m/s2 or g")
+            raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=options.units)
         if wanted != stated:
-            raise UnitError(f"{record.source} is in {stated} by its own header, the option says {options.units}: leave the option out")
+            raise UnitError(
+                "{source} is in {stated} by its own header, the option says {units}: leave the option out",
+                source=record.source,
+                stated=stated,
+                units=options.units,
+            )
     if options.dt is not None and abs(options.dt - record.dt) > 1e-6:
         raise ParameterError(
-            f"{record.source}: its header says dt = {record.dt:g} s, the option says {options.dt:g} s: leave the option out"
+            "{source}: its header says dt = {dt:g} s, the option says {options_dt:g} s: leave the option out",
+            source=record.source,
+            dt=record.dt,
+            options_dt=options.dt,
         )
     return record

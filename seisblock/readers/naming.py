@@ -6,6 +6,7 @@ import re
 import unicodedata
 
 from seisblock.readers.directions import direction_of
+from seisblock.words import noted
 
 TIME = "TIME"
 
@@ -36,16 +37,16 @@ _UNITS = {
 }
 _TIME_UNITS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "秒": 1.0, "ms": 1e-3, "msec": 1e-3, "min": 60.0}
 _OTHER_UNITS = {
-    "a velocity": ("m/s", "cm/s", "mm/s", "m/sec", "cm/sec", "kine", "kines", "カイン"),
-    "a displacement": ("m", "cm", "mm"),
-    "an angle": ("deg", "rad"),
-    "a frequency": ("hz",),
+    noted("a velocity"): ("m/s", "cm/s", "mm/s", "m/sec", "cm/sec", "kine", "kines", "カイン"),
+    noted("a displacement"): ("m", "cm", "mm"),
+    noted("an angle"): ("deg", "rad"),
+    noted("a frequency"): ("hz",),
 }
 _OTHER_NAMES = {
-    "a velocity": ("vel", "velocity", "速度"),
-    "a displacement": ("disp", "displacement", "変位"),
-    "a number of the line": ("index", "no", "nr", "number", "#", "sample", "samples", "count", "id", "step", "番号"),
-    "a note": ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
+    noted("a velocity"): ("vel", "velocity", "速度"),
+    noted("a displacement"): ("disp", "displacement", "変位"),
+    noted("a number of the line"): ("index", "no", "nr", "number", "#", "sample", "samples", "count", "id", "step", "番号"),
+    noted("a note"): ("note", "notes", "remark", "remarks", "comment", "comments", "flag", "quality", "備考"),
 }
 _OTHER_UNIT = {spelling: what for what, spellings in _OTHER_UNITS.items() for spelling in spellings}
 _OTHER_NAME = {spelling: what for what, spellings in _OTHER_NAMES.items() for spelling in spellings}

@@ -12,7 +12,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TypeAlias
 
-from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError
+from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError, reason
 from seisblock.ledger import reading
 from seisblock.readers.budget import Budget
 from seisblock.samples import find_sample, list_samples
@@ -94,7 +94,7 @@ def read_bytes(path: Path, name: str, budget: Budget) -> bytes:
             data = budget.read(name, stream)
         reading(path)
     except OSError as error:
-        raise RecordError("{name} cannot be read: {reason}", name=name, reason=error.strerror or str(error)) from error
+        raise RecordError("{name} cannot be read: {reason}", name=name, reason=reason(error)) from error
     return data
 
 
@@ -118,7 +118,7 @@ def locate(source: Location) -> Path:
 
 def _reason(error: Exception) -> str:
     """Return why a name was refused, without the name."""
-    return (error.strerror if isinstance(error, OSError) else None) or str(error)[:LONGEST_SHOWN]
+    return reason(error) if isinstance(error, OSError) and error.strerror else str(error)[:LONGEST_SHOWN]
 
 
 def digest(blobs: Iterable[Blob]) -> str:

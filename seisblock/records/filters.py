@@ -138,13 +138,19 @@ def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
 
     nyquist = 0.5 / dt
     if not (np.isfinite(hz) and 0 < hz < nyquist):
-        raise ParameterError(f"the high-pass corner must lie between 0 and {nyquist:g} Hz, half the sampling rate; found {hz:g} Hz")
+        raise ParameterError(
+            "the high-pass corner must lie between 0 and {nyquist:g} Hz, half the sampling rate; found {hz:g} Hz", nyquist=nyquist, hz=hz
+        )
     pad = np.ceil(PADDING_PERIODS / (hz * dt))
     if pad > MOST_PADDING:
         least = PADDING_PERIODS / (MOST_PADDING * dt)
         raise ParameterError(
-            f"a high-pass corner of {hz:g} Hz needs {pad:.3g} samples of padding at either end of the record, more than {MOST_PADDING}: "
-            f"choose a corner of {least:.2g} Hz or more"
+            "a high-pass corner of {hz:g} Hz needs {pad:.3g} samples of padding at either end of the record, more than "
+            "{most}: choose a corner of {least:.2g} Hz or more",
+            hz=hz,
+            pad=pad,
+            most=MOST_PADDING,
+            least=least,
         )
     return butter(HIGHPASS_ORDER, hz, btype="highpass", fs=1.0 / dt, output="sos"), int(pad)
 

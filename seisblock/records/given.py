@@ -8,6 +8,7 @@ from seisblock import checks
 from seisblock.errors import ComponentError, KindError
 from seisblock.records.motion import Motion
 from seisblock.records.record import Record
+from seisblock.words import said
 
 Factor: TypeAlias = bool | float
 """Whether something acts, or the factor by which it does."""
@@ -24,13 +25,21 @@ def check_call(body: object, kind: type, motion: object) -> None:
     if isinstance(motion, Motion) and isinstance(body, kind):
         return
     if isinstance(body, (Motion, Record)) and not isinstance(motion, (Motion, Record)):
-        raise KindError(f"the body comes first, then the motion: found a {type(body).__name__} before the {type(motion).__name__}")
+        raise KindError(
+            "the body comes first, then the motion: found a {body} before the {motion}",
+            body=type(body).__name__,
+            motion=type(motion).__name__,
+        )
     if isinstance(motion, Record):
         code = next((component.code for component in motion.horizontals), "EW")
-        raise KindError(f"{motion.source or 'this'} is a Record: choose a component with motion_of(record, {code!r})")
+        raise KindError(
+            "{source} is a Record: choose a component with motion_of(record, {code!r})", source=motion.source or said("this"), code=code
+        )
     if not isinstance(motion, Motion):
-        raise KindError(f"a Motion is needed, found {_kind(motion)}: make one with motion_of(record, 'EW') or Motion.from_arrays(...)")
-    raise KindError(f"a {kind.__name__} is needed, found {_kind(body)}")
+        raise KindError(
+            "a Motion is needed, found {found}: make one with motion_of(record, 'EW') or Motion.from_arrays(...)", found=_kind(motion)
+        )
+    raise KindError("a {kind} is needed, found {found}", kind=kind.__name__, found=_kind(body))
 
 
 def vertical_gain(motion: Motion, vertical: Factor, *, needed: bool = True) -> float:
@@ -54,12 +63,13 @@ def vertical_gain(motion: Motion, vertical: Factor, *, needed: bool = True) -> f
     gain = checks.finite("the factor on the vertical motion", float(vertical))
     if needed and gain != 0.0 and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(
-            f"{motion.record.source or 'record'}: no vertical component; it has {', '.join(motion.record.codes)}: "
-            "leave the vertical motion out, or give a record that has one"
+            "{source}: no vertical component; it has {codes}: leave the vertical motion out, or give a record that has one",
+            source=motion.record.source or said("record"),
+            codes=motion.record.codes,
         )
     return gain
 
 
 def _kind(value: Any) -> str:
     """Return what a value is, for a message."""
-    return "nothing" if value is None else f"{type(value).__name__}"
+    return said("nothing") if value is None else f"{type(value).__name__}"

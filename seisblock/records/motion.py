@@ -12,6 +12,7 @@ from seisblock.errors import ComponentError, ParameterError
 from seisblock.records.record import Component, Record, frozen
 from seisblock.showing import Drawn
 from seisblock.typing import ArrayLike, FloatArray
+from seisblock.words import said
 
 ALONG, ACROSS, UP = range(3)
 
@@ -43,9 +44,9 @@ class Motion(Drawn):
     def __post_init__(self) -> None:
         object.__setattr__(self, "acceleration", frozen(self.acceleration))
         if self.acceleration.ndim != 2 or self.acceleration.shape[0] != 3:
-            raise ParameterError(f"a motion has three rows (along, across, up), found shape {self.acceleration.shape}")
+            raise ParameterError("a motion has three rows (along, across, up), found shape {shape}", shape=str(self.acceleration.shape))
         if self.acceleration.shape[1] < 2:
-            raise ParameterError(f"a motion needs at least 2 samples, found {self.acceleration.shape[1]}")
+            raise ParameterError("a motion needs at least 2 samples, found {count}", count=self.acceleration.shape[1])
         checks.positive("the sampling interval", self.dt, "s")
         if not np.isfinite(self.acceleration).all():
             raise ParameterError("a motion must hold finite numbers only")
@@ -61,7 +62,7 @@ class Motion(Drawn):
         if vertical is not None:
             up = np.asarray(vertical, dtype=np.float64)
             if up.shape != along.shape:
-                raise ParameterError(f"horizontal and vertical differ in length: {along.size} and {up.size} samples")
+                raise ParameterError("horizontal and vertical differ in length: {along} and {up} samples", along=along.size, up=up.size)
             rows[UP] = up
         return cls(rows, dt, name=name, start_s=start_s)
 
@@ -122,7 +123,11 @@ def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Float
     if azimuth is None:
         chosen = record.component(component)
         if chosen.is_vertical:
-            raise ComponentError(f"{component} is vertical; choose a horizontal direction: {', '.join(c.code for c in record.horizontals)}")
+            raise ComponentError(
+                "{component} is vertical; choose a horizontal direction: {codes}",
+                component=component,
+                codes=[c.code for c in record.horizontals],
+            )
         azimuth = chosen.azimuth_deg
         others = [c for c in record.horizontals if c is not chosen]
         if azimuth is None or not others or any(c.azimuth_deg is None for c in others):
@@ -139,7 +144,7 @@ def _as_azimuth(component: str) -> float | None:
     except ValueError:
         return None
     if not np.isfinite(azimuth):
-        raise ComponentError(f"the azimuth must be a finite number of degrees, found {component!r}")
+        raise ComponentError("the azimuth must be a finite number of degrees, found {component!r}", component=component)
     return azimuth
 
 
@@ -148,8 +153,9 @@ def _oriented_pair(record: Record) -> tuple[Component, Component]:
     oriented = [c for c in record.horizontals if c.azimuth_deg is not None]
     if len(oriented) < 2:
         raise ComponentError(
-            f"{record.source or 'record'}: turning to an azimuth needs two horizontal components of known direction; "
-            f"it has {', '.join(record.codes)}"
+            "{source}: turning to an azimuth needs two horizontal components of known direction; it has {codes}",
+            source=record.source or said("record"),
+            codes=record.codes,
         )
     return oriented[0], oriented[1]
 

@@ -14,6 +14,7 @@ from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.motion import _oriented_pair, _resolve
 from seisblock.records.record import Component, Record
 from seisblock.typing import FloatArray
+from seisblock.words import said
 
 
 def demean(record: Record) -> Record:
@@ -33,8 +34,8 @@ def demean(record: Record) -> Record:
         With the means removed and named in ``history``.
     """
     means = {c.code: float(c.acceleration.mean()) for c in record.components}
-    removed = ", ".join(f"{code} {mean:.6g}" for code, mean in means.items())
-    did = f"mean of the whole record removed ({removed} m/s^2)"
+    removed = [f"{code} {mean:.6g}" for code, mean in means.items()]
+    did = said("mean of the whole record removed ({means} m/s^2)", means=removed)
     return _apply(record, lambda c: c.acceleration - means[c.code], did, doubts=settled(record.doubts))
 
 
@@ -56,18 +57,26 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
     """
     first, last = record.offset_s, record.offset_s + record.duration_s
     start, end = first if start_s is None else start_s, last if end_s is None else end_s
-    window = f"window {start:g}:{end:g} s"
+    window = said("window {start:g}:{end:g} s", start=start, end=end)
     if not (np.isfinite(start) and np.isfinite(end) and start < end):
-        raise RecordError(f"{window}: its start must come before its end, both in s from the first sample")
+        raise RecordError("{window}: its start must come before its end, both in s from the first sample", window=window)
     slack = 1e-6 * record.dt
     if start < first - slack or end > last + slack:
-        where = record.source or "record"
-        raise RecordError(f"{where}: the {window} lies outside the record, which runs from {first:g} to {last:g} s")
+        where = record.source or said("record")
+        raise RecordError(
+            "{where}: the {window} lies outside the record, which runs from {first:g} to {last:g} s",
+            where=where,
+            window=window,
+            first=first,
+            last=last,
+        )
     begin = int(np.ceil((start - first) / record.dt - 1e-6))
     stop = int(np.floor((end - first) / record.dt + 1e-6)) + 1
     if stop - begin < 2:
-        raise RecordError(f"{window} holds fewer than 2 samples at {record.dt:g} s: make it longer")
-    return _apply(record, lambda c: c.acceleration[begin:stop], f"{window} cut out", offset_s=record.offset_s + begin * record.dt)
+        raise RecordError("{window} holds fewer than 2 samples at {dt:g} s: make it longer", window=window, dt=record.dt)
+    return _apply(
+        record, lambda c: c.acceleration[begin:stop], said("{window} cut out", window=window), offset_s=record.offset_s + begin * record.dt
+    )
 
 
 def scale(record: Record, factor: float) -> Record:
@@ -90,7 +99,7 @@ def scale(record: Record, factor: float) -> Record:
         If the factor is not a finite number.
     """
     checks.finite("the scale factor", factor)
-    return _apply(record, lambda c: c.acceleration * factor, f"scaled by {factor:.10g}")
+    return _apply(record, lambda c: c.acceleration * factor, said("scaled by {factor:.10g}", factor=factor))
 
 
 def scale_to_pga(record: Record, target: float, component: str | Sequence[str] | None = None) -> Record:
@@ -114,15 +123,24 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
     """
     checks.positive("the target PGA", target, "m/s^2")
     if component is None:
-        chosen, among = largest_horizontal(record), "the largest horizontal"
+        chosen, among = largest_horizontal(record), said("the largest horizontal")
     else:
         names = (component,) if isinstance(component, str) else tuple(component)
-        chosen, among = max((pick(record, name) for name in names), key=_peak), f"the largest of {', '.join(names)}"
+        chosen, among = max((pick(record, name) for name in names), key=_peak), said("the largest of {names}", names=names)
     peak = _peak(chosen)
     if peak == 0.0:
-        raise ParameterError(f"component {chosen.code} is zero throughout: no factor gives it a peak of {target:g} m/s^2")
+        raise ParameterError(
+            "component {code} is zero throughout: no factor gives it a peak of {target:g} m/s^2", code=chosen.code, target=target
+        )
     factor = target / peak
-    did = f"scaled by {factor:.10g}: PGA of {chosen.code} ({among}) {peak:.6g} -> {target:.6g} m/s^2"
+    did = said(
+        "scaled by {factor:.10g}: PGA of {code} ({among}) {peak:.6g} -> {target:.6g} m/s^2",
+        factor=factor,
+        code=chosen.code,
+        among=among,
+        peak=peak,
+        target=target,
+    )
     return _apply(record, lambda c: c.acceleration * factor, did)
 
 
@@ -159,7 +177,9 @@ def largest_horizontal(record: Record) -> Component:
         If the record has no horizontal component.
     """
     if not record.horizontals:
-        raise ComponentError(f"{record.source or 'record'}: no horizontal component; it has {', '.join(record.codes)}")
+        raise ComponentError(
+            "{source}: no horizontal component; it has {codes}", source=record.source or said("record"), codes=record.codes
+        )
     return max(record.horizontals, key=_peak)
 
 
@@ -181,7 +201,8 @@ def highpass(record: Record, hz: float) -> Record:
     ParameterError
         If the corner lies outside that range, or so low that it needs more padding than is allowed.
     """
-    did = f"high-pass {hz:g} Hz (Butterworth order {HIGHPASS_ORDER} forwards and backwards, line through the ends removed, mirrored ends)"
+    text = "high-pass {hz:g} Hz (Butterworth order {order} forwards and backwards, line through the ends removed, mirrored ends)"
+    did = said(text, hz=hz, order=HIGHPASS_ORDER)
     return _apply(record, lambda c: highpass_samples(c.acceleration, record.dt, hz), did, doubts=settled(record.doubts))
 
 
@@ -201,7 +222,7 @@ def towards(record: Record, azimuth_deg: float) -> Component:
         If the record lacks those two.
     """
     if not np.isfinite(azimuth_deg):
-        raise ComponentError(f"the azimuth must be a finite number of degrees, found {azimuth_deg}")
+        raise ComponentError("the azimuth must be a finite number of degrees, found {found}", found=azimuth_deg)
     return Component(f"{azimuth_deg:g}", _resolve(_oriented_pair(record), azimuth_deg), azimuth_deg % 360.0)
 
 
@@ -222,7 +243,9 @@ def rotate(record: Record, azimuth_deg: float) -> Record:
     """
     pair = [towards(record, azimuth_deg), towards(record, azimuth_deg + 90.0)]
     vertical = [] if record.vertical is None else [record.vertical]
-    return record.with_components([*pair, *vertical], f"horizontals turned to {pair[0].code} and {pair[1].code} degrees")
+    return record.with_components(
+        [*pair, *vertical], said("horizontals turned to {one} and {other} degrees", one=pair[0].code, other=pair[1].code)
+    )
 
 
 def _peak(component: Component) -> float:

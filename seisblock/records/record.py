@@ -55,7 +55,9 @@ class Component:
     def __post_init__(self) -> None:
         object.__setattr__(self, "acceleration", frozen(self.acceleration))
         if self.acceleration.ndim != 1:
-            raise RecordError(f"component {self.code}: expected one row of samples, found {self.acceleration.ndim} dimensions")
+            raise RecordError(
+                "component {code}: expected one row of samples, found {count} dimensions", code=self.code, count=self.acceleration.ndim
+            )
         if self.azimuth_deg is None and self.code in HORIZONTAL_AZIMUTHS:
             object.__setattr__(self, "azimuth_deg", HORIZONTAL_AZIMUTHS[self.code])
 
@@ -105,27 +107,34 @@ class Record(Drawn):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "components", tuple(self.components))
-        where = f"{self.source or 'record'}: "
+        where = self.source or said("record")
         if not self.components:
-            raise RecordError(where + "there is no component in it")
+            raise RecordError("{where}: there is no component in it", where=where)
         checks.positive("{source}: the sampling interval", self.dt, "s", error=RecordError, source=self.source or said("record"))
         lengths = {c.code: c.acceleration.size for c in self.components}
         if len(lengths) != len(self.components):
-            raise RecordError(where + f"component codes repeat: {', '.join(c.code for c in self.components)}")
+            raise RecordError("{where}: component codes repeat: {codes}", where=where, codes=self.codes)
         if len(set(lengths.values())) != 1:
-            found = ", ".join(f"{code} {n}" for code, n in lengths.items())
-            raise RecordError(where + f"components differ in length ({found} samples): give files of one recording")
+            found = [f"{code} {n}" for code, n in lengths.items()]
+            raise RecordError(
+                "{where}: components differ in length ({found} samples): give files of one recording", where=where, found=found
+            )
         if self.samples < 2:
-            raise RecordError(where + f"needs at least 2 samples, found {self.samples}")
+            raise RecordError("{where}: needs at least 2 samples, found {found}", where=where, found=self.samples)
         for component in self.components:
             bad = np.flatnonzero(~np.isfinite(component.acceleration))
             if bad.size:
                 raise RecordError(
-                    where + f"component {component.code} holds {bad.size} samples that are not numbers, the first at index {bad[0]}"
+                    "{where}: component {code} holds {count} samples that are not numbers, the first at index {first}",
+                    where=where,
+                    code=component.code,
+                    count=bad.size,
+                    first=bad[0],
                 )
             size = max(float(component.acceleration.max()), -float(component.acceleration.min()))
             if size > IMPOSSIBLE:
-                raise RecordError(where + f"component {component.code} reaches {size:.3g} m/s^2, which is no acceleration of the ground")
+                text = "{where}: component {code} reaches {size:.3g} m/s^2, which is no acceleration of the ground"
+                raise RecordError(text, where=where, code=component.code, size=size)
 
     @property
     def carries_offset(self) -> bool:
@@ -173,7 +182,9 @@ class Record(Drawn):
         for candidate in self.components:
             if candidate.code.upper() == code.upper():
                 return candidate
-        raise ComponentError(f"{self.source or 'record'}: no component {code!r}; it has {', '.join(self.codes)}")
+        raise ComponentError(
+            "{source}: no component {code!r}; it has {codes}", source=self.source or said("record"), code=code, codes=self.codes
+        )
 
     def with_components(self, components: Sequence[Component], did: str, **changes: object) -> Record:
         """Return a record with other samples, and `did` added to its history."""

@@ -200,9 +200,11 @@ def _resumed(path: Path | None, mark: str) -> dict[tuple[float, float], Threshol
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             if number == len(lines):
                 break
-            raise RecordFormatError(f"{path}, line {number}: not a line of a criterion study; give another file") from error
+            raise RecordFormatError(
+                "{path}, line {number}: not a line of a criterion study; give another file", path=path, number=number
+            ) from error
         if study != mark:
-            raise ParameterError(f"{path} belongs to a study of another pile or other settings: give another file")
+            raise ParameterError("{path} belongs to a study of another pile or other settings: give another file", path=path)
         known[cell] = threshold
     return known
 

@@ -40,8 +40,8 @@ def cases_of(papers: Sequence[str] = ()) -> list[Case]:
     known = tuple(dict.fromkeys(case.paper for case in every))
     for name in papers:
         if not any(paper.lower().startswith(name.lower()) for paper in known):
-            there_are = ", ".join(known)
-            raise ParameterError(f"no validation case cites {name!r}; there are cases of {there_are}")
+            there_are = list(known)
+            raise ParameterError("no validation case cites {name!r}; there are cases of {there_are}", name=name, there_are=there_are)
     return [case for case in every if not papers or any(case.paper.lower().startswith(name.lower()) for name in papers)]
 
 

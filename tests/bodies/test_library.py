@@ -74,7 +74,7 @@ def test_restitution_of_a_file_is_the_default_of_an_option(tmp_path):
 @pytest.mark.parametrize(
     ("asked", "says"),
     [
-        ({}, "--width and --height missing"),
+        ({}, "--width, --height missing"),
         ({"width": 0.2}, "--height missing"),
         ({"block": "gravestone", "mass": 3.0}, "not both"),
         ({"block": "obelisk"}, "no body file obelisk"),

@@ -160,7 +160,7 @@ def test_files(run, survey):
     ("words", "code", "message"),
     [
         ((), 2, "give one of --cemetery"),
-        (("--cemetery", "aoyama.csv", "--slid", 1), 2, "found --cemetery and --slid"),
+        (("--cemetery", "aoyama.csv", "--slid", 1), 2, "found --cemetery, --slid"),
         (("--rate", "35/100"), 2, "give one of --cemetery"),
         (("--rate", "35/100", "--slid", 1, "--mu", 0.3), 2, "--rate needs --cemetery"),
         (("--cemetery", "aoyama.csv"), 3, "no stone is marked fallen or standing"),

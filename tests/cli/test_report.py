@@ -16,6 +16,7 @@ from seisblock.solvers.respond import solve_respond
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.assessment import assess
 from seisblock.words import speaking
+from tests.language.english import english_in, seen_in
 
 
 @pytest.fixture(scope="module")
@@ -28,6 +29,11 @@ def pages():
         with speaking(lang):
             made[lang] = report(found, command="seisblock report")
     return made
+
+
+def test_the_japanese_page_is_in_japanese(pages):
+    """Cards, sentences, tables, captions and provenance; references are quoted."""
+    assert not english_in(seen_in(pages["ja"])) and english_in(seen_in(pages["en"]))
 
 
 def test_the_page_opens_without_network(pages):

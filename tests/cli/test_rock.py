@@ -196,7 +196,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
         (["--width", "nan", "--height", "1"], "not a number"),
         (["--width", "24parsec", "--height", "1"], "unknown unit"),
         (["--width", "0.2"], "--height"),
-        ([], "--width and --height missing"),
+        ([], "--width, --height missing"),
         (["--block", "gravestone", "--width", "0.2"], "not both"),
         (["--block", "nowhere.toml"], "no body file"),
         (["--width", "0.2", "--height", "1", "--restitution", "1.2"], "[0, 1]"),

@@ -163,8 +163,8 @@ def test_harmonic_table_as_csv(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message", "code"),
     [
-        ((), "the block has no width", 3),
-        (("--width", 1), "the block has no height", 3),
+        ((), "--width is missing", 3),
+        (("--width", 1), "--height is missing", 3),
         (("--width", 1, "--height", 2), "the springs have no stiffness", 3),
         (("--width", 0, "--height", 2, "--frequency-vertical", 5), "width of the block must be positive", 3),
         (("--width", 1, "--height", -2, "--frequency-vertical", 5), "height of the block must be positive", 3),

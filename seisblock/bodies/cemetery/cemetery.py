@@ -100,7 +100,7 @@ class Cemetery:
     def __post_init__(self) -> None:
         object.__setattr__(self, "stones", tuple(self.stones))
         if not self.stones:
-            raise BodyError(f"{self.source or self.name}: there is no gravestone in it")
+            raise BodyError("{source}: there is no gravestone in it", source=self.source or self.name)
 
     @property
     def size(self) -> int:

@@ -10,10 +10,11 @@ from pathlib import Path
 
 from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
-from seisblock.errors import BodyError, InputError
+from seisblock.errors import BodyError, InputError, reason
 from seisblock.ledger import reading
 from seisblock.samples import find_sample, list_samples
 from seisblock.units import LENGTH_UNITS, parse_length
+from seisblock.words import noted, said
 
 _NAMES = {
     "height_over_width": (
@@ -41,8 +42,12 @@ _COLUMNS = {spelling: name for name, spellings in _NAMES.items() for spelling in
 _YES = {"1", "yes", "y", "true", "○", "〇", "有", "有り", "あり"}
 _NO = {"0", "no", "n", "false", "×", "無", "無し", "なし"}
 _WORDS = {
-    "fallen": (_YES | {"fallen", "overturned", "転倒"}, _NO | {"standing", "stood", "残存"}, "0, 1, yes, no, 転倒 or 残存"),
-    "reinforced": (_YES | {"reinforced", "補強", "補強有", "補強あり"}, _NO | {"unreinforced", "無補強", "補強なし"}, "0, 1, yes or no"),
+    "fallen": (_YES | {"fallen", "overturned", "転倒"}, _NO | {"standing", "stood", "残存"}, noted("0, 1, yes, no, 転倒 or 残存")),
+    "reinforced": (
+        _YES | {"reinforced", "補強", "補強有", "補強あり"},
+        _NO | {"unreinforced", "無補強", "補強なし"},
+        noted("0, 1, yes or no"),
+    ),
 }
 _UNIT = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
 
@@ -94,20 +99,30 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1)]
     filled = [(number, line) for number, line in lines if line.strip(" \t,;") and not line.lstrip().startswith("#")]
     if not filled:
-        raise BodyError(f"{source}: there is no gravestone in it, only {len(lines)} empty lines and comments")
+        raise BodyError("{source}: there is no gravestone in it, only {count} empty lines and comments", source=source, count=len(lines))
     (header_line, header), rows = filled[0], filled[1:]
     separator = next((mark for mark in ",\t;" if mark in header), ",")
     columns, units = _header(_cells(header, separator), source, header_line)
     if not rows:
-        raise BodyError(f"{source}, line {header_line}: there is no gravestone below the header; add one line per stone")
+        raise BodyError(
+            "{source}, line {line}: there is no gravestone below the header; add one line per stone",
+            source=source,
+            line=header_line,
+        )
     stones, wrong = [], []
     for number, line in rows:
         try:
             stones.append(_stone(_row(columns, _cells(line, separator)), units, number))
         except InputError as error:
-            wrong.append((number, str(error)))
+            wrong.append((number, error.said))
     if wrong:
-        raise BodyError(f"{source}, line {wrong[0][0]}: {wrong[0][1]}{_others([number for number, _ in wrong[1:]])}")
+        raise BodyError(
+            "{source}, line {line}: {what}{others}",
+            source=source,
+            line=wrong[0][0],
+            what=wrong[0][1],
+            others=_others([number for number, _ in wrong[1:]]),
+        )
     size = sum(stone.count for stone in stones)
     if size > MOST_STONES:
         raise BodyError(
@@ -124,13 +139,17 @@ def _path(name: str | Path) -> Path:
     """Return the file that a name means: a path, else a bundled cemetery."""
     path = Path(name)
     if path.is_dir():
-        raise BodyError(f"{name} is a directory: give the CSV file of a cemetery")
+        raise BodyError("{name} is a directory: give the CSV file of a cemetery", name=name)
     if path.exists():
         return path
     known = [sample.name for sample in list_samples() if sample.kind == "cemetery"]
     bundled = find_sample(str(name)) if path.parent == Path() else None
     if bundled is None or bundled.name not in known:
-        raise BodyError(f"no cemetery file {name}, and no bundled cemetery of that name; bundled are {', '.join(known) or 'none'}")
+        raise BodyError(
+            "no cemetery file {name}, and no bundled cemetery of that name; bundled are {known}",
+            name=name,
+            known=list(known) or said("none"),
+        )
     return bundled
 
 
@@ -140,15 +159,15 @@ def _text(path: Path, name: str) -> str:
         data = path.read_bytes()
         reading(path)
     except OSError as error:
-        raise BodyError(f"cannot read {name}: {error.strerror}") from error
+        raise BodyError("cannot read {name}: {reason}", name=name, reason=reason(error)) from error
     if b"\0" in data and data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
-        raise BodyError(f"{name} is no table of text: give a CSV file with one line per gravestone")
+        raise BodyError("{name} is no table of text: give a CSV file with one line per gravestone", name=name)
     for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp932"):
         try:
             return data.decode(encoding)
         except UnicodeDecodeError:
             continue
-    raise BodyError(f"{name} is neither UTF-8 nor Shift-JIS: save it as CSV UTF-8")
+    raise BodyError("{name} is neither UTF-8 nor Shift-JIS: save it as CSV UTF-8", name=name)
 
 
 def _cells(line: str, separator: str) -> list[str]:
@@ -156,7 +175,7 @@ def _cells(line: str, separator: str) -> list[str]:
     try:
         cells = next(csv.reader([line], delimiter=separator), [])
     except csv.Error as error:
-        raise BodyError(f"this line is no row of a table: {error}") from error
+        raise BodyError("this line is no row of a table: {error}", error=error) from error
     return [unicodedata.normalize("NFKC", cell).strip() for cell in cells]
 
 
@@ -166,13 +185,18 @@ def _header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], di
     for cell in cells:
         name, unit = _named(cell)
         if name and name in columns:
-            raise BodyError(f"{source}, line {line}: two columns mean {name}: rename or remove one")
+            raise BodyError("{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name)
         columns.append(name)
         if unit:
             units[name] = unit
     if "height_over_width" not in columns and not {"height", "width"} <= set(columns):
-        found = ", ".join(cells) or "none"
-        raise BodyError(f"{source}, line {line}: expected a column height_over_width, or height and width; found {found}")
+        found = cells or said("none")
+        raise BodyError(
+            "{source}, line {line}: expected a column height_over_width, or height and width; found {found}",
+            source=source,
+            line=line,
+            found=found,
+        )
     return columns, units
 
 
@@ -197,7 +221,7 @@ def _plain(text: str) -> str:
 def _row(columns: Sequence[str], cells: Sequence[str]) -> dict[str, str]:
     """Return the cells of a row by what their columns mean."""
     if any(cells[len(columns) :]):
-        raise BodyError(f"expected {len(columns)} cells as in the header, found {len(cells)}")
+        raise BodyError("expected {count} cells as in the header, found {found}", count=len(columns), found=len(cells))
     return dict(zip(columns, cells, strict=False))
 
 
@@ -209,11 +233,11 @@ def _stone(row: Mapping[str, str], units: Mapping[str, str], line: int) -> Stone
         checks.positive("height over width", ratio, error=BodyError)
     if width is not None and height is not None:
         if ratio is not None and abs(height / width / ratio - 1.0) > DISAGREEMENT:
-            raise BodyError(f"height over width is {ratio:g}, but height and width give {height / width:.3g}")
+            raise BodyError("height over width is {ratio:g}, but height and width give {found:.3g}", ratio=ratio, found=height / width)
         ratio = height / width if ratio is None else ratio
     elif ratio is None:
         missing = [name for name, value in (("height", height), ("width", width)) if value is None]
-        raise BodyError(f"there is neither height over width nor height and width: {' and '.join(missing)} empty")
+        raise BodyError("there is neither height over width nor height and width: {missing} empty", missing=missing)
     elif height is not None:
         width = height / ratio
     return Stone(
@@ -236,10 +260,10 @@ def _size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> float |
     unit = units.get(key, "")
     value = parse_length(text + (unit or "m") if bare else text, what=key)
     if not value > 0.0:
-        raise BodyError(f"{key} must be positive, found {text}")
+        raise BodyError("{key} must be positive, found {text}", key=key, text=text)
     if value > LARGEST:
-        remedy = f" (without a unit it means metres: name the column for example {key} (cm))" if bare and not unit else ""
-        raise BodyError(f"{key} of {value:g} m is no gravestone{remedy}")
+        remedy = said(" (without a unit it means metres: name the column for example {key} (cm))", key=key) if bare and not unit else ""
+        raise BodyError("{key} of {value:g} m is no gravestone{remedy}", key=key, value=value, remedy=remedy)
     return value
 
 
@@ -251,7 +275,7 @@ def _number(row: Mapping[str, str], key: str) -> float | None:
     try:
         return float(text)
     except ValueError:
-        raise BodyError(f"{key} must be a number, found {text!r}") from None
+        raise BodyError("{key} must be a number, found {text!r}", key=key, text=text) from None
 
 
 def _count(row: Mapping[str, str]) -> int:
@@ -260,7 +284,7 @@ def _count(row: Mapping[str, str]) -> int:
     if value is None:
         return 1
     if not (1 <= value <= MOST_ALIKE and value == int(value)):
-        raise BodyError(f"count must be a whole number of stones, 1 to {MOST_ALIKE}, found {row['count']}")
+        raise BodyError("count must be a whole number of stones, 1 to {most}, found {count}", most=MOST_ALIKE, count=row["count"])
     return int(value)
 
 
@@ -271,7 +295,7 @@ def _truth(row: Mapping[str, str], key: str) -> bool | None:
     if not text:
         return None
     if text.casefold() not in yes | no:
-        raise BodyError(f"{key} must be {expected}, found {text!r}")
+        raise BodyError("{key} must be {expected}, found {text!r}", key=key, expected=said(expected), text=text)
     return text.casefold() in yes
 
 
@@ -280,4 +304,4 @@ def _others(lines: Sequence[int]) -> str:
     if not lines:
         return ""
     named = ", ".join(map(str, lines[:MOST_NAMED])) + (" ..." if len(lines) > MOST_NAMED else "")
-    return f" (and {len(lines)} more bad rows: lines {named})"
+    return said(" (and {count} more bad rows: lines {lines})", count=len(lines), lines=named)

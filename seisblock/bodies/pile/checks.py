@@ -8,6 +8,7 @@ from typing import Protocol
 
 from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone
 from seisblock.errors import BodyError
+from seisblock.words import noted, said
 
 
 class Standing(Protocol):
@@ -50,24 +51,33 @@ def check_pile(pile: Standing) -> None:
 def _check_names(pile: Standing) -> None:
     """Refuse a pile whose names do not say what stands on what."""
     if not pile.stones:
-        raise BodyError(f"the pile {pile.name} has no stones: give at least one")
+        raise BodyError("the pile {name} has no stones: give at least one", name=pile.name)
     if not pile.mu >= 0.0:
-        raise BodyError(f"friction of the pile {pile.name} must be zero or more, found {pile.mu}")
+        raise BodyError("friction of the pile {name} must be zero or more, found {mu}", name=pile.name, mu=pile.mu)
     seen: set[str] = set()
     for stone in pile.stones:
         if stone.name in seen or stone.name == GROUND:
-            raise BodyError(f"two stones of the pile {pile.name} are called {stone.name}: give each its own name")
+            raise BodyError("two stones of the pile {pile} are called {name}: give each its own name", pile=pile.name, name=stone.name)
         if stone.on != GROUND and stone.on not in seen:
             raise BodyError(
-                f"the stone {stone.name} stands on {stone.on!r}, which is not before it in the list: {', '.join([GROUND, *sorted(seen)])}"
+                "the stone {name} stands on {on!r}, which is not before it in the list: {known}",
+                name=stone.name,
+                on=stone.on,
+                known=[GROUND, *sorted(seen)],
             )
         seen.add(stone.name)
-    for what, names in (("dowel", [n for group in pile.dowels for n in group]), ("fixed stone", list(pile.fixed))):
+    for what, names in ((noted("dowel"), [n for group in pile.dowels for n in group]), (noted("fixed stone"), list(pile.fixed))):
         for name in names:
             if name not in seen:
-                raise BodyError(f"the {what} names {name!r}, but the pile {pile.name} has {', '.join(pile.names)}")
+                raise BodyError(
+                    "the {what} names {name!r}, but the pile {pile} has {names}",
+                    what=said(what),
+                    name=name,
+                    pile=pile.name,
+                    names=list(pile.names),
+                )
     if all(name in pile.fixed for name in pile.names):
-        raise BodyError(f"every stone of the pile {pile.name} is fixed: leave at least one free")
+        raise BodyError("every stone of the pile {name} is fixed: leave at least one free", name=pile.name)
 
 
 def _check_overlaps(pile: Standing) -> None:
@@ -75,19 +85,28 @@ def _check_overlaps(pile: Standing) -> None:
     centres = pile.centres()
     for i, (a, stone) in enumerate(zip(centres, pile.stones, strict=True)):
         if a[2] - 0.5 * stone.height < -TOUCHING:
-            raise BodyError(f"the stone {stone.name} reaches {0.5 * stone.height - a[2]:.4g} m into the ground: raise its bottom to 0")
+            raise BodyError(
+                "the stone {name} reaches {depth:.4g} m into the ground: raise its bottom to 0",
+                name=stone.name,
+                depth=0.5 * stone.height - a[2],
+            )
         for j in range(i):
             other = pile.stones[j]
             inside = min(0.5 * (stone.size[k] + other.size[k]) - abs(a[k] - centres[j][k]) for k in range(3))
             if inside > TOUCHING:
-                raise BodyError(f"the stones {other.name} and {stone.name} overlap by {inside:.4g} m: move one of them")
+                raise BodyError(
+                    "the stones {one} and {other} overlap by {inside:.4g} m: move one of them",
+                    one=other.name,
+                    other=stone.name,
+                    inside=inside,
+                )
 
 
 def _check_floating(pile: Standing, joints: list[Joint]) -> None:
     """Refuse a stone under which there is nothing."""
     for i, stone in enumerate(pile.stones):
         if stone.name not in pile.fixed and not any(joint.upper == i for joint in joints):
-            raise BodyError(f"the stone {stone.name} floats: no stone and no ground touches its lower face")
+            raise BodyError("the stone {name} floats: no stone and no ground touches its lower face", name=stone.name)
 
 
 def _check_dowels(pile: Standing, joints: list[Joint]) -> None:
@@ -96,13 +115,13 @@ def _check_dowels(pile: Standing, joints: list[Joint]) -> None:
     used: set[str] = set()
     for group in pile.dowels:
         if len(group) < 2:
-            raise BodyError(f"a dowel holds at least two stones together, found only {', '.join(group) or 'none'}")
+            raise BodyError("a dowel holds at least two stones together, found only {group}", group=list(group) or said("none"))
         for lower, upper in pairwise(group):
             if frozenset((pile.names.index(lower), pile.names.index(upper))) not in touching:
-                raise BodyError(f"the dowel between {lower} and {upper} holds nothing: these stones do not touch")
+                raise BodyError("the dowel between {lower} and {upper} holds nothing: these stones do not touch", lower=lower, upper=upper)
         twice = used & set(group)
         if twice:
-            raise BodyError(f"the stone {min(twice)} is in two dowels: name all stones it is held to in one")
+            raise BodyError("the stone {name} is in two dowels: name all stones it is held to in one", name=min(twice))
         used |= set(group)
 
 
@@ -120,8 +139,12 @@ def _check_balance(pile: Standing, joints: list[Joint]) -> None:
             if not low < at < high:
                 name = pile.stones[min(supports, key=lambda joint: joint.height).upper].name
                 raise BodyError(
-                    f"the pile {pile.name} is unstable at rest: the stone {name}, with what it carries, has its centre of gravity "
-                    f"{max(low - at, at - high):.4g} m outside what it stands on, along {'xy'[axis]}"
+                    "the pile {pile} is unstable at rest: the stone {name}, with what it carries, has its centre of gravity "
+                    "{depth:.4g} m outside what it stands on, along {axis}",
+                    pile=pile.name,
+                    name=name,
+                    depth=max(low - at, at - high),
+                    axis="xy"[axis],
                 )
 
 

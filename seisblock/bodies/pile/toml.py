@@ -11,6 +11,7 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import GRANITE, GROUND, PileStone
 from seisblock.bodies.toml import length, lengths, number, of_kind, read_table, refuse_unknown, source_of, text, text_groups, texts
 from seisblock.errors import BodyError
+from seisblock.words import said
 
 MOST_STONES = 200
 """Stones of the largest pile that is taken for what was meant: every pair of them is looked at."""
@@ -49,18 +50,18 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     refuse_unknown(table, _PILE_KEYS)
     entries = table.get("stone")
     if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
-        raise BodyError(f"{source}: a pile needs at least one [[stone]] table")
+        raise BodyError("{source}: a pile needs at least one [[stone]] table", source=source)
     if len(entries) > MOST_STONES:
         raise BodyError("{source}: {count} stones, and a pile has at most {most}", source=source, count=len(entries), most=MOST_STONES)
     stones: list[PileStone] = []
     for rank, entry in enumerate(entries, start=1):
         below = stones[-1].name if stones else GROUND
-        stones.append(_stone({**entry, "source": f"{source}: stone {rank}"}, below, table))
+        stones.append(_stone({**entry, "source": said("{source}: stone {number}", source=source, number=rank)}, below, table))
     if mu is not None:
         stones = [replace(stone, mu=None) for stone in stones]
     dowels = text_groups(table, "reinforced")
     if reinforced and not dowels:
-        raise BodyError(f"{source} has no dowels: add reinforced = [[name, name]] to the file, or leave --reinforced out")
+        raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or leave --reinforced out", source=source)
     own = number(table, "mu")
     friction = mu if mu is not None else Pile.mu if own is None else own
     return Pile(text(table, "name", Path(source).stem), tuple(stones), dowels if reinforced else (), texts(table, "fixed"), friction)
@@ -70,7 +71,7 @@ def _stone(entry: Mapping[str, Any], below: str, table: Mapping[str, Any]) -> Pi
     """Return one stone of a file."""
     refuse_unknown(entry, _STONE_KEYS)
     if not isinstance(entry.get("name"), str):
-        raise BodyError(f"{entry['source']}: name is missing")
+        raise BodyError("{source}: name is missing", source=entry["source"])
     x, y = lengths(entry, "offset", 2) if "offset" in entry else (0.0, 0.0)
     own, common = number(entry, "density"), number(table, "density")
     return PileStone(

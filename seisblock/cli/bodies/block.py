@@ -10,6 +10,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.library import block_of, edges, restitution_of
 from seisblock.bodies.toml import read_table
 from seisblock.errors import BodyError
+from seisblock.words import said
 
 
 @dataclass(frozen=True)
@@ -40,20 +41,20 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
     restitution = asked.get("restitution")
     if asked.get("block"):
         if sizes:
-            raise BodyError(f"give either --block or sizes (--{', --'.join(key.replace('_', '-') for key in sizes)}), not both")
+            raise BodyError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
         table = read_table(asked["block"])
         if restitution is None:
             restitution = restitution_of(table, asked["block"])
         block = block_of(table, side=asked.get("side") or "short")
-        origin = f"{block.name}, from {asked['block']}"
+        origin = said("{name}, from {file}", name=said(block.name), file=asked["block"])
     else:
         missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
         if missing:
             raise BodyError(
-                f"which block? {' and '.join(missing)} missing: give --width and --height, or --block NAME|FILE (say gravestone)"
+                "which block? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
             )
         block = Block(**sizes)
-        origin = f"block {block.width:g} m wide, {block.height:g} m high"
+        origin = said("block {width:g} m wide, {height:g} m high", width=block.width, height=block.height)
     if asked.get("inset") is not None:
         block = block.worn(asked["inset"])
-    return BlockChoice(block, restitution, ", ".join(part for part in (origin, edges(block)) if part))
+    return BlockChoice(block, restitution, said("{parts}", parts=[part for part in (origin, edges(block)) if part]))

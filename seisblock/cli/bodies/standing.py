@@ -15,6 +15,7 @@ from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import option
 from seisblock.cli.types import LENGTH
 from seisblock.errors import BodyError
+from seisblock.words import said
 
 
 @dataclass(frozen=True)
@@ -80,20 +81,22 @@ def choose_standing(asked: Mapping[str, Any]) -> StandingChoice:
         If the body is not known, or nothing says how rough the ground is.
     """
     chosen = choose_block({**asked, "restitution": None})
-    mu, kinetic, origin = asked.get("mu"), asked.get("mu_kinetic"), "as given"
+    mu, kinetic, origin = asked.get("mu"), asked.get("mu_kinetic"), said("as given")
     if asked.get("surface"):
         if mu is not None:
             raise BodyError("give either --mu or --surface, not both")
         found = surface(asked["surface"])
         mu, kinetic = found.mu, found.mu_kinetic if kinetic is None else kinetic
-        origin = f"{asked['surface']}, {found.source.replace('_', '')}" + (f": {found.note}" if found.note else "")
+        origin = said("{surface}, {source}", surface=asked["surface"], source=found.source.replace("_", ""))
+        origin = said("{what}: {note}", what=origin, note=said(found.note)) if found.note else origin
     elif mu is None and asked.get("block"):
         mu, own = friction_of(read_table(asked["block"]), asked["block"])
         kinetic = own if kinetic is None else kinetic
-        origin = f"from {asked['block']}"
+        origin = said("from {file}", file=asked["block"])
     if mu is None:
         raise BodyError(
-            "how rough is it under the body? Give --mu, the static friction coefficient, or --surface with a pair: " + ", ".join(SURFACES)
+            "how rough is it under the body? Give --mu, the static friction coefficient, or --surface with a pair: {pairs}",
+            pairs=list(SURFACES),
         )
-    told = f"mu {mu:g}" + ("" if kinetic is None else f", kinetic {kinetic:g}")
-    return StandingChoice(chosen.block, mu, kinetic, f"{chosen.says}; {told} ({origin})")
+    told = said("mu {mu:g}", mu=mu) if kinetic is None else said("mu {mu:g}, kinetic {kinetic:g}", mu=mu, kinetic=kinetic)
+    return StandingChoice(chosen.block, mu, kinetic, said("{body}; {friction} ({origin})", body=chosen.says, friction=told, origin=origin))

@@ -9,6 +9,7 @@ from typing import Any
 from seisblock.bodies.toml import read_table
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact, two_layer_block
 from seisblock.errors import BodyError
+from seisblock.words import said
 
 _CONTACT = ("mu", "mu_kinetic", "restitution_x", "restitution_y")
 
@@ -41,31 +42,37 @@ def two_layer_choice(asked: Mapping[str, Any], *, default: str) -> TwoLayerChoic
     sizes = {key: asked.get(key) for key in ("width", "heights", "masses")}
     given = [key for key, value in sizes.items() if value is not None]
     if given and asked.get("block"):
-        raise BodyError(f"give either --block or sizes (--{', --'.join(given)}), not both")
+        raise BodyError("give either --block or sizes ({given}), not both", given=[f"--{name}" for name in given])
     preset: Mapping[str, float] = {}
     if given:
         block = _from_sizes(asked, sizes)
-        origin = "sizes as given"
+        origin = said("sizes as given")
     else:
         name = asked.get("block") or default
         table = read_table(name)
         block, preset = two_layer_block(table, asked.get("side") or "short"), contact(table)
-        origin = f"from {name}" + ("" if asked.get("block") else " (the default)")
+        origin = said("from {file}", file=name) if asked.get("block") else said("from {file} (the default)", file=name)
     values = {**preset, **{key: asked[key] for key in _CONTACT if asked.get(key) is not None}}
     if "mu" not in values:
         raise BodyError("{name} brings no friction of its own: give --mu", name=block.name)
     met = Contact(**values)
-    told = f"mu {met.mu:g}, mu kinetic {met.kinetic:g}, restitution x {met.restitution_x:g}, restitution y {met.restitution_y:g}"
-    return TwoLayerChoice(block, met, f"{origin}; {told}")
+    told = said(
+        "mu {mu:g}, mu kinetic {kinetic:g}, restitution x {x:g}, restitution y {y:g}",
+        mu=met.mu,
+        kinetic=met.kinetic,
+        x=met.restitution_x,
+        y=met.restitution_y,
+    )
+    return TwoLayerChoice(block, met, said("{origin}; {values}", origin=origin, values=told))
 
 
 def _from_sizes(asked: Mapping[str, Any], sizes: Mapping[str, Any]) -> TwoLayerBlock:
     """Return a block from sizes given one by one."""
     missing = [f"--{key}" for key, value in sizes.items() if value is None]
     if missing:
-        raise BodyError(f"a block given by its sizes also needs {', '.join(missing)}")
+        raise BodyError("a block given by its sizes also needs {missing}", missing=missing)
     for key in ("heights", "masses"):
         if len(sizes[key]) != 2:
-            raise BodyError(f"--{key} takes two values, upper and lower layer, found {len(sizes[key])}")
+            raise BodyError("--{key} takes two values, upper and lower layer, found {count}", key=key, count=len(sizes[key]))
     width, depth = sizes["width"], asked.get("depth")
     return TwoLayerBlock(width, width if depth is None else depth, *sizes["heights"], *sizes["masses"])

@@ -43,7 +43,7 @@ def kinds_of(command: str) -> list[Kind]:
         If it answers with none.
     """
     if command not in KINDS:
-        raise ParameterError(f"{command!r} answers with no document; those that do are {', '.join(KINDS)}")
+        raise ParameterError("{command!r} answers with no document; those that do are {known}", command=command, known=list(KINDS))
     pairs = (name.split(":") for name in KINDS[command])
     return [getattr(importlib.import_module(f"{__package__}.{module}"), attribute) for module, attribute in pairs]
 

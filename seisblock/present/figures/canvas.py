@@ -187,7 +187,7 @@ def save(figure: Figure, path: Path | str) -> None:
     """
     target = Path(path)
     if target.suffix.lower() not in SUFFIXES:
-        raise OutputError(f"cannot draw {target}: the name must end in {', '.join(SUFFIXES)}")
+        raise OutputError("cannot draw {target}: the name must end in {suffixes}", target=target, suffixes=list(SUFFIXES))
     with replacing(target) as temporary:
         figure.savefig(temporary, format=target.suffix[1:].lower(), dpi=figure.dpi)
 

@@ -54,6 +54,6 @@ def _column(panels: Sequence[Any], response: Response[JumpOutcome], *, gal: bool
     for panel in panels:
         canvas.shade(panel, response.phases, COLOURS, names=panel is panels[0])
     canvas.legend(panels[0])
-    canvas.panel_title(panels[0], f"{motion.name}: {tell(response.body.name)}")
+    canvas.panel_title(panels[0], tell("{name}: {what}", name=motion.name, what=tell(response.body.name)))
     for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), *map(tell, QUANTITIES)), strict=True):
         canvas.label(panel, y=text)

@@ -79,7 +79,7 @@ def _ground(axis: Axes, response: Response[RespondOutcome], *, gal: bool) -> Non
     axis.set_ylim(-1.15 * reach, 1.15 * reach)
     canvas.label(axis, y=f"a ({name})")
     canvas.legend(axis)
-    title = f"{response.motion.name}  {tell(block.name)}: {tell(response.outcome.outcome)}"
+    title = f"{response.motion.name}  " + tell("{name}: {what}", name=tell(block.name), what=tell(response.outcome.outcome))
     canvas.panel_title(axis, title)
 
 

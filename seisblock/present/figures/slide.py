@@ -48,7 +48,7 @@ def _column(panels: Sequence[Any], response: Response[SlideOutcome], *, gal: boo
     for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), tell("velocity (m/s)"), tell("x − z (mm)")), strict=True):
         canvas.label(panel, y=text)
         canvas.legend(panel)
-    canvas.panel_title(top, f"{response.motion.name}: {setting(response)}")
+    canvas.panel_title(top, tell("{name}: {what}", name=response.motion.name, what=setting(response)))
 
 
 def stretch(response: Response[SlideOutcome]) -> Stretch:

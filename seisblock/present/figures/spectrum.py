@@ -37,7 +37,7 @@ def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
         axis.grid(False)
         canvas.label(axis, tell("α (degrees)"), "2R (m)" if axis is axes[0] else "")
         top = axis.secondary_xaxis("top", functions=(_height_over_width, _degrees))
-        top.set_xlabel("H/B", fontsize=8)
+        top.set_xlabel(tell("H/B"), fontsize=8)
         top.set_xticks([k for k in (1.5, 2, 3, 4, 6, 10) if _degrees(k) >= x.min() and _degrees(k) <= x.max()])
         top.tick_params(labelsize=7)
     if shaded is not None:

@@ -105,7 +105,7 @@ def animate(frames: Iterable[Image.Image], path: Path | str, *, fps: int = FRAME
     writers = {".gif": _write_gif, ".mp4": _write_mp4, ".html": _write_html}
     writer = writers.get(target.suffix.lower())
     if writer is None:
-        raise OutputError(f"cannot animate {target}: the name must end in {', '.join(SUFFIXES)}")
+        raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=target, suffixes=list(SUFFIXES))
     with replacing(target) as temporary:
         writer(frames, temporary, fps)
 
@@ -126,7 +126,7 @@ def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
     """Pipe the pictures through ffmpeg."""
     program = shutil.which("ffmpeg")
     if program is None:
-        raise OutputError(f"cannot write {path.suffix}: ffmpeg is not installed; write a .gif or a .html instead")
+        raise OutputError("cannot write {suffix}: ffmpeg is not installed; write a .gif or a .html instead", suffix=path.suffix)
     pictures = iter(frames)
     first = next(pictures)
     width, height = (size - size % 2 for size in first.size)
@@ -164,8 +164,8 @@ def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
             pass
         said = process.stderr.read().decode(errors="replace").strip()
         if process.wait() != 0 or said or not _is_whole_mp4(path):
-            reason = said.splitlines()[-1] if said else "the file is not whole; is the disk full?"
-            raise OutputError(f"ffmpeg could not write the animation: {reason}")
+            reason = said.splitlines()[-1] if said else tell("the file is not whole; is the disk full?")
+            raise OutputError("ffmpeg could not write the animation: {reason}", reason=reason)
 
 
 def _is_whole_mp4(path: Path) -> bool:

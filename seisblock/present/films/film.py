@@ -12,6 +12,7 @@ from seisblock.measures import ground_history
 from seisblock.records import Motion
 from seisblock.results import Phase
 from seisblock.typing import FloatArray
+from seisblock.words import tell
 
 Box = tuple[float, float, float, float]
 """Left, right, bottom, top, m."""
@@ -131,6 +132,11 @@ class Film:
 
 Build = Callable[[FloatArray], Film]
 """Makes the film for the times of its pictures."""
+
+
+def titled(motion: str, body: str, what: str) -> str:
+    """Return what a film is about, told: the direction of the record, the body, and what becomes of it."""
+    return f"{motion}  " + tell("{name}: {what}", name=tell(body), what=tell(what))
 
 
 def turned(points: FloatArray, angle: float) -> FloatArray:

@@ -9,7 +9,7 @@ import numpy as np
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.present.figures.jump import COLOURS
 from seisblock.present.films.animation import Filming
-from seisblock.present.films.film import Body, Box, Film, Piece, Strip, Trail, at, ground_shift, rectangle, stretch
+from seisblock.present.films.film import Body, Box, Film, Piece, Strip, Trail, at, ground_shift, rectangle, stretch, titled
 from seisblock.present.films.projector import animate_film
 from seisblock.results import Response
 from seisblock.solvers.jump.solve import JumpOutcome
@@ -40,7 +40,7 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray) -> Film:
     rise = (response["height"] - block.centroid_height) * 1e3
     level = response.outcome.rocking_threshold_m_s2 * 100.0
     return Film(
-        title=f"{motion.name}  {tell(block.name)}: {tell(response.outcome.outcome)}",
+        title=titled(motion.name, block.name, response.outcome.outcome),
         time=times,
         shift=ground_shift(motion, times),
         bodies=(body,),

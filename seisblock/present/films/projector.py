@@ -39,7 +39,7 @@ def animate_film(build: Build, span: tuple[float, float], path: Path | str, film
     """
     target = Path(path)
     if target.suffix.lower() not in animation.SUFFIXES:
-        raise OutputError(f"cannot animate {target}: the name must end in {', '.join(animation.SUFFIXES)}")
+        raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=target, suffixes=list(animation.SUFFIXES))
     if target.suffix.lower() == ".html":
         count = int(min(max((span[1] - span[0]) * PAGE_RATE, 2), MOST_MOMENTS)) + 1
         write_text(target, film_page(build(np.linspace(*span, count)), filming))

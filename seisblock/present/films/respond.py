@@ -10,13 +10,12 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.present.figures.respond import COLOURS, stretch
 from seisblock.present.films.animation import REAL_TIME, Filming
-from seisblock.present.films.film import Body, Film, Piece, Strip, Trail, at, ground_shift, rectangle
+from seisblock.present.films.film import Body, Film, Piece, Strip, Trail, at, ground_shift, rectangle, titled
 from seisblock.present.films.projector import animate_film
 from seisblock.present.films.rock import corners
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.typing import FloatArray
-from seisblock.words import tell
 
 
 def animate_respond(response: Response[RespondOutcome], path: Path | str, filming: Filming = REAL_TIME) -> None:
@@ -35,7 +34,7 @@ def respond_film(response: Response[RespondOutcome], times: FloatArray) -> Film:
     alpha = math.degrees(block.slenderness)
     wide = 4.0 * math.hypot(block.width, block.height) + 2.0 * outcome.max_displacement_m
     return Film(
-        title=f"{motion.name}  {tell(block.name)}: {tell(outcome.outcome)}",
+        title=titled(motion.name, block.name, outcome.outcome),
         time=times,
         shift=ground_shift(motion, times),
         bodies=(Body((Piece(outline),), block.centroid_offset + x, z, lean),),

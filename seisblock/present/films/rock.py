@@ -11,7 +11,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.present.figures.rock import COLOURS, stretch
 from seisblock.present.films.animation import REAL_TIME, Filming
-from seisblock.present.films.film import Body, Film, Piece, Strip, at, ground_shift, rectangle, turned
+from seisblock.present.films.film import Body, Film, Piece, Strip, at, ground_shift, rectangle, titled, turned
 from seisblock.present.films.projector import animate_film
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
@@ -46,7 +46,7 @@ def rocking_film(response: Response[RockOutcome], times: FloatArray) -> Film:
     alpha = math.degrees(outcome.slenderness_rad)
     wide = 4.0 * math.hypot(block.width, block.height)
     return Film(
-        title=f"{motion.name}  {tell(block.name)}: {tell('overturns') if outcome.overturned else tell('stands')}",
+        title=titled(motion.name, block.name, "overturns" if outcome.overturned else "stands"),
         time=times,
         shift=ground_shift(motion, times),
         bodies=(Body((Piece(outline - outline[0]),), origins[:, 0], origins[:, 1], lean),),

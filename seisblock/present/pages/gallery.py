@@ -130,7 +130,7 @@ def _largest(results: Sequence[CaseResult]) -> str:
     size = f"{short(worst.error, 3)} {worst.case.unit if worst.case.unit != '1' else ''}".strip()
     if math.isfinite(_tolerances(worst)):
         size = tell("{size}, {share:.2g} of its tolerance", size=size, share=_tolerances(worst))
-    return tell("Largest difference: {size}.", size=f"{size} ({worst.case.quantity})" if len(results) > 1 else size)
+    return tell("Largest difference: {size}.", size=f"{size} ({tell(worst.case.quantity)})" if len(results) > 1 else size)
 
 
 def _tolerances(result: CaseResult) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from seisblock.studies.agreement import GRAVESTONES, Agreement, Opinion
 from seisblock.studies.cemetery.models import RateOpinion
 from seisblock.studies.rocking.perturb import Perturbation
-from seisblock.words import noted, tell
+from seisblock.words import noted, strung, tell
 
 LEAST, MOST = 0.03, 0.98
 """Shares of perturbed runs beyond which no share is a chance: of fitted real rocks 3 % fell where no version did, and 2 % stood where
@@ -45,7 +45,7 @@ def agreement_line(name: str, found: Agreement) -> str:
     falling, standing = ([_opinion(o) for o in found.opinions if o.falls is falls] for falls in (True, False))
     told = tell(text, **values, falls=found.falls, falling=falling, standing=standing)
     made = next((opinion for opinion in found.opinions if opinion.made_for_it), None)
-    return told if made is None else f"{told} {_made_for_it(made)}"
+    return told if made is None else strung([told, _made_for_it(made)])
 
 
 def _opinion(opinion: Opinion) -> str:
@@ -75,14 +75,15 @@ def rates_line(name: str, rates: tuple[RateOpinion, ...]) -> str:
         return ""
     told = [tell("{rate:.0%} by the {model}", rate=each.rate, model=tell(each.model)) for each in rates]
     low, high = min(each.rate for each in rates), max(each.rate for each in rates)
-    values = {"name": name, "rates": told, "made": tell(GRAVESTONES)}
+    values = {"rates": told, "made": tell(GRAVESTONES)}
     if low > 0.0:
         text = noted(
-            "{name}: share of the stones that falls: {rates}, {spread:.1f} times as many in one model as in another; the {made} is made "
-            "for them."
+            "share of the stones that falls: {rates}, {spread:.1f} times as many in one model as in another; the {made} is made for them."
         )
-        return tell(text, **values, spread=high / low).lstrip(":： ")
-    return tell("{name}: share of the stones that falls: {rates}; the {made} is made for them.", **values).lstrip(":： ")
+        sentence = tell(text, **values, spread=high / low)
+    else:
+        sentence = tell("share of the stones that falls: {rates}; the {made} is made for them.", **values)
+    return tell("{name}: {text}", name=name, text=sentence) if name else sentence
 
 
 def chance(share: float) -> str:

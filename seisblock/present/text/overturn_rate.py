@@ -75,7 +75,7 @@ def _rates(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence
 
 def _name(each: CemeteryRate) -> str:
     """Return what a row is called."""
-    return f"{each.component} ({tell(each.of)})" if each.of else each.component or ""
+    return f"{tell(each.component or '')} ({each.of})" if each.of else each.component or ""
 
 
 def _ratio(each: CemeteryRate) -> str:
@@ -106,10 +106,11 @@ def _dowels(results: Sequence[CemeteryRate]) -> Iterator[str]:
         after = each.reinforced
         if after is None or each.of:
             continue
-        where = f"{each.component}: " if each.component else f"{number(each.equivalent_frequency_hz, 3)} Hz: "
+        where = each.component or f"{number(each.equivalent_frequency_hz, 3)} Hz"
         low, high = after.rate_interval
-        yield where + tell(
-            "with {reinforced} stones reinforced {fallen} of {stones} fall, {saved} fewer; rate {rate:.2f} ({low:.2f}-{high:.2f})",
+        yield tell(
+            "{where}: with {reinforced} stones reinforced {fallen} of {stones} fall, {saved} fewer; rate {rate:.2f} ({low:.2f}-{high:.2f})",
+            where=where,
             reinforced=after.reinforced_stones,
             fallen=after.fallen,
             stones=each.stones,

@@ -6,13 +6,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from rich.text import Text
-
-from seisblock.present.text.tables import number, record_line, seconds, table
+from seisblock.present.text.tables import line, number, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.probability import Probability
-from seisblock.words import tell
+from seisblock.words import listed, tell
 
 Responds = Sequence[Response[RespondOutcome]]
 
@@ -31,15 +29,15 @@ def tables(responses: Responds, extras: Sequence[Mapping[str, Any]]) -> Iterator
         if record is not None:
             yield record_line(record)
         for response, extra in part:
-            yield Text(verdict(response), style="bold")
+            yield line(verdict(response), "bold")
             if "probability" in extra:
-                yield Text("  " + share(extra["probability"]))
+                yield line("  " + share(extra["probability"]))
             if "directions" in extra:
-                yield Text("  " + around(extra["directions"]))
+                yield line("  " + around(extra["directions"]))
         yield _table([r for r, _ in part])
         if any("probability" in extra for _, extra in part):
-            yield Text(varied(next(extra["probability"] for _, extra in part if "probability" in extra)), style="dim")
-        yield Text()
+            yield line(varied(next(extra["probability"] for _, extra in part if "probability" in extra)), "dim")
+        yield line()
 
 
 def verdict(response: Response[RespondOutcome]) -> str:
@@ -53,7 +51,7 @@ def verdict(response: Response[RespondOutcome]) -> str:
     elif outcome.outcome == "rests":
         words = tell("stands still")
     else:
-        words = tell(", ").join(_stays(response))
+        words = listed(_stays(response))
     flag = tell("; a change of the input by a millionth changes this") if outcome.sensitive else ""
     return tell("{name}: {words}{flag}.", name=name, words=words, flag=flag)
 
@@ -176,7 +174,7 @@ def _table(responses: Responds) -> Any:
     onset = min(options["mu"], ratio) * options["gravity_m_s2"] * 100.0
     title = tell(
         "{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset:.0f} gal",
-        name=block.name,
+        name=tell(block.name),
         ratio=ratio,
         mu=options["mu"],
         kinetic=options["mu_kinetic"],

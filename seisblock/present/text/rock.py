@@ -14,7 +14,7 @@ from seisblock.present.text.tables import acceleration, acceleration_unit, line,
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome, friction_suffices
 from seisblock.studies.rocking.margin import Margin
-from seisblock.words import noted, tell
+from seisblock.words import noted, strung, tell
 
 Rockings = Sequence[Response[RockOutcome]]
 
@@ -83,11 +83,11 @@ def first_line(response: Response[RockOutcome], mu: float | None = None) -> str:
     ratio = outcome.threshold_m_s2 / response.options["gravity_m_s2"]
     if mu < ratio:
         text = noted("With a friction of {mu:g}, less than b/h, {ratio:.3f}, it would slide and not rock: this is not what happens.")
-        return f"{told} {tell(text, mu=mu, ratio=ratio)}"
+        return strung([told, tell(text, mu=mu, ratio=ratio)])
     if outcome.max_friction_demand is None:
-        return f"{told} {tell('It leaves the ground, so that no friction suffices: this is not what happens.')}"
+        return strung([told, tell("It leaves the ground, so that no friction suffices: this is not what happens.")])
     text = noted("That needs a friction of {needed:.2f} at {time:.3f} s, and there is {mu:g}: it would slip while it rocks.")
-    return f"{told} {tell(text, needed=outcome.max_friction_demand, time=outcome.max_friction_demand_s, mu=mu)}"
+    return strung([told, tell(text, needed=outcome.max_friction_demand, time=outcome.max_friction_demand_s, mu=mu)])
 
 
 def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iterator[str]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from rich.padding import Padding
 
-from seisblock.errors import OutputError, RecordNotFoundError
+from seisblock.errors import OutputError, RecordNotFoundError, reason
 from seisblock.present.files import replacing
 from seisblock.present.text.tables import line
 from seisblock.samples import Sample, list_samples, sample_directory
@@ -33,7 +33,7 @@ def chosen(names: Sequence[str]) -> list[Sample]:
         wanted = name.lower()
         hits = [s for s in every if s.name.lower() == wanted] or [s for s in every if s.name.lower().split(".")[0] == wanted]
         if not hits:
-            raise RecordNotFoundError(f"no bundled sample is called {name!r}; there are {', '.join(s.name for s in every)}")
+            raise RecordNotFoundError("no bundled sample is called {name!r}; there are {known}", name=name, known=[s.name for s in every])
         found.update({sample.name: sample for sample in hits})
     return list(found.values()) if names else list(every)
 
@@ -62,17 +62,21 @@ def copy_samples(samples: Sequence[Sample], directory: Path, *, overwrite: bool 
         If the directory is a file, or a file of another content is in the way and `overwrite` is not set.
     """
     if directory.exists() and not directory.is_dir():
-        raise OutputError(f"cannot copy to {directory}: it is a file; give a directory")
+        raise OutputError("cannot copy to {directory}: it is a file; give a directory", directory=directory)
     names = [*((sample.name, sample.name) for sample in samples), (NOTICE, NOTICE_OF_COPIES)]
     pairs = [(sample_directory() / name, directory / there) for name, there in names]
     wanted = [(source, target) for source, target in pairs if not _same(source, target)]
     blocked = [target.name for _, target in wanted if target.exists()]
     if blocked and not overwrite:
-        raise OutputError(f"{directory} already holds another {', '.join(blocked)}: choose another directory, or say --overwrite")
+        raise OutputError(
+            "{directory} already holds another {blocked}: choose another directory, or say --overwrite",
+            directory=directory,
+            blocked=blocked,
+        )
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OutputError(f"cannot make the directory {directory}: {error.strerror}") from error
+        raise OutputError("cannot make the directory {directory}: {reason}", directory=directory, reason=reason(error)) from error
     for source, target in wanted:
         with replacing(target) as temporary:
             temporary.write_bytes(source.read_bytes())

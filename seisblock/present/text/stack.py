@@ -26,7 +26,7 @@ def tables(responses: Stacks, agreements: Sequence[Agreement | None]) -> Iterato
     for heading, (response, found) in under_records(zip(responses, agreements, strict=True), lambda each: each[0].motion.record):
         yield from heading
         columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), tell("slip (mm)"), tell("turn (deg)")]
-        title = f"+x = {response.motion.name}: {tell(response.body.name)}"
+        title = tell("{name}: {what}", name=f"+x = {response.motion.name}", what=tell(response.body.name))
         yield line(verdict(response))
         yield table(title, columns, (_row(stone) for stone in reversed(response.outcome.stones)))
         yield line(books(response))

@@ -75,8 +75,11 @@ class _Line(Text):
         """Return the lines of the text."""
         if not is_wide(self.plain):
             return super().wrap(console, width, **options)
-        parts = self.split("\n", allow_blank=True)
-        lines = Lines(piece for part in parts for piece in part.divide(breaks(part.plain, width)))
+        lines = Lines()
+        for part in self.split("\n", allow_blank=True):
+            first, *others = part.divide(breaks(part.plain, width))
+            # a line that goes on begins with no blank
+            lines.extend([first, *(piece[len(piece) - len(piece.plain.lstrip()) :] for piece in others)])
         for piece in lines:
             piece.rstrip()
         return lines

@@ -8,7 +8,7 @@ from typing import Any
 from seisblock.present.text.tables import fixed, line, seconds, table, under_records
 from seisblock.results import Response
 from seisblock.solvers.uplift.outcome import SMALL, UpliftOutcome
-from seisblock.words import noted, tell
+from seisblock.words import noted, strung, tell
 
 Uplifts = Sequence[Response[UpliftOutcome]]
 
@@ -69,7 +69,8 @@ def sentence(response: Response[UpliftOutcome]) -> str:
         first = tell("{name}: corner {corner} lifts first, at {time:.3f} s", name=name, corner=corners[0], time=outcome.first_uplift_s)
     if not outcome.within_model:
         told = tell(OUTSIDE, small=SMALL)
-        return f"{first}; {told} " + tell("{factor:.3g} times this motion just lifts one.", factor=outcome.uplift_scale)
+        scaled = tell("{factor:.3g} times this motion just lifts one.", factor=outcome.uplift_scale)
+        return strung([tell("{first}; {second}", first=first, second=told), scaled])
     shares = [tell("{share:.1%} on {corners}", share=share, corners=n) for n, share in outcome.share_on_corners.items() if share > 0.0]
     return first + tell(
         "; the highest uplift is {most:.2f} mm. Corners are in the air for {air:.3f} s in {changes} changes of contact ({shares} corners). "

@@ -69,7 +69,7 @@ def explanation(result: CaseResult) -> str:
     """Return why a case differs; or, of one that fails, what was claimed of it."""
     case = result.case
     if result.verdict != "fails":
-        return case.note
+        return tell(case.note)
     if math.isnan(result.computed):
         return tell("it could not be computed")
     if case.status == "holds":
@@ -82,7 +82,7 @@ def explanation(result: CaseResult) -> str:
 def _grid(results: Sequence[CaseResult] = (), *, heading: bool = False) -> Any:
     """Return expected, computed, difference and tolerance, one row per case; columns align from one grid to the next."""
     made = Table(box=None, show_header=heading, pad_edge=False, width=None, expand=True)
-    made.add_column("  " + tell("where"), width=12)
+    made.add_column("  " + tell("where"), width=13)
     made.add_column(tell("quantity"), ratio=1)
     for name, width in ((tell("expected"), 10), (tell("computed"), 10), (tell("error"), 8), (tell("tolerance"), 9)):
         made.add_column(name, width=width, justify="right", overflow="fold")
@@ -94,7 +94,7 @@ def _grid(results: Sequence[CaseResult] = (), *, heading: bool = False) -> Any:
 
 def quantity(result: CaseResult) -> str:
     """Return what is compared, with its unit."""
-    return result.case.quantity + (f" ({result.case.unit})" if result.case.unit not in ("", "1") else "")
+    return tell(result.case.quantity) + (f" ({result.case.unit})" if result.case.unit not in ("", "1") else "")
 
 
 def labelled(result: CaseResult) -> str:

@@ -15,6 +15,7 @@ from seisblock.readers.source import Blob, decode
 from seisblock.records import Component, Record
 from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import said
 
 FORMAT = "AT2"
 _HEADER_LINES = 12
@@ -49,14 +50,21 @@ def read_at2(blob: Blob) -> Record:
     header = " ".join(lines[:clock])
     stated = re.search(r"UNITS?\s*(?:OF|:|=)\s*([A-Za-z/0-9^]+)", header, re.IGNORECASE)
     if stated and stated[1].upper() not in ("G", "G'S", "GS"):
-        raise RecordFormatError(f"{blob.name}: an AT2 file is in g, but its header says {stated[1]!r}: expected an acceleration in g")
+        raise RecordFormatError(
+            "{name}: an AT2 file is in g, but its header says {found!r}: expected an acceleration in g", name=blob.name, found=stated[1]
+        )
     values = _values(blob.name, lines[clock + 1 :], clock + 2)
     if values.size != count:
-        raise RecordFormatError(f"{blob.name}: its header promises {count} samples (NPTS), it holds {values.size}: it is cut or damaged")
+        raise RecordFormatError(
+            "{name}: its header promises {count} samples (NPTS), it holds {found}: it is cut or damaged",
+            name=blob.name,
+            count=count,
+            found=values.size,
+        )
     event, station, direction = _title(lines[1] if clock > 1 else "", blob.basename)
     code, azimuth, sign = orientation(direction)
     metadata: dict[str, object] = {"unit": "g", "event": event or blob.basename, "direction": direction}
-    history = (f"turned the sign of {direction}, which is positive down, to UD, positive up",) if sign < 0 else ()
+    history = (said("turned the sign of {name!r}, which is positive down, to UD, positive up", name=direction),) if sign < 0 else ()
     component = Component(code, sign * values * STANDARD_GRAVITY, azimuth)
     return Record((component,), dt, station=station, source=blob.name, format=FORMAT, history=history, metadata=metadata)
 
@@ -97,16 +105,20 @@ def _clock(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
         if count and interval:
             dt = number(interval)
             if not dt or dt < 0:
-                fail(name, index + 1, f"expected a sampling interval DT above 0, found {interval!r}")
+                fail(name, index + 1, said("expected a sampling interval DT above 0, found {interval!r}", interval=interval))
             return index, int(count), dt
-    raise RecordFormatError(f"{name}: the AT2 header is cut short: no line with NPTS= and DT= among the first {_HEADER_LINES}")
+    raise RecordFormatError(
+        "{name}: the AT2 header is cut short: no line with NPTS= and DT= among the first {count}",
+        name=name,
+        count=_HEADER_LINES,
+    )
 
 
 def _values(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
     """Return the samples, g, row after row."""
     tokens = " ".join(lines).split()
     if not tokens:
-        raise RecordFormatError(f"{name} ends after its header (line {first_line - 1}): there are no samples in it")
+        raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=first_line - 1)
     try:
         values = np.fromiter(map(float, tokens), dtype=np.float64, count=len(tokens))
     except ValueError:
@@ -115,7 +127,7 @@ def _values(name: str, lines: Sequence[str], first_line: int) -> FloatArray:
         for offset, line in enumerate(lines):
             for cell in line.split():
                 if number(cell) is None:
-                    fail(name, first_line + offset, f"expected accelerations in g, found {cell!r}")
+                    fail(name, first_line + offset, said("expected accelerations in g, found {cell!r}", cell=cell))
     return values
 
 

@@ -17,7 +17,7 @@ from seisblock.readers.formats.generic_doubts import doubts_of_file
 from seisblock.readers.naming import normal_unit
 from seisblock.readers.source import LONGEST_SHOWN, Blob
 from seisblock.records import Component, Doubt, Record
-from seisblock.words import said
+from seisblock.words import noted, said
 
 # PICKLE runs whatever the file says; the others have a reader here
 _NOT_TRIED = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "KNET", "GSE1", "GSE2"}
@@ -25,7 +25,7 @@ _CRASHING = {"GSE1", "GSE2"}
 """Formats whose decoder in obspy ends the process (segmentation fault) on a damaged file."""
 
 _GSE = re.compile(rb"^WID[12] ", re.MULTILINE)
-_KNOWN = "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, a plain table, a bundle of those, nor a waveform format of obspy"
+_KNOWN = noted("JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, a plain table, a bundle of those, nor a waveform format of obspy")
 _LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
 
 
@@ -61,10 +61,12 @@ def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) 
         traces, warned = _traces(blob.name, path, name)
     doubts = doubts_of_file(blob.data, name, traces, warned)
     if units is None:
-        raise UnitError(f"{blob.name} is a {name} file, which does not say the unit of its samples: give --units gal|m/s2|g")
+        raise UnitError(
+            "{name} is a {format} file, which does not say the unit of its samples: give --units gal|m/s2|g", name=blob.name, format=name
+        )
     unit = normal_unit(units)
     if unit is None:
-        raise UnitError(f"unknown unit of acceleration {units!r}: give gal, m/s2 or g")
+        raise UnitError("unknown unit of acceleration {units!r}: give gal, m/s2 or g", units=units)
     traces.reverse()
     # one by one out of the list: obspy's samples go as ours come
     return [_record(blob.name, traces.pop(), name, unit, doubts) for _ in range(len(traces))]
@@ -88,7 +90,7 @@ def _recognise(name: str, path: Path) -> str:
     with path.open("rb") as file:
         if is_gse(file.read(4096)):
             _refuse(name, "GSE")
-    raise RecordFormatError(f"{name} is in no format known here: not {_KNOWN}")
+    raise RecordFormatError("{name} is in no format known here: not {known}", name=name, known=said(_KNOWN))
 
 
 def _refuse(name: str, waveform: str) -> NoReturn:
@@ -110,7 +112,11 @@ def _traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[str]]
         _refuse(name, waveform)
     if waveform not in ENTRY_POINTS["waveform"] or waveform == "PICKLE":
         usable = ", ".join(sorted(set(ENTRY_POINTS["waveform"]) - _CRASHING - {"PICKLE"}))
-        raise ParameterError(f"unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSV, or OBSPY: and one of {usable}")
+        raise ParameterError(
+            "unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSV, or OBSPY: and one of {usable}",
+            waveform=waveform,
+            usable=usable,
+        )
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", UserWarning)
@@ -119,7 +125,7 @@ def _traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[str]]
         why = " ".join(str(error).split())[:LONGEST_SHOWN] or type(error).__name__
         raise RecordFormatError("{name}: obspy cannot read it as {format} ({why})", name=name, format=waveform, why=why) from error
     if not stream:
-        raise RecordFormatError(f"{name}: obspy finds no samples in it")
+        raise RecordFormatError("{name}: obspy finds no samples in it", name=name)
     return list(stream), [str(warning.message) for warning in caught if issubclass(warning.category, UserWarning)]
 
 
@@ -129,12 +135,18 @@ def _record(name: str, trace: Any, waveform: str, unit: str, doubts: tuple[Doubt
 
     stats = trace.stats
     if np.ma.is_masked(trace.data):
-        raise RecordFormatError(f"{name}: channel {trace.id} has gaps: cut the record to a stretch without")
+        raise RecordFormatError("{name}: channel {channel} has gaps: cut the record to a stretch without", name=name, channel=trace.id)
     if trace.data.dtype.kind not in "iuf":
-        raise RecordFormatError(f"{name}: channel {trace.id} holds text, not samples")
+        raise RecordFormatError("{name}: channel {channel} holds text, not samples", name=name, channel=trace.id)
     values = np.asarray(trace.data, dtype=np.float64)
     if values.size < 2 or not stats.delta > 0:
-        raise RecordFormatError(f"{name}: channel {trace.id} holds {values.size} samples at an interval of {stats.delta} s: no waveform")
+        raise RecordFormatError(
+            "{name}: channel {channel} holds {count} samples at an interval of {dt} s: no waveform",
+            name=name,
+            channel=trace.id,
+            count=values.size,
+            dt=stats.delta,
+        )
     metadata: dict[str, object] = {"unit": unit, "channel": trace.id}
     if stats.calib != 1.0:
         text = said(

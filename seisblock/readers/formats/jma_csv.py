@@ -89,7 +89,9 @@ def _read_header(name: str, lines: list[str]) -> tuple[dict[str, tuple[int, str]
         elif len({code_of(cell) for cell in line.split(",")} & set(_CODES)) >= 2:
             return header, index
     count = sum(1 for line in lines[:_HEADER_LINES] if line.strip())
-    raise RecordFormatError(f"{name}: the JMA header is cut short: {count} lines, none of which names the components (NS,EW,UD)")
+    raise RecordFormatError(
+        "{name}: the JMA header is cut short: {count} lines, none of which names the components (NS,EW,UD)", name=name, count=count
+    )
 
 
 def _columns(name: str, line: int, names: list[str]) -> dict[str, int]:
@@ -98,7 +100,7 @@ def _columns(name: str, line: int, names: list[str]) -> dict[str, int]:
     for index, written in enumerate(names):
         code = code_of(written)
         if code not in _CODES or code in columns:
-            fail(name, line, f"expected the components NS, EW and UD once each, found {', '.join(repr(n) for n in names)}")
+            fail(name, line, said("expected the components NS, EW and UD once each, found {names}", names=[repr(n) for n in names]))
         columns[code] = index
     return columns
 
@@ -108,7 +110,9 @@ def _value(name: str, header: dict[str, tuple[int, str]], *keys: str) -> tuple[i
     for key in keys:
         if key in header:
             return header[key][0], header[key][1].rstrip(", ")
-    raise RecordFormatError(f"{name}: the JMA header has no {keys[0]!r} line: it is cut short, or this is not a JMA file")
+    raise RecordFormatError(
+        "{name}: the JMA header has no {key!r} line: it is cut short, or this is not a JMA file", name=name, key=keys[0]
+    )
 
 
 def _rate(name: str, header: dict[str, tuple[int, str]]) -> float:
@@ -117,7 +121,7 @@ def _rate(name: str, header: dict[str, tuple[int, str]]) -> float:
     match = re.match(r"([\d.]+)\s*(?:Hz)?\s*\Z", text, re.IGNORECASE)
     rate = number(match[1]) if match else None
     if not rate:
-        fail(name, line, f"expected a sampling rate such as 100Hz, found {text!r}")
+        fail(name, line, said("expected a sampling rate such as 100Hz, found {text!r}", text=text))
     return rate
 
 
@@ -126,7 +130,7 @@ def _unit(name: str, header: dict[str, tuple[int, str]]) -> str:
     line, text = _value(name, header, "UNIT")
     unit = normal_unit(text.split("(")[0]) or normal_unit(text.partition("(")[2].rstrip(") "))
     if unit is None:
-        raise UnitError(f"{name}, line {line}: unknown unit {text!r}: expected gal(cm/s/s)")
+        raise UnitError("{name}, line {line}: unknown unit {text!r}: expected gal(cm/s/s)", name=name, line=line, text=text)
     return unit
 
 
@@ -140,7 +144,7 @@ def _start(name: str, header: dict[str, tuple[int, str]]) -> datetime:
         year += 0 if year > 99 else 1900 if year >= 70 else 2000
         return datetime(year, month, day, hour, minute, tzinfo=UTC) + timedelta(seconds=second) - JST
     except (ValueError, IndexError, OverflowError):
-        fail(name, line, f"expected a time such as 2016 04 16 01 25 00, found {text!r}")
+        fail(name, line, said("expected a time such as 2016 04 16 01 25 00, found {text!r}", text=text))
 
 
 def _site(text: str) -> tuple[str, dict[str, object]]:

@@ -87,11 +87,11 @@ def read_knet(blob: Blob) -> Record:
     start = time_in_japan(values[RECORD_TIME])
     scale = re.fullmatch(r"([\d.]+)\s*\(gal\)\s*/\s*([\d.]+)", values[SCALE], re.IGNORECASE)
     if not rate or rate < 0:
-        fail(blob.name, RATE + 1, f"expected a sampling frequency such as 100Hz, found {values[RATE]!r}")
+        fail(blob.name, RATE + 1, said("expected a sampling frequency such as 100Hz, found {text!r}", text=values[RATE]))
     if start is None:
-        fail(blob.name, RECORD_TIME + 1, f"expected a time such as 2016/04/16 01:25:15, found {values[RECORD_TIME]!r}")
+        fail(blob.name, RECORD_TIME + 1, said("expected a time such as 2016/04/16 01:25:15, found {text!r}", text=values[RECORD_TIME]))
     if scale is None or not float(scale[2]):
-        fail(blob.name, SCALE + 1, f"expected a scale factor such as 3920(gal)/6182761, found {values[SCALE]!r}")
+        fail(blob.name, SCALE + 1, said("expected a scale factor such as 3920(gal)/6182761, found {text!r}", text=values[SCALE]))
     counts = _counts(blob.name, values, lines)
     doubts = _check_length(blob.name, counts.size, values[DURATION], rate)
     # one correctly rounded division: counts and factors are whole numbers
@@ -117,9 +117,13 @@ def _header(name: str, lines: Sequence[str]) -> list[str]:
         line = lines[index] if index < len(lines) else ""
         if not line.startswith(label.split("|")[0]):
             wanted = label.replace("|", "")
-            found = f"found {line.strip()[:40]!r}" if line.strip() else "the file ends"
+            found = said("found {text!r}", text=line.strip()[:40]) if line.strip() else said("the file ends")
             raise RecordFormatError(
-                f"{name}, line {index + 1}: expected {wanted!r}, {found}: a K-NET header has 17 lines, this one is cut or damaged"
+                "{name}, line {line}: expected {wanted!r}, {found}: a K-NET header has 17 lines, this one is cut or damaged",
+                name=name,
+                line=index + 1,
+                wanted=wanted,
+                found=found,
             )
         values.append(line[18:].strip())
     return values
@@ -131,7 +135,7 @@ def _direction(name: str, text: str) -> tuple[str, str]:
         return _CHANNELS[text], "borehole" if text in "123" else "surface"
     code = code_of(text)
     if code not in ("NS", "EW", "UD"):
-        fail(name, DIRECTION + 1, f"expected a direction N-S, E-W, U-D or 1 to 6, found {text!r}")
+        fail(name, DIRECTION + 1, said("expected a direction N-S, E-W, U-D or 1 to 6, found {text!r}", text=text))
     return code, ""
 
 
@@ -139,7 +143,7 @@ def _counts(name: str, values: Sequence[str], lines: Sequence[str]) -> FloatArra
     """Return the counts as obspy decodes them."""
     body = lines[len(_LABELS) :]
     if not any(line.strip() for line in body):
-        raise RecordFormatError(f"{name} ends after its header (line {len(_LABELS)}): there are no samples in it")
+        raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=len(_LABELS))
     import obspy  # lazily: it takes longer to import than to read
 
     text = "\n".join([*_canonical(values), *body])
@@ -147,7 +151,7 @@ def _counts(name: str, values: Sequence[str], lines: Sequence[str]) -> FloatArra
         counts = np.asarray(obspy.read(io.BytesIO(text.encode("ascii", "replace")), format="KNET")[0].data, dtype=np.float64)
     except (ValueError, IndexError, TypeError) as error:
         _name_the_line(name, body)
-        raise RecordFormatError(f"{name}: obspy cannot decode this K-NET file ({error})") from error
+        raise RecordFormatError("{name}: obspy cannot decode this K-NET file ({error})", name=name, error=error) from error
     if not (np.abs(counts) < LARGEST_COUNT).all():
         _name_the_line(name, body)
     return counts
@@ -171,7 +175,7 @@ def _name_the_line(name: str, body: Sequence[str]) -> None:
         for cell in line.split():
             value = number(cell)
             if value is None or not abs(value) < LARGEST_COUNT:
-                fail(name, len(_LABELS) + 1 + offset, f"expected counts, found {cell!r}")
+                fail(name, len(_LABELS) + 1 + offset, said("expected counts, found {cell!r}", cell=cell))
 
 
 def _check_length(name: str, count: int, text: str, rate: float) -> tuple[Doubt, ...]:

@@ -39,7 +39,9 @@ def read_knet_csv(blob: Blob) -> list[Record]:
     header = [line.lstrip("#").strip() for line in lines[:body]]
     names_at = next((i for i in range(body - 1, -1, -1) if ",RelativeTime" in header[i]), None)
     if names_at is None:
-        raise RecordFormatError(f"{blob.name}: the K-NET CSV header is cut short: no line names the columns (#Time,RelativeTime(s),...)")
+        raise RecordFormatError(
+            "{name}: the K-NET CSV header is cut short: no line names the columns (#Time,RelativeTime(s),...)", name=blob.name
+        )
     names = [cell.strip() for cell in header[names_at].split(",")]
     sensors = _sensors(blob.name, names)
     clock = next(i for i, name in enumerate(names) if name.startswith("RelativeTime"))
@@ -48,7 +50,9 @@ def read_knet_csv(blob: Blob) -> list[Record]:
     dt = even_dt(blob.name, columns[clock])
     rate = number(_after(header, "SamplingFrequency(Hz)"))
     if rate and abs(1.0 / rate - dt) > 1e-6:
-        raise RecordFormatError(f"{blob.name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged")
+        raise RecordFormatError(
+            "{name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged", name=blob.name, rate=rate, dt=dt
+        )
     start = _start(blob.name, lines[body], body + 1, float(columns[clock][0]))
     doubts = _doubts(header, columns[clock].size, rate or 1.0 / dt) + doubts_of_decimals(lines[body:], body + 1, ",")
     records = []
@@ -90,10 +94,14 @@ def _sensors(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
         if code == TIME:
             continue
         if code not in ("NS", "EW", "UD") or code in sensors.get(level, {}):
-            raise RecordFormatError(f"{name}: column {column!r} is none of N-S, E-W, U-D (or 1 to 6), or stands twice: the file is damaged")
+            raise RecordFormatError(
+                "{name}: column {column!r} is none of N-S, E-W, U-D (or 1 to 6), or stands twice: the file is damaged",
+                name=name,
+                column=column,
+            )
         sensors.setdefault(level, {})[code] = index
     if not sensors:
-        raise RecordFormatError(f"{name}: no column of acceleration among {', '.join(names)}")
+        raise RecordFormatError("{name}: no column of acceleration among {names}", name=name, names=names)
     return sensors
 
 
@@ -110,7 +118,7 @@ def _start(name: str, line: str, number_of_line: int, relative: float) -> dateti
     text = line.split(",")[0]
     time = time_in_japan(text)
     if time is None:
-        fail(name, number_of_line, f"expected a time such as 2019/01/02 17:47:27.00, found {text!r}")
+        fail(name, number_of_line, said("expected a time such as 2019/01/02 17:47:27.00, found {text!r}", text=text))
     return time - timedelta(seconds=relative)
 
 

@@ -96,10 +96,10 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
             if row[0]:
                 metadata["first_time_s"] = float(row[0]) * column.seconds
     if dt is None:
-        raise ParameterError(f"{blob.name} has no time column: give the sampling interval, for example --dt 0.01")
+        raise ParameterError("{name} has no time column: give the sampling interval, for example --dt 0.01", name=blob.name)
     components = [Component(c.code, c.sign * to_si(row, c.unit), c.azimuth_deg) for c, row in pairs if c.code != TIME]
     if not components:
-        raise RecordFormatError(f"{blob.name} holds a time column and nothing else: expected at least one column of acceleration")
+        raise RecordFormatError("{name} holds a time column and nothing else: expected at least one column of acceleration", name=blob.name)
     clocked = any(column.code == TIME for column in told.read)
     doubts = _doubts(lines, layout.body, clocked=clocked) + doubts_of_decimals(body, layout.body + 1, layout.separator)
     return Record(tuple(components), dt, source=blob.name, format=FORMAT, history=told.remarks, metadata=metadata, doubts=doubts)
@@ -137,9 +137,13 @@ def _guessed(name: str, rows: FloatArray, units: str | None) -> Columns:
     if len(rows) - clock == 1:
         names[-1] = "ACC"
     if units is None:
-        raise UnitError(f"{name}: column {1 + clock} has no unit: name it in a header, as in 'EW (gal)', or give --units gal|m/s2|g")
+        raise UnitError(
+            "{name}: column {column} has no unit: name it in a header, as in 'EW (gal)', or give --units gal|m/s2|g",
+            name=name,
+            column=1 + clock,
+        )
     told = columns_of_header(name, names, units)
-    return Columns(told.read, ("took the first column, which climbs evenly, as the time in s",) if clock else ())
+    return Columns(told.read, (said("took the first column, which climbs evenly, as the time in s"),) if clock else ())
 
 
 def _interval(name: str, column: Column, row: FloatArray, body: Sequence[str], separator: str | None, dt: float | None) -> float:
@@ -150,7 +154,9 @@ def _interval(name: str, column: Column, row: FloatArray, body: Sequence[str], s
 
     found = even_dt(name, row, written, unit=column.seconds)
     if dt is not None and abs(dt - found) > 1e-6:
-        raise ParameterError(f"{name}: its time column says dt = {found:g} s, the option says {dt:g} s: leave the option out")
+        raise ParameterError(
+            "{name}: its time column says dt = {found:g} s, the option says {dt:g} s: leave the option out", name=name, found=found, dt=dt
+        )
     return found
 
 
@@ -158,7 +164,7 @@ def layout_of(name: str, lines: Sequence[str]) -> TableLayout:
     """Return where the numbers begin, the names of the columns and the separator."""
     first = next((i for i, line in enumerate(lines) if _is_data(line)), None)
     if first is None:
-        raise RecordFormatError(f"{name} holds comments only: expected columns of numbers")
+        raise RecordFormatError("{name} holds comments only: expected columns of numbers", name=name)
     separator = separator_of(lines[first])
     if not _all_numbers(lines[first], separator):
         names = tuple(_split(lines[first], separator))

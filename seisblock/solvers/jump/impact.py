@@ -71,7 +71,7 @@ def spin_ratio(block: TwoLayerBlock, rule: str, restitution_x: float, restitutio
             ratio = math.nan
         if math.isfinite(ratio):
             return ratio
-    raise ParameterError(f"the spin rule must be momentum, printed or ratio=NUMBER, found {rule!r}")
+    raise ParameterError("the spin rule must be momentum, printed or ratio=NUMBER, found {rule!r}", rule=rule)
 
 
 def _printed(block: TwoLayerBlock, restitution_x: float, restitution_y: float) -> float:

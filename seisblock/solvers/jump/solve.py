@@ -215,7 +215,10 @@ def _stretch(motion: Motion, first: float | None, last: float | None) -> tuple[I
     if begins > end or ends < 0.0 or not begins < ends:
         shown = ":".join("" if edge is None else f"{edge:g}" for edge in (first, last))
         raise ParameterError(
-            f"the window {shown} holds nothing of the motion, which lasts from {motion.start_s:g} to {motion.start_s + end:g} s"
+            "the window {shown} holds nothing of the motion, which lasts from {start:g} to {end:g} s",
+            shown=shown,
+            start=motion.start_s,
+            end=motion.start_s + end,
         )
     sample = min(int(begins / motion.dt + ON_SAMPLE), motion.samples - 1)
     tau = max(begins - sample * motion.dt, 0.0)
@@ -266,7 +269,8 @@ def _follow_chain(run: _Run, drop: float, start: Instant, sign: float) -> Follow
     flown = follow_on(FLYING, motion, parameters, thrown, flying.FLIGHT, gains=gains, start=rocked.end)
     if flown.final_mode == flying.JAMMED:
         raise SolverError(
-            f"jump: the foot that lands at {motion.start_s + flown.end_time:.3f} s jams: kinetic friction {contact.kinetic} is more "
-            "than a rigid contact can bear"
+            "jump: the foot that lands at {time:.3f} s jams: kinetic friction {kinetic} is more than a rigid contact can bear",
+            time=motion.start_s + flown.end_time,
+            kinetic=contact.kinetic,
         )
     return so_far(rocked, go, flown)

@@ -165,8 +165,10 @@ def check(motion: Motion, vertical: Factor, gravity: float) -> tuple[float, floa
 def refuse_lift_off(motion: Motion, time: float) -> NoReturn:
     """Refuse an object that can slide one way only and loses contact, s after sample 0; [Newmark1965]_ says nothing of it."""
     raise ParameterError(
-        f"{motion.name or 'motion'}: at {motion.start_s + time:.3f} s the base falls away faster than the object; sliding in one direction "
-        "only is not defined in the air: leave the vertical motion out, or let it slide both ways"
+        "{name}: at {time:.3f} s the base falls away faster than the object; sliding in one direction only is not defined in "
+        "the air: leave the vertical motion out, or let it slide both ways",
+        name=motion.name or said("motion"),
+        time=motion.start_s + time,
     )
 
 

@@ -100,7 +100,7 @@ def pile_arrays(body: Pile, contact: PileContact, points: int) -> PileArrays:
         If `points` is less than 2.
     """
     if points < 2:
-        raise ParameterError(f"a joint needs at least 2 points along each side, found {points}")
+        raise ParameterError("a joint needs at least 2 points along each side, found {points}", points=points)
     members = tuple(body.bodies())
     centres = np.array(body.centres())
     bodies, inert, owner = _bodies(body, members, centres)

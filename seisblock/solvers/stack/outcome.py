@@ -195,8 +195,10 @@ def stack_outcome(
     scale = float(masses.sum()) * gravity * tall
     if books[CREATED] > CREATED_AT_MOST * scale:
         raise SolverError(
-            f"the steps of {step:.3g} s are too coarse for the pile {pile.body.name}: they created {books[CREATED]:.3g} J of energy; "
-            f"give a finer time step"
+            "the steps of {step:.3g} s are too coarse for the pile {name}: they created {energy:.3g} J of energy; give a finer time step",
+            step=step,
+            name=pile.body.name,
+            energy=books[CREATED],
         )
     momentum = masses @ bodies[:-1, V : V + 3] - books[IMPULSE : IMPULSE + 3]
     stones = tuple(_fate(pile, track, i, kept, start, ended) for i in range(len(pile.body.stones)))

@@ -90,13 +90,21 @@ def steps_per_sample(pile: PileArrays, dt: float, step: float | None) -> int:
         checks.positive("the time step", step, "s")
     if step is not None and not step <= limit:
         raise ParameterError(
-            f"a step of {step:g} s is too coarse for the stiffest contact of the pile {pile.body.name}, stable up to {limit:.3g} s: "
-            f"leave it out, or give at most {SAFETY * limit:.2g} s"
+            "a step of {step:g} s is too coarse for the stiffest contact of the pile {name}, stable up to {limit:.3g} s: leave "
+            "it out, or give at most {most:.2g} s",
+            step=step,
+            name=pile.body.name,
+            limit=limit,
+            most=SAFETY * limit,
         )
     if step is not None and step < FINEST * limit:
         raise ParameterError(
-            f"a step of {step:g} s is finer than does any good: the stiffest contact of the pile {pile.body.name} is stable up to "
-            f"{limit:.3g} s, and a thousandth of that has no error left to lose; leave it out, or give at least {FINEST * limit:.2g} s"
+            "a step of {step:g} s is finer than does any good: the stiffest contact of the pile {name} is stable up to "
+            "{limit:.3g} s, and a thousandth of that has no error left to lose; leave it out, or give at least {least:.2g} s",
+            step=step,
+            name=pile.body.name,
+            limit=limit,
+            least=FINEST * limit,
         )
     return max(1, math.ceil(dt / (SAFETY * limit if step is None else step) * (1.0 - 1e-12)))
 
@@ -138,7 +146,7 @@ def sink(pile: PileArrays, gravity: float, bodies: FloatArray, stretches: FloatA
             _displace(pile, u, moved, index, bodies, stretches)
             return
         pressing = still
-    raise BodyError(f"the pile {pile.body.name} does not come to rest on its joints: its load lies too close to an edge")
+    raise BodyError("the pile {name} does not come to rest on its joints: its load lies too close to an edge", name=pile.body.name)
 
 
 def _displace(pile: PileArrays, u: FloatArray, moved: FloatArray, index: FloatArray, bodies: FloatArray, stretches: FloatArray) -> None:

@@ -122,7 +122,7 @@ def solve_stack(
     status = _run(shaking, settings, pile, memory, cursor, kept, progress)
     ended = float(cursor.place[SAMPLE]) * motion.dt
     if status == Status.NOT_FINITE:
-        raise SolverError(f"the pile {body.name} left the finite numbers at {ended:.3f} s: give a finer time step")
+        raise SolverError("the pile {name} left the finite numbers at {ended:.3f} s: give a finer time step", name=body.name, ended=ended)
     track = stone_track(pile, kept.rows[: cursor.place[KEPT_ROWS]])
     outcome = stack_outcome(pile, track, kept, cursor.bodies, start=motion.start_s, ended=ended, gravity=gravity, step=motion.dt / steps)
     return Response(
@@ -187,7 +187,7 @@ def _fates(pile: PileArrays, bodies: FloatArray) -> FloatArray:
 def _lean(pile: PileArrays, bodies: FloatArray, name: str, angle: float) -> None:
     """Lean a body about y, over the outermost point of its lower joint."""
     if name not in pile.body.names or pile.owner[pile.body.names.index(name)] == len(pile.members):
-        raise ParameterError(f"no free stone is called {name!r}; there are {', '.join(pile.body.names)}")
+        raise ParameterError("no free stone is called {name!r}; there are {names}", name=name, names=list(pile.body.names))
     b = int(pile.owner[pile.body.names.index(name)])
     box = pile.boxes[pile.members[b][0]]
     inset = 0.0 if pile.points == 2 else 1.0 / pile.points

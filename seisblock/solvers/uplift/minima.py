@@ -159,7 +159,7 @@ def _prepare(
 ) -> tuple[_Amplitudes, float, float]:
     """Return the corners' amplitudes, and the range in rad/s."""
     if corner not in (None, 1, 2, 3, 4):
-        raise ParameterError(f"there are corners 1 to 4, found {corner}")
+        raise ParameterError("there are corners 1 to 4, found {corner}", corner=corner)
     modes = natural_modes(body)
     parts = participation(body, modes, shaking_direction(phi_deg, rho_deg))
     parts[np.abs(parts) < 1e-14 * np.abs(parts).max()] = 0.0

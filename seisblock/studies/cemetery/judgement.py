@@ -21,7 +21,7 @@ from seisblock.studies.cemetery.shaking import Shaking
 from seisblock.studies.intervals import CONFIDENCE
 from seisblock.typing import BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted
+from seisblock.words import noted, said
 
 Criterion = Literal["furukawa", "rigid", "simulate"]
 
@@ -222,7 +222,7 @@ def warnings_of(cemetery: Cemetery, shakings: Sequence[Shaking], method: Method,
     """Return what should be known before believing rates, a sentence each, with the component they belong to ([Furukawa2009]_)."""
     fitted = method.criterion == "furukawa"
     found = [
-        (f"{shaking.component}: " if shaking.component else "") + text
+        said("{name}: {text}", name=shaking.component, text=text) if shaking.component else text
         for shaking in shakings
         for text in remarks(cemetery, shaking.pga, shaking.frequency, fitted=fitted)
     ]

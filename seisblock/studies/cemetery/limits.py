@@ -69,7 +69,7 @@ def rigid_limits(
     """
     require_loose(cemetery)
     if not frequency >= 0.0:
-        raise ParameterError(f"the frequency must be zero or positive, in Hz; found {frequency}")
+        raise ParameterError("the frequency must be zero or positive, in Hz; found {frequency}", frequency=frequency)
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
     return np.array([_rigid_limit(Block(b, b * ratio).worn(inset), frequency, gravity) for ratio, b in sizes.tolist()])[index.ravel()]
 
@@ -85,6 +85,6 @@ def require_loose(cemetery: Cemetery) -> None:
     """Refuse reinforced stones where each is judged as one rigid block: eq. (10) of [Furukawa2009]_ is not that of such a block."""
     if cemetery.reinforced.any():
         raise ParameterError(
-            f"{cemetery.source or cemetery.name}: a rigid block knows no dowel, but some stones are reinforced; "
-            "judge them with the criterion furukawa"
+            "{source}: a rigid block knows no dowel, but some stones are reinforced; judge them with the criterion furukawa",
+            source=cemetery.source or cemetery.name,
         )

@@ -14,6 +14,7 @@ from seisblock.studies.cemetery.limits import Limits, fitted_limits
 from seisblock.studies.intervals import CONFIDENCE, clopper_pearson
 from seisblock.typing import ArrayLike, BoolArray
 from seisblock.units import GAL
+from seisblock.words import said
 
 FREQUENCIES = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
 """Frequencies of the curves of [Furukawa2009]_ figs. 16, 17, Hz."""
@@ -198,5 +199,5 @@ def remarks(cemetery: Cemetery, pga: float, frequency: float, *, fitted: bool = 
         Whether the range of the fit matters.
     """
     if pga < SLIGHTEST_PGA:
-        return (f"a PGA of {pga / GAL:.3g} gal overturns nothing: was m/s^2 given where gal is meant?",)
+        return (said("a PGA of {pga:.3g} gal overturns nothing: was m/s^2 given where gal is meant?", pga=pga / GAL),)
     return outside_fit(pga, frequency, cemetery.ratios) if fitted else ()

@@ -66,7 +66,11 @@ def shakings_of(
     for m in measure(record, components, conventions=conventions).components:
         f = getattr(m.equivalent_frequency_hz, kind) if frequency is None else frequency
         if f is None or not m.pga_m_s2 > 0.0:
-            raise ParameterError(f"component {m.component} has no equivalent frequency {kind}: choose another kind, or give a frequency")
+            raise ParameterError(
+                "component {component} has no equivalent frequency {kind}: choose another kind, or give a frequency",
+                component=m.component,
+                kind=kind,
+            )
         moves = m.usual_highpass if kind == "pga_pgv" and frequency is None else None
         found.append(Shaking(m.pga_m_s2, f, m.component, motion_of(record, m.component), moves))
     return found

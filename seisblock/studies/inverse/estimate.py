@@ -18,8 +18,9 @@ from seisblock.studies.cemetery.rate import threshold_ratio
 from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.survey import Likelihood, Survey
 from seisblock.typing import FloatArray
+from seisblock.words import noted, said
 
-PLAIN_STONES, DOWELLED_STONES, ALL_STONES = "not reinforced", "reinforced", "all"
+PLAIN_STONES, DOWELLED_STONES, ALL_STONES = noted("not reinforced"), noted("reinforced"), noted("all")
 """Names of the groups that are judged apart, and together."""
 
 Interval = tuple[float | None, float | None]
@@ -210,13 +211,14 @@ def _kind(cemetery: Cemetery) -> str:
 def remarks_of(estimate: ShakingEstimate) -> list[str]:
     """Return what should be known before believing an estimate, a sentence each ([Furukawa2009]_, [Midorikawa1999]_)."""
     low, high = FITTED_INTENSITY
-    found = [DOWELLED_REMARK] if estimate.stones != PLAIN_STONES else []
+    found: list[str] = [DOWELLED_REMARK] if estimate.stones != PLAIN_STONES else []
     if estimate.frequency_hz is not None and estimate.pga_m_s2 is not None:
         found += outside_fit(estimate.pga_m_s2, estimate.frequency_hz)
     if estimate.bound == "upper":
-        found.append(f"{estimate.stones} stones: none fell, so that there is an upper bound only")
+        found.append(said("{which} stones: none fell, so that there is an upper bound only", which=said(estimate.stones)))
     if estimate.bound == "lower":
-        found.append(f"{estimate.stones} stones: all fell, so that there is a lower bound only")
+        found.append(said("{which} stones: all fell, so that there is a lower bound only", which=said(estimate.stones)))
     if estimate.jma_intensity is not None and not low <= estimate.jma_intensity <= high:
-        found.append(f"JMA intensity {estimate.jma_intensity:.1f} lies outside the relation with PGV, {low:g} to {high:g}")
+        text = "JMA intensity {found:.1f} lies outside the relation with PGV, {low:g} to {high:g}"
+        found.append(said(text, found=estimate.jma_intensity, low=low, high=high))
     return found

@@ -132,7 +132,7 @@ def scale_factors(
     checks.positive("the observed displacement", observed, "m")
     checks.positive("the largest factor", limit)
     if steps < 1:
-        raise ParameterError(f"the scan needs at least one step, found {steps}")
+        raise ParameterError("the scan needs at least one step, found {steps}", steps=steps)
     grid = [limit * i / steps for i in range(steps + 1)]
     values = [0.0, *in_threads(displacement, grid[1:], progress=progress)]
     peak = float(np.abs(motion.horizontal).max())

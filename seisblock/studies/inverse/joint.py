@@ -69,7 +69,9 @@ def joint_estimate(
         raise ParameterError("an estimate needs at least one survey")
     fell, judged = sum(survey.fell for _, survey in surveys), sum(survey.judged for _, survey in surveys)
     if fell in (0, judged):
-        raise ParameterError(f"{fell} of {judged} stones fell in all cemeteries together: that bounds the shaking on one side only")
+        raise ParameterError(
+            "{fell} of {judged} stones fell in all cemeteries together: that bounds the shaking on one side only", fell=fell, judged=judged
+        )
     band, weights = rules.band(frequency)
     grid = np.arange(math.log(0.02), math.log(200.0), rules.common_error / 40.0)
     total, single = np.zeros(grid.size), np.zeros((len(surveys), grid.size))

@@ -92,8 +92,8 @@ def marked_survey(cemetery: Cemetery) -> Survey:
     """
     if not cemetery.surveyed:
         raise BodyError(
-            f"{cemetery.source or cemetery.name}: no stone is marked fallen or standing; "
-            "add a column fallen (0 or 1), or give a rate such as 35/100"
+            "{source}: no stone is marked fallen or standing; add a column fallen (0 or 1), or give a rate such as 35/100",
+            source=cemetery.source or cemetery.name,
         )
     known = cemetery.only(lambda stone: stone.fallen is not None)
     counts = np.array([stone.count for stone in known.stones], dtype=np.int64)
@@ -117,7 +117,9 @@ def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
         If the counts make no sense.
     """
     if not (0 <= fallen <= stones and stones > 0):
-        raise ParameterError(f"a rate needs 0 <= fallen <= stones and at least one stone, found {fallen}/{stones}")
+        raise ParameterError(
+            "a rate needs 0 <= fallen <= stones and at least one stone, found {fallen}/{stones}", fallen=fallen, stones=stones
+        )
     nobody = np.zeros(len(cemetery.stones), dtype=np.int64)
     return Survey(cemetery, nobody, nobody, (fallen, stones))
 
@@ -137,7 +139,7 @@ def parse_rate(text: str) -> tuple[int, int]:
     """
     match = re.fullmatch(r"\s*(\d+)\s*/\s*(\d+)\s*", text)
     if match is None:
-        raise ParameterError(f"the rate {text!r} is not FALLEN/STONES: write both numbers, for example 35/100")
+        raise ParameterError("the rate {text!r} is not FALLEN/STONES: write both numbers, for example 35/100", text=text)
     return int(match[1]), int(match[2])
 
 
@@ -222,10 +224,15 @@ def likelihood(
         If an error is smaller than 0.01, or the bias is no number.
     """
     if not math.isfinite(bias):
-        raise ParameterError(f"the bias, in ln PGA, must be a number, found {bias}")
+        raise ParameterError("the bias, in ln PGA, must be a number, found {bias}", bias=bias)
     for name, error in (("common", common_error), ("stone", stone_error)):
         if not (math.isfinite(error) and error >= LEAST_ERROR):
-            raise ParameterError(f"the {name} error, in ln PGA, must be at least {LEAST_ERROR}, found {error}")
+            raise ParameterError(
+                "the {name} error, in ln PGA, must be at least {least}, found {error}",
+                name=name,
+                least=LEAST_ERROR,
+                error=error,
+            )
     centres = np.log(limits(survey.cemetery.rows(), frequency))
     spread, step = math.hypot(common_error, stone_error), min(common_error, stone_error) / POINTS_PER_ERROR
     reach = math.ceil(REACH * spread / step)

@@ -21,6 +21,7 @@ from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
 from seisblock.studies.rocking.verdicts import overturns_at
 from seisblock.typing import BoolArray, FloatArray, Progress
+from seisblock.words import said
 
 MOST_FACTORS = 100_000
 """Most factors of a scan: some minutes for a record of a minute."""
@@ -148,7 +149,10 @@ def flagged(response: Response[RockOutcome]) -> Response[RockOutcome]:
     flips = flips_nearby(response.body, response.motion, gravity=response.options["gravity_m_s2"], **options)
     warnings = response.warnings
     if flips:
-        warnings = (*warnings, f"{response.motion.name or 'x'}: a change of the record by less than 2 % changes the verdict")
+        warnings = (
+            *warnings,
+            said("{name}: a change of the record by less than 2 % changes the verdict", name=response.motion.name or "x"),
+        )
     return replace(response, outcome=replace(response.outcome, verdict_flips_within_2_percent=flips), warnings=warnings)
 
 

@@ -18,6 +18,7 @@ from seisblock.solvers.rock.rocker import RockOptions, rocker
 from seisblock.studies.rocking.verdicts import all_verdicts
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted, said
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +75,8 @@ def rocking_spectrum(
     ParameterError
         If a size, a slenderness or an option is out of range, or there is none.
     """
-    diagonal = _grid(sizes, "size 2R", "m", math.inf)
-    alpha = _grid(slendernesses, "slenderness", "rad", math.pi / 2)
+    diagonal = _grid(sizes, noted("size 2R"), "m", math.inf)
+    alpha = _grid(slendernesses, noted("slenderness"), "rad", math.pi / 2)
     grid = itertools.product(diagonal.tolist(), alpha.tolist())
     rockers = [rocker(Block(d * math.sin(a), d * math.cos(a)).worn(inset), motion, **options) for d, a in grid]
     found = all_verdicts(rockers, motion, rockers[0].gains(), progress=progress)
@@ -86,12 +87,12 @@ def rocking_spectrum(
 
 def size_of(frequency_parameter: ArrayLike, gravity: float = STANDARD_GRAVITY) -> FloatArray:
     """Return 2R, m, of rectangular blocks with these p, rad/s: 3 g/(2 p^2) (from [Furukawa2009]_ eq. (6))."""
-    return 1.5 * gravity / _grid(frequency_parameter, "frequency parameter", "rad/s", math.inf) ** 2
+    return 1.5 * gravity / _grid(frequency_parameter, noted("frequency parameter"), "rad/s", math.inf) ** 2
 
 
 def slenderness_of(height_over_width: ArrayLike) -> FloatArray:
     """Return alpha = atan(B/H), rad, of blocks with these H/B ([Furukawa2009]_ section 2)."""
-    return np.arctan(1.0 / _grid(height_over_width, "height over width", "1", math.inf))
+    return np.arctan(1.0 / _grid(height_over_width, noted("height over width"), "1", math.inf))
 
 
 def default_sizes(steps: int) -> FloatArray:
@@ -109,7 +110,8 @@ def _grid(values: ArrayLike, what: str, unit: str, limit: float) -> FloatArray:
     array = np.atleast_1d(np.asarray(values, dtype=np.float64))
     good = np.isfinite(array) & (array > 0.0) & (array < limit)
     if array.size == 0 or not good.all():
-        bound = "" if limit == math.inf else f" and below {limit:.4g}"
-        found = "none" if array.size == 0 else str(array[~good][0])
-        raise ParameterError(f"each {what} must be positive{bound}, in {unit}; found {found}")
+        found = said("none") if array.size == 0 else str(array[~good][0])
+        text = "each {what} must be positive, in {unit}; found {found}"
+        bounded = "each {what} must be positive and below {limit:.4g}, in {unit}; found {found}"
+        raise ParameterError(text if limit == math.inf else bounded, what=said(what), limit=limit, unit=unit, found=found)
     return array

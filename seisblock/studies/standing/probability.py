@@ -67,9 +67,11 @@ class Versions:
     def __post_init__(self) -> None:
         for name, most in (("size", 1.0), ("inset", 0.5), ("mu", 1.0), ("restitution", 1.0), ("amplitude", 1.0)):
             if not 0.0 <= getattr(self, name) < most:
-                raise ParameterError(f"the spread of the {name} lies in [0, {most:g}), found {getattr(self, name)}")
+                raise ParameterError(
+                    "the spread of the {name} lies in [0, {most:g}), found {found}", name=name, most=most, found=getattr(self, name)
+                )
         if not 0.0 <= self.azimuth_deg <= 180.0:
-            raise ParameterError(f"the spread of the azimuth lies between 0 and 180 degrees, found {self.azimuth_deg}")
+            raise ParameterError("the spread of the azimuth lies between 0 and 180 degrees, found {found}", found=self.azimuth_deg)
 
 
 @dataclass(frozen=True)
@@ -141,9 +143,9 @@ def respond_probability(
         If there are no runs, or a number lies outside its range.
     """
     if runs < 1:
-        raise ParameterError(f"a probability needs at least 1 run, found {runs}")
+        raise ParameterError("a probability needs at least 1 run, found {runs}", runs=runs)
     if not (math.isfinite(moved_m) and moved_m > 0.0):
-        raise ParameterError(f"the displacement that counts as moved must be positive, found {moved_m} m")
+        raise ParameterError("the displacement that counts as moved must be positive, found {found} m", found=moved_m)
     given = {"mu": mu, "mu_kinetic": mu_kinetic, "restitution": restitution}
     same = {"rocking_restitution": rocking_restitution, "gravity": gravity, "tenon": tenon}
     draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, 6))

@@ -1,0 +1,89 @@
+"""Whatever is said can be told: the catalogues hold every text, nothing else, and a translation is filled in with the same values."""
+
+import ast
+from string import Formatter
+
+import pytest
+
+from seisblock.words import LANGUAGES, said
+from tests.catalogue import CHECKS, PACKAGE, PLURALS, catalogue, everything_said, key_of, sayings, texts_in
+
+SOURCES = sorted(PACKAGE.rglob("*.py"))
+
+
+@pytest.fixture(scope="module")
+def every_text():
+    """Every text that the source, the help, the samples and click say, and where it stands first."""
+    return everything_said()
+
+
+@pytest.fixture(scope="module", params=LANGUAGES[1:])
+def held(request):
+    """A catalogue, by what it translates."""
+    return {key_of(message): message for message in catalogue(request.param) if message.id}
+
+
+def fields_of(text):
+    """Return the fields of a template with their conversions and formats."""
+    return {(name, conversion, form) for _, name, form, conversion in Formatter().parse(text) if name is not None}
+
+
+def is_glued(argument):
+    """Whether a text is made of pieces where it is said."""
+    texts = (node for node in ast.walk(argument) if isinstance(node, ast.Constant) and isinstance(node.value, str))
+    return isinstance(argument, ast.JoinedStr) or (isinstance(argument, ast.BinOp) and any(texts))
+
+
+def test_nothing_that_is_said_lacks_a_translation(every_text, held):
+    """Missing, empty and fuzzy are the same to a reader: ``python -m tests.catalogue`` adds what is new."""
+    missing = [
+        f"{place}: {text}" for text, place in every_text.items() if text not in held or not any(held[text].string) or held[text].fuzzy
+    ]
+    assert not missing, "\n".join(missing)
+
+
+def test_no_translation_is_of_something_that_is_said_no_longer(every_text, held):
+    """What the source no longer says goes: ``python -m tests.catalogue`` takes it out."""
+    stale = set(held) - set(every_text)
+    assert not stale, "\n".join(sorted(stale))
+
+
+def test_a_translation_takes_the_same_values(held):
+    """Fields, their conversions and their formats are those of the template: a number keeps its digits in every language."""
+    for key, message in held.items():
+        strings = [message.string] if isinstance(message.string, str) else message.string
+        for string in strings:
+            assert fields_of(string) in (fields_of(key), fields_of(PLURALS.get(key, key))), key
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_a_text_is_a_template_with_its_values(path):
+    """No sentence is made by the language it is written in: what is said is a literal, and each of its fields has a value."""
+    for call, argument in sayings(ast.parse(path.read_text(encoding="utf-8"))):
+        where = f"{path.relative_to(PACKAGE)}, line {call.lineno}"
+        assert not is_glued(argument), f"{where}: {ast.unparse(argument)} cannot be translated"
+        function = getattr(call.func, "attr", getattr(call.func, "id", ""))
+        given = {keyword.arg for keyword in call.keywords}
+        if None in given or function in CHECKS | {"map", "noted"} or not given:
+            continue
+        wanted = [{name for name, _, _ in fields_of(text)} for text in texts_in(argument)]
+        assert all(fields <= given for fields in wanted), f"{where}: a field without a value"
+        assert not wanted or given == set().union(*wanted), f"{where}: a value without a field"
+
+
+def test_the_guards_see_what_they_guard_against():
+    """A sentence glued together, a choice, a row and a nested text are found in a source."""
+    source = """
+text = "put {first} in a name"
+said(text, first=said("and {second}", second=1))
+raise BodyError("either" if x else "or")
+map(tell, ("this", "that"))
+tell(f"glued {name}")
+warn("glued " + name)
+progress(done + 1, every)
+"""
+    found = list(sayings(ast.parse(source)))
+    assert {text for _, argument in found for text in texts_in(argument)} == {"and {second}", "either", "or", "this", "that"}
+    assert [ast.unparse(argument) for _, argument in found if is_glued(argument)] == ["f'glued {name}'", "'glued ' + name"]
+    assert fields_of("{a!r} and {b:.2f}") == {("a", "r", ""), ("b", None, ".2f")}
+    assert said(said("{a}", a=1)).template == "{a}"

@@ -1,0 +1,186 @@
+"""Every command answers in the language asked for: no English is left in Japanese, and neither language is wider than a terminal."""
+
+import shutil
+
+import pytest
+from babel.messages.mofile import write_mo
+from babel.messages.pofile import read_po
+from click.testing import CliRunner
+
+from seisblock import words
+from seisblock.cli import COMMANDS, language, main
+from seisblock.present.wrap import columns
+from tests.language.english import english_in
+
+WIDTH = 80
+SHORT = ("synthetic_jma.csv", "--window", "25:28")
+BLOCK = ("--width", "24cm", "--height", "72cm")
+
+ANSWERS = (
+    ("measure",),
+    ("measure", "elcentro_1940_ns.csv", "--highpass", "0.1", "--scale", "40"),
+    ("measure", "synthetic_knet.EW", *BLOCK, "--window", "0.5:30"),
+    ("respond", *SHORT, "--width", "45cm", "--height", "180cm", "--mu", "0.3", "--runs", "25"),
+    ("respond", *SHORT, "--block", "gravestone", "--surface", "granite/granite", "--runs", "2", "--component", "all-azimuths"),
+    ("respond", *SHORT, *BLOCK, "--mu", "0.02", "--runs", "2", "--scale", "0.2"),
+    ("slide", *SHORT, "--mu", "0.2", "--vertical", "--slope", "5", "--slope-length", "20cm", "--target-pga", "500"),
+    ("slide", *SHORT, "--mu", "0.2", "--component", "all-azimuths", "--one-way"),
+    ("slide", *SHORT, "--mu", "0.1,0.6", "--slope", "5,10"),
+    ("rock", *SHORT, "--block", "gravestone", "--mu", "0.2", "--vertical", "--margin", "--margin-limit", "1.2", "--perturb", "4"),
+    ("rock", *SHORT, *BLOCK, "--scale", "0.2"),
+    ("rock", *SHORT, "--width", "3m", "--height", "1m", "--component", "NS,37"),
+    ("jump", *SHORT, "--tenon", "2cm"),
+    ("jump", *SHORT, "--first", "--landing", "friction", "--gal", "--scale", "0.2"),
+    ("uplift", *SHORT, *BLOCK, "--frequency-vertical", "8"),
+    ("uplift", *SHORT, "--width", "1.2", "--height", "3", "--frequency-vertical", "8", "--scale", "0.05", "--component", "EW"),
+    ("uplift", "--harmonic", "--alpha", "1", "--damping", "0.05"),
+    ("stack", "synthetic_jma.csv", "--window", "25.5:26.2", "--stones", "wagata", "--reinforced", "--component", "NS", "--points", "2"),
+    ("criteria", *SHORT, "--block", "gravestone", "--component", "NS"),
+    ("spectrum", *SHORT, "--component", "NS", "--sizes", "1:2:1", "--height-over-width", "2:4:1", "--inset", "0.1"),
+    ("spectrum", *SHORT, "--kind", "overturning", "--component", "NS", "--steps", "12"),
+    ("spectrum", *SHORT, "--kind", "sliding", "--mu", "0.1:0.3:0.1"),
+    ("spectrum", *SHORT, "--kind", "modes", "--mu", "0.2,0.5", "--height-over-width", "1,4", "--component", "EW"),
+    ("overturn-rate", "--cemetery", "aoyama.csv"),
+    ("overturn-rate", "--cemetery", "aoyama.csv", "--pga", "1,300,5000", "--frequency", "1,9", "--both"),
+    ("overturn-rate", "--cemetery", "aoyama.csv", *SHORT, "--criterion", "rigid"),
+    ("overturn-rate", "--cemetery", "aoyama.csv", "--inset", "0.8", "--pga", "300", "--frequency", "1", "--criterion", "rigid"),
+    ("infer", "--rate", "35/100", "--cemetery", "aoyama.csv"),
+    ("infer", "--rate", "100/100", "--cemetery", "aoyama.csv", "--frequency", "1"),
+    ("infer", *SHORT, "--slid", "5cm", "--mu", "0.3", "--limit", "1.5", "--steps", "30"),
+    ("infer", *SHORT, "--jumped", "20cm", "--limit", "1.2", "--steps", "12", "--component", "EW"),
+    ("validate", "--paper", "Fujino1978", "--all"),
+    ("cite",),
+    ("samples",),
+    ("schema",),
+)
+"""A run of every command, each of its kinds of answer among them, on bundled samples, a short window of them where it takes long."""
+
+REFUSALS = (
+    (),
+    ("nosuch",),
+    ("measure", "--nosuch"),
+    ("measure", "nofile"),
+    ("measure", "."),
+    ("measure", "--threshold", "5"),
+    ("measure", "--highpass", "1000"),
+    ("measure", "--plot", "x.xyz"),
+    ("measure", "--plot", "nosuch/x.png"),
+    ("measure", "-", "--strict", "--format", "JMA-CSV"),
+    ("slide",),
+    ("slide", "--mu", "x"),
+    ("slide", "--mu", "-1"),
+    ("slide", "--mu", "0.2", "--window", "5:1"),
+    ("slide", "--mu", "0.2", "--component", "XX"),
+    ("slide", "--mu", "0.2", "--slope", "30"),
+    ("slide", "--mu", "0.2", "--target-pga", "0"),
+    ("rock", "--width", "1"),
+    ("rock", "--width", "24", "--height", "72"),
+    ("rock", "--width", "2q", "--height", "1"),
+    ("rock", "--block", "nosuch"),
+    ("rock", "--block", "gravestone", "--restitution", "2"),
+    ("respond", "--width", "1", "--height", "2"),
+    ("respond", "--width", "1", "--height", "2", "--surface", "ice/ice"),
+    ("jump", "--spin", "x"),
+    ("jump", "--first", "--repeat"),
+    ("uplift", "--width", "1"),
+    ("uplift", "--width", "1", "--height", "2", "--frequency-vertical", "0"),
+    ("stack", "--without", "nosuch"),
+    ("stack", "--criterion", "--resume", "."),
+    ("stack", "--grid", "0"),
+    ("criteria", "--width", "1"),
+    ("spectrum", "--kind", "sliding", "--sizes", "1"),
+    ("spectrum", "--kind", "nosuch"),
+    ("overturn-rate",),
+    ("overturn-rate", "--cemetery", "nosuch.csv"),
+    ("infer",),
+    ("infer", "--rate", "x", "--cemetery", "aoyama.csv"),
+    ("report",),
+    ("report", "-o", "nosuch.html", "--body", "nosuch"),
+    ("validate", "--paper", "Nope"),
+    ("samples", "nosuch"),
+    ("schema", "nosuch"),
+    ("cite", "nosuch"),
+    ("completion", "tcsh"),
+)
+"""What users get wrong, for each command."""
+
+QUOTING = {"cite", "samples"}
+"""Commands that quote: references, licences and origins are told as they are printed elsewhere."""
+
+
+@pytest.fixture(scope="module")
+def spoken(tmp_path_factory):
+    """Run command lines in a language, each once; click is told through compiled catalogues, as an installation has them."""
+    folder = tmp_path_factory.mktemp("locale")
+    shutil.copytree(words.LOCALES, folder, dirs_exist_ok=True)
+    for written in folder.rglob("*.po"):
+        with written.open("rb") as source, written.with_suffix(".mo").open("wb") as target:
+            write_mo(target, read_po(source))
+    answers = {}
+
+    def answer(line, lang):
+        if (line, lang) not in answers:
+            answers[line, lang] = CliRunner().invoke(main, ["--lang", lang, *line], env={"COLUMNS": str(WIDTH)})
+        return answers[line, lang]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(words, "LOCALES", folder)
+        patch.setattr(language, "LOCALES", folder)
+        words._catalogue.cache_clear()
+        yield answer
+    words._catalogue.cache_clear()
+
+
+def line_of(parts):
+    """Return a command line as one types it."""
+    return " ".join(parts) or "(nothing)"
+
+
+@pytest.mark.parametrize("line", ANSWERS, ids=line_of)
+def test_an_answer_is_in_japanese(line, spoken):
+    """Tables, sentences, notes and warnings, on both streams."""
+    answer = spoken(line, "ja")
+    assert answer.exit_code == 0, answer.output
+    assert line[0] in QUOTING or not english_in(answer.stdout)
+    assert not english_in(answer.stderr)
+    assert not (answer.stdout + answer.stderr).isascii() or line == ("schema",)
+
+
+@pytest.mark.parametrize("line", REFUSALS, ids=line_of)
+def test_a_refusal_is_in_japanese(line, spoken):
+    """What is wrong and what to do, also where click says it."""
+    answer = spoken(line, "ja")
+    assert answer.exit_code != 0 or not line
+    assert not english_in(answer.stderr + answer.stdout)
+    assert not answer.output.isascii()
+
+
+@pytest.mark.parametrize("command", ["", *COMMANDS])
+def test_help_is_in_japanese(command, spoken):
+    """Lines of commands and of options; examples are command lines."""
+    answer = spoken((*command.split(), "--help"), "ja")
+    assert answer.exit_code == 0 and not english_in(answer.stdout)
+
+
+@pytest.mark.parametrize("lang", words.LANGUAGES)
+@pytest.mark.parametrize("line", [*ANSWERS, *((command, "--help") for command in COMMANDS)], ids=line_of)
+def test_an_answer_fits_a_terminal(line, lang, spoken):
+    """Wide letters take two columns; a table that does not fit is not readable, whatever its language."""
+    answer = spoken(line, lang)
+    assert answer.exit_code == 0, answer.output
+    examples = "  seisblock "  # to be copied in one piece
+    wide = [text for text in answer.stdout.splitlines() if columns(text.rstrip()) > WIDTH and not text.startswith(examples)]
+    assert not wide, "\n".join(wide)
+
+
+def test_the_answers_are_of_every_command():
+    """A new command is looked at, too."""
+    assert {line[0] for line in ANSWERS} == set(COMMANDS) - {"report", "completion"}, "report writes a page, completion a script"
+    assert {line[0] for line in REFUSALS if line} >= set(COMMANDS)
+
+
+def test_english_is_recognised():
+    """The guard sees a sentence, and lets names, units, citations and command lines pass."""
+    assert english_in("警告：the record is zero throughout") == ["the record is zero throughout"]
+    assert english_in("なし: No such option") and not english_in("K-NET の NS、PGA 934 gal。seisblock rock を使う")
+    assert not english_in("Furukawa2009 eq. (9)、--width と --height HZ、JMA CSV、'some odd name here'")
