@@ -104,11 +104,8 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
     separator = next((mark for mark in ",\t;" if mark in header), ",")
     columns, units = _header(_cells(header, separator), source, header_line)
     if not rows:
-        raise BodyError(
-            "{source}, line {line}: there is no gravestone below the header; add one line per stone",
-            source=source,
-            line=header_line,
-        )
+        empty = "{source}, line {line}: there is no gravestone below the header; add one line per stone"
+        raise BodyError(empty, source=source, line=header_line)
     stones, wrong = [], []
     for number, line in rows:
         try:
@@ -116,13 +113,8 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
         except InputError as error:
             wrong.append((number, error.said))
     if wrong:
-        raise BodyError(
-            "{source}, line {line}: {what}{others}",
-            source=source,
-            line=wrong[0][0],
-            what=wrong[0][1],
-            others=_others([number for number, _ in wrong[1:]]),
-        )
+        (at, what), others = wrong[0], _others([number for number, _ in wrong[1:]])
+        raise BodyError("{source}, line {line}: {what}{others}", source=source, line=at, what=what, others=others)
     size = sum(stone.count for stone in stones)
     if size > MOST_STONES:
         raise BodyError(
