@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import os
+import re
 import sys
 from collections.abc import Sequence
 from typing import Any
@@ -52,8 +53,18 @@ COMMANDS: dict[str, tuple[str, str]] = {
 EXAMPLES = ("seisblock jump", "seisblock slide record.csv --mu 0.2 --plot slide.png")
 """Two lines to begin with, at the end of the help."""
 
+PARAMETER = re.compile(r"`(\w+)`")
+"""A parameter's name in a sentence of the library."""
+
 INTERRUPTED = 130
 BROKEN_PIPE = 141
+
+
+def as_options(text: str, ctx: click.Context) -> str:
+    """Return a sentence in which the library names its parameters, `` `dt` ``, with the names of the command's options, ``--dt``."""
+    command = main.get_command(ctx, ctx.invoked_subcommand) if ctx.invoked_subcommand else None
+    names = {each.name: each.opts[0] for each in command.params if isinstance(each, click.Option)} if command else {}
+    return PARAMETER.sub(lambda found: names.get(found[1], found[1]), text)
 
 
 class SeisblockGroup(click.Group):
@@ -116,7 +127,7 @@ class SeisblockGroup(click.Group):
                 sys.stdout.flush()
                 return result
         except SeisblockError as error:
-            click.secho(f"seisblock: {on_a_screen(plain_text(tell(error.said)))}", fg="red", err=True)
+            click.secho(f"seisblock: {on_a_screen(plain_text(as_options(tell(error.said), ctx)))}", fg="red", err=True)
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
             click.echo(f"\nseisblock: {tell('interrupted; no half-written file is left')}", err=True)

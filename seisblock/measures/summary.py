@@ -37,7 +37,7 @@ _ROUND_OFF = 1e-10
 
 @dataclass(frozen=True)
 class ComponentMeasures:
-    """The measures of one component; the fields are the keys of one result of ``seisblock measure --json``.
+    """The measures of one component; the fields are the keys of one result in the document of ``measure``.
 
     Parameters
     ----------

@@ -88,7 +88,7 @@ def _of_station(name: str, parts: Sequence[Record], station: str | None) -> Sequ
         return chosen
     if len(stations) > 1:
         raise ComponentError(
-            "{name} holds {count} stations: choose one with --station: {listed}", name=name, count=len(stations), listed=listed
+            "{name} holds {count} stations: choose one with `station`: {listed}", name=name, count=len(stations), listed=listed
         )
     return parts
 
@@ -100,7 +100,7 @@ def _at_level(name: str, parts: Sequence[Record], level: str | None) -> tuple[Se
         raise ComponentError("unknown level {level!r}: give surface or borehole", level=level)
     if not levels:
         if level == "borehole":
-            raise ComponentError("{name} has no borehole sensor: only KiK-net stations have one; leave --level out", name=name)
+            raise ComponentError("{name} has no borehole sensor: only KiK-net stations have one; leave `level` out", name=name)
         return parts, ()
     taken = level or ("surface" if "surface" in levels else "borehole")
     chosen = [p for p in parts if p.metadata.get("level") == taken]

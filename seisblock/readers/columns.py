@@ -179,7 +179,7 @@ def _transverse(name: str, names: Sequence[str], columns: list[Column], units: s
     if units is None and not any(c.unit for c in columns):
         raise UnitError(
             "{name}: columns {names} without a unit: {one!r} may be the time or the transverse direction; name the unit in "
-            "the header, as in 'T (s)' or 'T (gal)', or give --units gal|m/s2|g",
+            "the header, as in 'T (s)' or 'T (gal)', or give `units`, gal|m/s2|g",
             name=name,
             names=[repr(n) for n in names],
             one=names[lone.index],
@@ -201,7 +201,7 @@ def _check_guesses(name: str, names: Sequence[str], columns: list[Column], units
     if seismometers:
         raise UnitError(
             "{name}: codes of instruments that measure velocity: {names}; expected accelerations: if they are, name the unit in "
-            "the header, as in 'HHN (gal)', or give --units gal|m/s2|g",
+            "the header, as in 'HHN (gal)', or give `units`, gal|m/s2|g",
             name=name,
             names=_quoted(names, seismometers),
         )
@@ -253,7 +253,7 @@ def _with_unit(name: str, written: str, column: Column, option: str | None, unit
     unit = column.unit or option
     if unit is None:
         raise UnitError(
-            "{name}: column {written!r} has no unit: name it in the header, as in 'EW (gal)', or give --units gal|m/s2|g",
+            "{name}: column {written!r} has no unit: name it in the header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
             name=name,
             written=written or column.index + 1,
         )

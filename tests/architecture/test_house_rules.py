@@ -236,3 +236,16 @@ def test_one_name_means_one_thing():
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 found.setdefault(node.name, []).append(path.relative_to(PACKAGE).as_posix())
     assert {name: files for name, files in found.items() if len(files) > 1} == {}
+
+
+FLAG = re.compile(r"(?<![\w-])--[a-z]")
+
+
+def test_lower_floors_name_quantities_never_flags():
+    """H4: below the rooms that present and command, a sentence names a parameter, `` `dt` ``; the command line tells it as its option."""
+    found = []
+    for path in PACKAGE.rglob("*.py"):
+        if path.relative_to(PACKAGE).parts[0] not in {"cli", "present", "validation"}:
+            texts = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Constant)]
+            found += [f"{path.name}: {node.value}" for node in texts if isinstance(node.value, str) and FLAG.search(node.value)]
+    assert found == []

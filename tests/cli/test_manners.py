@@ -205,3 +205,24 @@ def test_one_process_answers_many_times(tmp_path):
     """Called again and again in one process, the answer is the same and nothing is left behind."""
     first, second = (CliRunner().invoke(main, ["jump", "--json"]).stdout for _ in range(2))
     assert first == second and json.loads(first)["schema"] == "seisblock/jump/2"
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("slide", "bare.csv", "--mu", "0.2"), "give the sampling interval, --dt, for example 0.01 s"),
+        (("uplift", "--width", "1", "--height", "2"), "give --frequency-vertical in Hz, or --mass and --stiffness kx,ky,kz in N/m"),
+    ],
+)
+def test_what_the_library_calls_a_parameter_is_an_option_here(tmp_path, monkeypatch, words, told):
+    """A sentence from below names parameters as Python does; the command line tells them as its own options, in any language."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bare.csv").write_text("NS (gal)\n" + "1\n2\n" * 50, encoding="utf-8")
+    from seisblock.errors import InputError
+    from seisblock.readers import read
+
+    assert told in CliRunner().invoke(main, words).stderr
+    told_in_japanese = CliRunner().invoke(main, ["--lang", "ja", *words]).stderr
+    assert "`" not in told_in_japanese and "--" in told_in_japanese
+    with pytest.raises(InputError, match="give the sampling interval, `dt`"):
+        read(tmp_path / "bare.csv")

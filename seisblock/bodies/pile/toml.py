@@ -61,7 +61,7 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
         stones = [replace(stone, mu=None) for stone in stones]
     dowels = text_groups(table, "reinforced")
     if reinforced and not dowels:
-        raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or leave --reinforced out", source=source)
+        raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or leave `reinforced` out", source=source)
     own = number(table, "mu")
     friction = mu if mu is not None else Pile.mu if own is None else own
     return Pile(text(table, "name", Path(source).stem), tuple(stones), dowels if reinforced else (), texts(table, "fixed"), friction)

@@ -62,7 +62,7 @@ def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) 
     doubts = doubts_of_file(blob.data, name, traces, warned)
     if units is None:
         raise UnitError(
-            "{name} is a {format} file, which does not say the unit of its samples: give --units gal|m/s2|g", name=blob.name, format=name
+            "{name} is a {format} file, which does not say the unit of its samples: give `units`, gal|m/s2|g", name=blob.name, format=name
         )
     unit = normal_unit(units)
     if unit is None:

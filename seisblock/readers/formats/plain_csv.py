@@ -96,7 +96,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
             if row[0]:
                 metadata["first_time_s"] = float(row[0]) * column.seconds
     if dt is None:
-        raise ParameterError("{name} has no time column: give the sampling interval, for example --dt 0.01", name=blob.name)
+        raise ParameterError("{name} has no time column: give the sampling interval, `dt`, for example 0.01 s", name=blob.name)
     components = [Component(c.code, c.sign * to_si(row, c.unit), c.azimuth_deg) for c, row in pairs if c.code != TIME]
     if not components:
         raise RecordFormatError("{name} holds a time column and nothing else: expected at least one column of acceleration", name=blob.name)
@@ -138,7 +138,7 @@ def _guessed(name: str, rows: FloatArray, units: str | None) -> Columns:
         names[-1] = "ACC"
     if units is None:
         raise UnitError(
-            "{name}: column {column} has no unit: name it in a header, as in 'EW (gal)', or give --units gal|m/s2|g",
+            "{name}: column {column} has no unit: name it in a header, as in 'EW (gal)', or give `units`, gal|m/s2|g",
             name=name,
             column=1 + clock,
         )

@@ -82,7 +82,7 @@ class Reinforcement:
 
 @dataclass(frozen=True)
 class CemeteryRate:
-    """What one shaking does to a cemetery; the fields are the keys of one result of ``seisblock overturn-rate --json``.
+    """What one shaking does to a cemetery; the fields are the keys of one result in the document of ``overturn-rate``.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ Interval = tuple[float | None, float | None]
 
 @dataclass(frozen=True)
 class ShakingEstimate:
-    """What some stones say at one frequency; the fields are the keys of one result of ``seisblock infer --json``.
+    """What some stones say at one frequency; the fields are the keys of one result in the document of ``infer``.
 
     Parameters
     ----------

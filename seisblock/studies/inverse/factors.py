@@ -60,7 +60,7 @@ class ScaleFactor:
 
 @dataclass(frozen=True)
 class ScaleFactors:
-    """Every factor up to a limit; the fields are the keys of one result of ``seisblock infer --json``.
+    """Every factor up to a limit; the fields are the keys of one result in the document of ``infer``.
 
     Parameters
     ----------
