@@ -1,4 +1,4 @@
-"""How each model is shown: its tables, its figure and its film, in one table for commands, notebook and report alike.
+"""How each model is shown: its verdict in words, its figure and its film, in one table for commands, notebook and report alike.
 
 Rooms load when they are asked for: a table needs no drawing, a figure no film.
 """
@@ -27,12 +27,15 @@ class Face:
 
     Parameters
     ----------
+    verdict : callable
+        ``verdict(response) -> str``: the sentence that answers the user's question, in the language spoken.
     figure : callable
         ``figure(responses, gal) -> Figure``.
     film : callable or None
         ``film(response, path, filming)`` writes the animation of one response; None where there is none.
     """
 
+    verdict: Callable[[Response[Any]], str]
     figure: Callable[[Responses, bool], Figure]
     film: Callable[[Response[Any], Path, Filming], None] | None = None
 
@@ -50,6 +53,11 @@ def face_of(model: str) -> Face:
     return FACES[model]
 
 
+def verdict_of(response: Response[Any]) -> str:
+    """Return what happened, in a sentence."""
+    return face_of(response.model).verdict(response)
+
+
 def figure_of(responses: Responses, *, gal: bool = True) -> Figure:
     """Return the figure of the responses of one model."""
     return face_of(responses[0].model).figure(responses, gal)
@@ -59,6 +67,48 @@ def film_of(responses: Responses) -> Callable[[Path, Filming], None] | None:
     """Return what writes the animation of the first of some responses, or None where the model has none."""
     film = face_of(responses[0].model).film
     return None if film is None else lambda path, filming: film(responses[0], path, filming)
+
+
+def _tell_respond(response: Response[Any]) -> str:
+    """Tell what a free-standing object did."""
+    from seisblock.present.text.respond import verdict
+
+    return verdict(response)
+
+
+def _tell_rock(response: Response[Any]) -> str:
+    """Tell what became of a block that rocks."""
+    from seisblock.present.text.rock import first_line
+
+    return first_line(response)
+
+
+def _tell_slide(response: Response[Any]) -> str:
+    """Tell what a slide came to."""
+    from seisblock.present.text.slide import sentence
+
+    return sentence(response)
+
+
+def _tell_jump(response: Response[Any]) -> str:
+    """Tell what became of a body that jumps."""
+    from seisblock.present.text.jump import verdict
+
+    return verdict(response)
+
+
+def _tell_uplift(response: Response[Any]) -> str:
+    """Tell what lifted."""
+    from seisblock.present.text.uplift import sentence
+
+    return sentence(response)
+
+
+def _tell_stack(response: Response[Any]) -> str:
+    """Tell what became of a pile."""
+    from seisblock.present.text.stack import verdict
+
+    return verdict(response)
 
 
 def _respond(responses: Responses, gal: bool) -> Figure:
@@ -139,11 +189,11 @@ def _film_stack(response: Response[Any], path: Path, filming: Filming) -> None:
 
 
 FACES = {
-    "respond": Face(_respond, _film_respond),
-    "rock": Face(_rock, _film_rock),
-    "slide": Face(_slide, _film_slide),
-    "jump": Face(_jump, _film_jump),
-    "uplift": Face(_uplift),
-    "stack": Face(_stack, _film_stack),
+    "respond": Face(_tell_respond, _respond, _film_respond),
+    "rock": Face(_tell_rock, _rock, _film_rock),
+    "slide": Face(_tell_slide, _slide, _film_slide),
+    "jump": Face(_tell_jump, _jump, _film_jump),
+    "uplift": Face(_tell_uplift, _uplift),
+    "stack": Face(_tell_stack, _stack, _film_stack),
 }
 """Models in the order in which a user meets them."""

@@ -1,5 +1,6 @@
 """A response shows itself in a notebook: a table, a figure, a data frame."""
 
+import html
 import re
 
 import numpy as np
@@ -10,6 +11,7 @@ import seisblock
 from seisblock.bodies.toml import read_table
 from seisblock.bodies.two_layer import Contact, contact, two_layer_block
 from seisblock.errors import ParameterError
+from seisblock.present.faces import verdict_of
 from seisblock.records import Motion
 from seisblock.results import Response
 
@@ -19,6 +21,7 @@ def responses():
     t = np.arange(401) * 0.01
     motion = Motion.from_arrays(5.5 * np.sin(2 * np.pi * 1.2 * t), 0.01, name="EW")
     chozusha = read_table("chozusha")
+    yield seisblock.solve_respond(seisblock.Block(0.3, 0.9), motion, mu=0.5)
     yield seisblock.solve_rock(seisblock.Block(0.3, 0.9), motion)
     yield seisblock.solve_slide(0.2, motion)
     yield seisblock.solve_jump(two_layer_block(chozusha, "short"), motion, contact=Contact(**contact(chozusha)))
@@ -35,6 +38,8 @@ def test_it_shows_its_outcome_and_its_figure(response):
     """The table holds every number with its unit in words, and the figure is data."""
     text = response._repr_html_()
     assert "data:image/" in text and "<script" not in text
+    # the sentence with which the command begins, too
+    assert verdict_of(response) in html.unescape(text) and verdict_of(response).startswith("EW: ")
     rows = re.findall(r"<tr><td[^>]*>([^<]*)</td>", text)
     plain = [key for key, value in vars(response.outcome).items() if isinstance(value, (int, float, str, type(None)))]
     assert len(rows) >= len(plain)

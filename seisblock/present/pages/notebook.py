@@ -11,7 +11,7 @@ import numpy as np
 from seisblock.measures import RecordMeasures, ResponseSpectrum
 from seisblock.present.documents.units import unit_of
 from seisblock.present.documents.write import plain
-from seisblock.present.faces import figure_of
+from seisblock.present.faces import figure_of, verdict_of
 from seisblock.present.figures.embed import picture
 from seisblock.present.figures.fonts import drawn
 from seisblock.present.page import page
@@ -60,6 +60,7 @@ def html(shown: Any) -> str:
     return page(
         "notebook.html",
         title,
+        verdict=verdict_of(shown) if isinstance(shown, Response) else "",
         tables=list(_tables(numbers)),
         warnings=[tell(text) for text in warnings],
         picture=None if isinstance(shown, RecordMeasures) else picture(drawn(lambda: _figure(shown)), title),
