@@ -170,11 +170,11 @@ def _channel(plain: str) -> Direction:
 
 
 def _transverse(name: str, names: Sequence[str], columns: list[Column], units: str | None) -> list[Column]:
-    """Return the columns with a lone ``T`` beside ``L`` taken as transverse where a unit of acceleration is known."""
+    """Return the columns with a lone ``T`` beside ``L`` or ``R`` taken as transverse where a unit of acceleration is known."""
     clocks = [c for c in columns if c.code == TIME]
     # t and T: the small letter is the time
     lone = next((c for c in clocks if names[c.index] == "T" or (names[c.index] == "t" and len(clocks) == 1)), None)
-    if lone is None or "L" not in {c.code for c in columns}:
+    if lone is None or not {"L", "R"} & {c.code for c in columns}:
         return columns
     if units is None and not any(c.unit for c in columns):
         raise UnitError(

@@ -189,9 +189,15 @@ def test_bad_input_is_one_sentence(run, tmp_path, words, code, message):
     assert found.stdout == ""
 
 
-def test_several_cemeteries_are_one_estimate(document, survey):
-    """N10: each by itself, and all together; none is dropped."""
-    found = document("--cemetery", survey, "--cemetery", survey, "--frequency", 2)
+def test_several_cemeteries_are_one_estimate(run, document, survey, tmp_path):
+    """N10: each by itself, under its own name, and all together; none is dropped, and none counts double."""
+    other = tmp_path / "other.csv"
+    other.write_bytes(Path(survey).read_bytes())
+    found = document("--cemetery", survey, "--cemetery", other, "--frequency", 2)
+    shown = run("--cemetery", survey, "--cemetery", other, "--frequency", 2).stdout
+    assert "survey, stones not reinforced: 32 of 90 fell" in shown and "other, stones not reinforced: 32 of 90 fell" in shown
+    twice = run("--cemetery", survey, "--cemetery", survey, "--frequency", 2)
+    assert twice.exit_code == 2 and "its stones would count double" in " ".join(twice.stderr.split())
     assert len(found["results"]) == 6 and len(found["joint"]) == 1
     assert found["joint"][0]["contradicts"] == []
     assert found["parameters"]["stones"] == 2 * 101
@@ -204,6 +210,14 @@ def test_cemeteries_that_contradict_each_other(document, tmp_path):
         (tmp_path / f"{name}.csv").write_text("\n".join(rows))
     found = document("--cemetery", tmp_path / "one.csv", "--cemetery", tmp_path / "other.csv", "--frequency", 2)
     assert any("one and other contradict each other" in text for text in found["warnings"])
+
+
+def test_only_reinforced_stones_bring_the_remark_on_them(document, tmp_path):
+    """Two places without a dowel hear nothing of equation (10)."""
+    for name in ("one", "other"):
+        (tmp_path / f"{name}.csv").write_text("\n".join(["H/B,fallen"] + [f"{1.5 + 0.1 * i},{int(i > 12)}" for i in range(30)]))
+    found = document("--cemetery", tmp_path / "one.csv", "--cemetery", tmp_path / "other.csv", "--frequency", 2)
+    assert not any("reinforced stones: (10)" in text for text in found["warnings"])
 
 
 def test_an_impossible_survey_is_named(document, tmp_path):

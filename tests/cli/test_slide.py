@@ -36,6 +36,22 @@ def test_mu_alone_uses_the_bundled_record():
     assert max(map(len, result.stdout.splitlines())) <= 80
 
 
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ((), "over a path of 1961.33 mm, while the record lasts, and comes to rest 2942.00 mm from where it stood"),
+        (("--slope", "10", "--mu-kinetic", "0.1"), "and does not come to rest"),
+    ],
+)
+def test_what_slides_on_after_the_record_is_told_as_such(tmp_path, arguments, says):
+    """0.3 g for 2 s over friction of 0.2: (0.1 g) 2^2/2 in the record, half as much after it; a slope that is too steep has no end."""
+    path = tmp_path / "push.csv"
+    path.write_text("EW\n" + "-2.9419950000\n" * 201)
+    found = " ".join(run(path, "--mu", 0.2, "--units", "m/s2", "--dt", 0.01, *arguments).stdout.split())
+    assert says in found
+    assert "ends - mm" not in found
+
+
 def test_document_keeps_the_contract_and_the_library_agrees():
     """One entry per horizontal component with the promised keys, and the numbers of ``solve_slide``."""
     document = answer("--mu", "0.2", "--kappa", "0.5", "--vertical")

@@ -75,6 +75,15 @@ def test_a_unit_of_acceleration_beats_the_time(table):
         read(table("L,T,V", NORTH, EAST, UP), dt=0.01)
 
 
+def test_t_beside_a_time_is_transverse(table):
+    """``R`` and ``T`` are radial and transverse where another column is the time; a table of velocities says what it holds."""
+    record = read(table("time,R,T,Z"), units="m/s2")
+    assert codes(record) == [("R", None), ("T", None), ("UD", None)]
+    np.testing.assert_array_equal(record.component("T").acceleration, EAST)
+    with pytest.raises(RecordFormatError, match=r"holds no acceleration.*NS vel \(cm/s\)"):
+        read(table("time,NS vel (cm/s),EW vel (cm/s),UD vel (cm/s)"))
+
+
 def test_down_is_turned_up(table):
     """A column that is positive down is UD with the sign turned, which is told."""
     record = read(table("time,NS (gal),EW (gal),DOWN (gal)"))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, table, under_records
 from seisblock.records import Record
 from seisblock.studies.inverse.assumptions import Assumptions
-from seisblock.studies.inverse.estimate import Interval, ShakingEstimate
+from seisblock.studies.inverse.estimate import Interval, ShakingEstimate, place_and_kind
 from seisblock.studies.inverse.joint import JointEstimate
 from seisblock.units import GAL, KINE
 from seisblock.words import noted, tell
@@ -40,10 +40,11 @@ def estimate_tables(
     caption = tell("median and {level:g} % interval; H/B: stones more slender than this fell", level=100 * level)
     for stones in dict.fromkeys(each.stones for each in estimates):
         group = [each for each in estimates if each.stones == stones]
+        place, kind = place_and_kind(stones)
         title = tell(
             "{cemetery}, stones {stones}: {fallen} of {all} fell",
-            cemetery=name,
-            stones=tell(stones),
+            cemetery=place or name,
+            stones=tell(kind),
             fallen=group[0].fallen,
             all=group[0].fallen + group[0].standing,
         )

@@ -66,13 +66,22 @@ def sentence(response: Response[SlideOutcome]) -> str:
     outcome, name = response.outcome, response.motion.name
     if not outcome.slips:
         return tell("{name}: stays where it is, static friction holds throughout.", name=name)
-    told = tell(
-        "{name}: slides up to {most} mm, and ends {final} mm from where it stood, after a path of {path} mm",
-        name=name,
-        most=millimetres(outcome.max_slip_m),
-        final=millimetres(outcome.final_slip_m),
-        path=millimetres(outcome.path_m),
-    )
+    words = {"name": name, "most": millimetres(outcome.max_slip_m), "path": millimetres(outcome.path_m)}
+    if outcome.final_slip_m is None:
+        told = tell("{name}: slides up to {most} mm, over a path of {path} mm, and does not come to rest", **words)
+    elif outcome.final_slip_m != outcome.residual_slip_m:
+        final = millimetres(outcome.final_slip_m)
+        told = tell(
+            "{name}: slides up to {most} mm, over a path of {path} mm, while the record lasts, and comes to rest {final} mm from where "
+            "it stood",
+            final=final,
+            **words,
+        )
+    else:
+        final = millimetres(outcome.final_slip_m)
+        told = tell(
+            "{name}: slides up to {most} mm, and ends {final} mm from where it stood, after a path of {path} mm", final=final, **words
+        )
     if outcome.fell_off_slope:
         told += tell(", past the foot of the slope")
     if outcome.lifted_off:

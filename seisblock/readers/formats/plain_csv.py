@@ -99,7 +99,11 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
         raise ParameterError("{name} has no time column: give the sampling interval, `dt`, for example 0.01 s", name=blob.name)
     components = [Component(c.code, c.sign * to_si(row, c.unit), c.azimuth_deg) for c, row in pairs if c.code != TIME]
     if not components:
-        raise RecordFormatError("{name} holds a time column and nothing else: expected at least one column of acceleration", name=blob.name)
+        raise RecordFormatError(
+            "{name} holds no acceleration: expected at least one such column, found {columns}",
+            name=blob.name,
+            columns=[name.strip() for name in layout.names] if named else [said("time")],
+        )
     clocked = any(column.code == TIME for column in told.read)
     doubts = _doubts(lines, layout.body, clocked=clocked) + doubts_of_decimals(body, layout.body + 1, layout.separator)
     return Record(tuple(components), dt, source=blob.name, format=FORMAT, history=told.remarks, metadata=metadata, doubts=doubts)

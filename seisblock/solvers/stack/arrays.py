@@ -91,8 +91,8 @@ def pile_arrays(body: Pile, contact: PileContact, points: int) -> PileArrays:
     body : Pile
     contact : PileContact
     points : int
-        Contact points along each side of a joint: 2 stand at its corners, 3 or more at the centres of so many segments, as 5 do in
-        [Furukawa2009]_, whose pivots so lie at 0.8 of the half width.
+        Contact points along each side of a joint: 2 stand at its corners, and go with the corners of what the faces share as stones
+        slide; 3 or more at the centres of so many segments, as 5 do in [Furukawa2009]_, whose pivots so lie at 0.8 of the half width.
 
     Raises
     ------
@@ -186,7 +186,7 @@ def _joint_arrays(
         mass = inert[owner[upper], MASS] if owner[upper] < len(inert) else inert[owner[lower], MASS]
         law = contact.of_joint(float(mass), sides[0] * sides[1], 0.5 * above, points**2)
         constants[j, [SIGMA, LEVEL]] = sigma, sigma * boxes[carrier, 2]
-        constants[j, POINT:] = (*law, body.mu if stone.mu is None else stone.mu)
+        constants[j, POINT:] = (*law, body.mu if stone.mu is None else stone.mu, float(points == 2))
         place = np.array(body.centres()[carrier])
         grids[j] = _orbits(points, joint.x, joint.y, place)
         if points > 2:

@@ -6,6 +6,11 @@ pulled; along the face it drags a spring beside a dashpot, in series with a slid
 table 2). The slider's law is solved implicitly over the step, so that friction never creates energy. delta_0 is zero in a joint; where
 stones meet anew it is the depth at the first step, so that a contact is born without a force.
 
+A point that leaves the partner's face lets go, and edges and corners take over. Points at the very corners of a joint would do so at
+every slip of stones that lie flush, and come back deeper than they went, with energy from nowhere; they cling to the face's border
+instead, as the corners of what two faces share do, while the faces share anything. There the border presses on the carrier's face, along
+its normal: the depth is measured along it, or a tilted stone would gain energy as it slides.
+
 Points of a joint come in orbits of four mirror images, whose forces are added in pairs: a mirrored pile moves in exact mirror image.
 """
 
@@ -22,7 +27,7 @@ REL_S, REL_D, REL_V, REL_W = 0, 9, 12, 15
 """Where a relative state keeps the carrier's axes (row-major), its centre, its velocity there, and its relative spin."""
 
 RELATIVE = 18
-NORMAL_SPRING, NORMAL_DASHPOT, SHEAR_SPRING, SHEAR_DASHPOT, FRICTION = range(5)
+NORMAL_SPRING, NORMAL_DASHPOT, SHEAR_SPRING, SHEAR_DASHPOT, FRICTION, CLINGS = range(6)
 FORCE, TORQUE, ENERGY, TOUCHING, OUTSIDE = 0, 3, 6, 7, 8
 SUM = 9
 """A sum over contact points: force (3) and torque (3) on the carrier, spring energy, points in touch, points beyond the face."""
@@ -35,8 +40,15 @@ ROUNDING = 1e-6
 """How much, m, a depth may change in a step beyond what the velocities explain."""
 
 
-@kernel(_t.int64(_t.int64, VECTOR, BLOCK, _t.float64, VECTOR, _t.float64, VECTOR, _t.float64, _t.float64, BLOCK, MATRIX, VECTOR))
-def press_joint(n_orbits, rel, points, sigma, half, level, k, load, dt, stretch, four, total):
+@kernel(_t.boolean(VECTOR, VECTOR, VECTOR), inline=True)
+def _share(rel, own, half):
+    """Whether two faces still lie over each other."""
+    x, y = abs(rel[0]) * own[0] + abs(rel[1]) * own[1], abs(rel[3]) * own[0] + abs(rel[4]) * own[1]
+    return abs(rel[REL_D]) < half[0] + x and abs(rel[REL_D + 1]) < half[1] + y
+
+
+@kernel(_t.int64(_t.int64, VECTOR, BLOCK, _t.float64, VECTOR, VECTOR, _t.float64, VECTOR, _t.float64, _t.float64, BLOCK, MATRIX, VECTOR))
+def press_joint(n_orbits, rel, points, sigma, own, half, level, k, load, dt, stretch, four, total):
     """Sum the forces at the points of a joint ([Furukawa2009]_).
 
     Parameters
@@ -47,10 +59,10 @@ def press_joint(n_orbits, rel, points, sigma, half, level, k, load, dt, stretch,
         x and y of each point on the carrier's face, and 1 where there is a point.
     sigma : float
         -1 where the carrier's lower face stands on the partner's upper one, +1 the other way round.
-    half, level : (3,) array, float, m
-        Half sizes of the partner; z of the carrier's face in its own axes.
-    k : (5,) array
-        Normal spring, normal dashpot, shear spring, shear dashpot, friction, per point.
+    own, half, level : (3,) array, (3,) array, float, m
+        Half sizes of the carrier and of the partner; z of the carrier's face in its own axes.
+    k : (6,) array
+        Normal spring, normal dashpot, shear spring, shear dashpot, friction, per point; and 1 where points cling to the face's border.
     load : float
         1, or 0 to forget all stretches (the joint no longer acts).
     stretch : (orbits, 4, 2) array, m
@@ -73,6 +85,7 @@ def press_joint(n_orbits, rel, points, sigma, half, level, k, load, dt, stretch,
     d0, d1, d2 = rel[9], rel[10], rel[11]
     v0, v1, v2 = rel[12], rel[13], rel[14]
     w0, w1, w2 = rel[15], rel[16], rel[17]
+    clings = k[CLINGS] > 0.0 and _share(rel, own, half)
     for o in range(n_orbits):
         for q in range(4):
             f0 = 0.0
@@ -85,6 +98,9 @@ def press_joint(n_orbits, rel, points, sigma, half, level, k, load, dt, stretch,
             touching = 0.0
             outside = 0.0
             depth = 0.0
+            n0 = 0.0
+            n1 = 0.0
+            n2 = 1.0
             if points[o, q, 2] > 0.0:
                 rx, ry = points[o, q, 0], points[o, q, 1]
                 s2 = a20 * rx + a21 * ry + a22
@@ -92,10 +108,22 @@ def press_joint(n_orbits, rel, points, sigma, half, level, k, load, dt, stretch,
                 if load > 0.0:
                     s0 = a00 * rx + a01 * ry + a02
                     s1 = a10 * rx + a11 * ry + a12
-                    if abs(d0 + s0) > half[0] or abs(d1 + s1) > half[1]:
+                    if clings and (abs(d0 + s0) > half[0] or abs(d1 + s1) > half[1]):
+                        over0 = d0 + s0 - min(max(d0 + s0, -half[0]), half[0])
+                        over1 = d1 + s1 - min(max(d1 + s1, -half[1]), half[1])
+                        rx -= a00 * over0 + a10 * over1
+                        ry -= a01 * over0 + a11 * over1
+                        s0 = a00 * rx + a01 * ry + a02
+                        s1 = a10 * rx + a11 * ry + a12
+                        s2 = a20 * rx + a21 * ry + a22
+                        n0, n1, n2 = rel[2], rel[5], rel[8]
+                        depth = (half[2] + sigma * (d2 + s2)) * n2
+                    elif abs(d0 + s0) > half[0] or abs(d1 + s1) > half[1]:
                         outside = 1.0
-                    elif depth > 0.0:
-                        f2 = kn * depth + cn * sigma * (v2 + w0 * s1 - w1 * s0)
+                    if outside == 0.0 and depth > 0.0:
+                        f2 = kn * depth + cn * sigma * n2 * (v2 + w0 * s1 - w1 * s0)
+                        if n2 < 1.0:
+                            f2 += cn * sigma * (n0 * (v0 + w1 * s2 - w2 * s1) + n1 * (v1 + w2 * s0 - w0 * s2))
                 if f2 > 0.0:
                     u0 = v0 + w1 * s2 - w2 * s1
                     u1 = v1 + w2 * s0 - w0 * s2
@@ -115,9 +143,9 @@ def press_joint(n_orbits, rel, points, sigma, half, level, k, load, dt, stretch,
                     stretch[o, q, 1] = e1
                     energy = 0.5 * (kn * depth * depth + kt * (e0 * e0 + e1 * e1))
                     touching = 1.0
-                    f0 = -f0
-                    f1 = -f1
-                    f2 *= -sigma
+                    f0 = -f0 - sigma * n0 * f2
+                    f1 = -f1 - sigma * n1 * f2
+                    f2 *= -sigma * n2
                 else:
                     f2 = 0.0
                     stretch[o, q, 0] = 0.0

@@ -195,7 +195,8 @@ def stack_outcome(
     scale = float(masses.sum()) * gravity * tall
     if books[CREATED] > CREATED_AT_MOST * scale:
         raise SolverError(
-            "the steps of {step:.3g} s are too coarse for the pile {name}: they created {energy:.3g} J of energy; give a finer time step",
+            "the steps of {step:.3g} s are too coarse for the pile {name}: they created {energy:.3g} J of energy; try a finer "
+            "time step, or another number of contact points",
             step=step,
             name=pile.body.name,
             energy=books[CREATED],

@@ -19,8 +19,8 @@ CARRIER, PARTNER, ORBITS, PAIR = range(4)
 """A joint's integers: its boxes, the number of its orbits of points, and the pair of boxes it belongs to."""
 
 SIGMA, LEVEL, POINT = 0, 1, 2
-JOINT = 7
-"""A joint's constants: which face of the carrier (-1 lower, +1 upper), z of that face, and the five of one point."""
+JOINT = 8
+"""A joint's constants: which face of the carrier (-1 lower, +1 upper), z of that face, and the six of one point."""
 
 COSINE = 0.7071067811865476
 """Two stones whose upward axes are within 45 degrees meet at their joint's points; beyond, at corners and edges."""
@@ -108,7 +108,8 @@ def _press_joint(j, bodies, dt, pile, memory):
     seated = _seated(k[SIGMA], rel, boxes[c], boxes[p])
     for i in range(SUM):
         total[i] = 0.0
-    press_joint(joint[ORBITS], rel, pile.grids[j], k[SIGMA], boxes[p], k[LEVEL], k[POINT:], seated, dt, memory.stretches[j], four, total)
+    grid, stretch = pile.grids[j], memory.stretches[j]
+    press_joint(joint[ORBITS], rel, grid, k[SIGMA], boxes[c], boxes[p], k[LEVEL], k[POINT:], seated, dt, stretch, four, total)
     _mark(owner, memory.touched, c, p, total)
     act(bodies[owner[c]], bodies[owner[p]], arms, total)
     energy = total[ENERGY]

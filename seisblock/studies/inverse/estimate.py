@@ -208,16 +208,30 @@ def _kind(cemetery: Cemetery) -> str:
     return DOWELLED_STONES if reinforced.all() else ALL_STONES if reinforced.any() else PLAIN_STONES
 
 
+def place_and_kind(stones: str) -> tuple[str, str]:
+    """Return the place, empty where there is one only, and the kind of the stones of an estimate.
+
+    Examples
+    --------
+    >>> place_and_kind("Hino, north, not reinforced"), place_and_kind("all")
+    (('Hino, north', 'not reinforced'), ('', 'all'))
+    """
+    place, _, kind = stones.rpartition(", ")
+    return place, kind
+
+
 def remarks_of(estimate: ShakingEstimate) -> list[str]:
     """Return what should be known before believing an estimate, a sentence each ([Furukawa2009]_, [Midorikawa1999]_)."""
     low, high = FITTED_INTENSITY
-    found: list[str] = [DOWELLED_REMARK] if estimate.stones != PLAIN_STONES else []
+    place, kind = place_and_kind(estimate.stones)
+    found: list[str] = [DOWELLED_REMARK] if kind != PLAIN_STONES else []
+    which = said("{place}, {kind}", place=place, kind=said(kind)) if place else said(kind)
     if estimate.frequency_hz is not None and estimate.pga_m_s2 is not None:
         found += outside_fit(estimate.pga_m_s2, estimate.frequency_hz)
     if estimate.bound == "upper":
-        found.append(said("{which} stones: none fell, so that there is an upper bound only", which=said(estimate.stones)))
+        found.append(said("{which} stones: none fell, so that there is an upper bound only", which=which))
     if estimate.bound == "lower":
-        found.append(said("{which} stones: all fell, so that there is a lower bound only", which=said(estimate.stones)))
+        found.append(said("{which} stones: all fell, so that there is a lower bound only", which=which))
     if estimate.jma_intensity is not None and not low <= estimate.jma_intensity <= high:
         text = "JMA intensity {found:.1f} lies outside the relation with PGV, {low:g} to {high:g}"
         found.append(said(text, found=estimate.jma_intensity, low=low, high=high))
