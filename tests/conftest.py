@@ -5,6 +5,7 @@ import dataclasses
 import functools
 import json
 import os
+import signal
 
 import hypothesis
 import pytest
@@ -15,6 +16,10 @@ os.environ.setdefault("COLUMNS", "80")
 os.environ["NO_COLOR"] = "1"
 for name in ("LC_ALL", "LC_MESSAGES", "LANG"):
     os.environ.pop(name, None)
+
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+    # a job that a shell runs in the background ignores Ctrl-C, and so would every command that a test interrupts
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # the same examples in every run of continuous integration; fresh ones at a developer's desk
 hypothesis.settings.register_profile("ci", derandomize=True, deadline=None)

@@ -79,7 +79,10 @@ def interrupted(script, words, cwd):
             time.sleep(0.02)
         at = spent(process.pid)
         process.send_signal(signal.SIGINT)
-        out, said = process.communicate(timeout=120)
+        try:
+            out, said = process.communicate(timeout=120)
+        finally:
+            process.kill()
         return process.returncode, said.strip(), float(out.split()[-1]) - at
 
 
