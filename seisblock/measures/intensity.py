@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from seisblock.records.motion import motion_of
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
 from seisblock.units import GAL, STANDARD_GRAVITY
@@ -16,6 +17,12 @@ JMA_EXCEEDANCE_S = 0.3
 
 LEAST_INTENSITY = -3.0
 """An intensity below this is none: 0.01 gal, at the resolution of the instruments that the scale is made for ([JMA1996]_)."""
+
+ASKEW = 1e-9
+"""Cosine of the angle between two horizontals above which they are resolved before their vector is formed."""
+
+LEAST_SINE = 1e-6
+"""Sine below which they are parallel and tell no other direction."""
 
 _HALVES = ((5.0, noted("5-")), (5.5, noted("5+")), (6.0, noted("6-")), (6.5, noted("6+")))
 _CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), *_HALVES)
@@ -73,6 +80,16 @@ def significant_duration(acceleration: FloatArray, dt: float, *, between: tuple[
     return end - start
 
 
+def _perpendicular(record: Record) -> list[FloatArray]:
+    """Return the components at right angles to each other: as they are, unless two known azimuths lie askew."""
+    known = [c.azimuth_deg for c in record.horizontals if c.azimuth_deg is not None]
+    if len(known) == 2:
+        angle = math.radians(known[1] - known[0])
+        if abs(math.sin(angle)) > LEAST_SINE and abs(math.cos(angle)) > ASKEW:
+            return list(motion_of(record, record.horizontals[0].code).acceleration)
+    return [c.acceleration for c in record.components]
+
+
 def jma_intensity(record: Record) -> float | None:
     """Return the instrumental seismic intensity of the Japan Meteorological Agency, not rounded ([JMA1996]_ method).
 
@@ -83,7 +100,8 @@ def jma_intensity(record: Record) -> float | None:
     Parameters
     ----------
     record : Record
-        Two horizontals and the vertical; their azimuths do not matter as long as they are orthogonal.
+        Two horizontals and the vertical; horizontals that are not perpendicular are resolved first, where their
+        azimuths are known (parallel ones are summed as they are).
 
     Returns
     -------
@@ -96,8 +114,8 @@ def jma_intensity(record: Record) -> float | None:
         return None
     weight = _jma_filter(np.asarray(np.fft.rfftfreq(record.samples, record.dt), dtype=np.float64))
     squared = np.zeros(record.samples)
-    for component in record.components:
-        spectrum = np.fft.rfft(component.acceleration / GAL)
+    for acceleration in _perpendicular(record):
+        spectrum = np.fft.rfft(acceleration / GAL)
         spectrum *= weight
         row = np.fft.irfft(spectrum, record.samples)
         row *= row

@@ -18,6 +18,16 @@ def three(acceleration, dt, vertical=None):
     return Record((Component("NS", acceleration), Component("EW", still), Component("UD", still if vertical is None else vertical)), dt)
 
 
+def test_intensity_of_skew_horizontals_is_that_of_the_ground():
+    """The same ground seen along N10E and N50E has the intensity that NS and EW give."""
+    t = np.arange(0.0, 40.0, 0.01)
+    north, east, up = (np.sin(w * t) * np.exp(-(((t - 20) / 6) ** 2)) for w in (9.0, 14.0, 21.0))
+    ground = Record((Component("NS", 3 * north, 0.0), Component("EW", 2 * east, 90.0), Component("UD", up)), 0.01)
+    seen = [3 * north * math.cos(math.radians(a)) + 2 * east * math.sin(math.radians(a)) for a in (10.0, 50.0)]
+    askew = Record((Component("10", seen[0], 10.0), Component("50", seen[1], 50.0), Component("UD", up)), 0.01)
+    assert jma_intensity(askew) == pytest.approx(jma_intensity(ground), rel=1e-12)
+
+
 def test_arias_of_a_constant_and_of_a_ramp():
     """pi/(2g) a^2 T, and a third of it for a ramp, however coarse the samples."""
     assert arias_intensity(np.full(3, 2.0), 5.0) == pytest.approx(math.pi / (2 * G) * 4 * 10, rel=1e-14)
