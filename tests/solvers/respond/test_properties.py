@@ -56,6 +56,14 @@ def test_nothing_goes_below_the_ground(block, friction, seed, peak):
     np.testing.assert_allclose(low, response["lift"], atol=1e-11)
 
 
+def until_hops_die(response):
+    """Return the time at which a second row of ever smaller hops begins, s: how the first ended is in it, to its last digit."""
+    landings = np.array([event.time_s for event in response.events if event.name == "landing"])
+    short = np.diff(landings) < 1e-5
+    begins = landings[1:][short & ~np.append(False, short[:-1])]
+    return float(begins[1]) if begins.size > 1 else np.inf
+
+
 @settings(max_examples=40, deadline=None)
 @given(block=BLOCKS, friction=FRICTION, ratio=RATIO, seed=st.integers(0, 10**6), peak=st.floats(2.0, 20.0))
 def test_the_mirror_image(block, friction, ratio, seed, peak):
@@ -64,14 +72,17 @@ def test_the_mirror_image(block, friction, ratio, seed, peak):
     mirrored = Motion.from_arrays(-motion.horizontal, motion.dt, vertical=motion.vertical)
     other = Block(block.width, block.height, centroid_offset=-block.centroid_offset, centroid_height=block.centroid_height)
     assume(other.arms == block.arms[::-1])
-    mine = solve_respond(block, motion, rocking_restitution=ratio, sensitivity=False, **friction).outcome
+    run = solve_respond(block, motion, rocking_restitution=ratio, sensitivity=False, **friction)
+    mine, clear = run.outcome, until_hops_die(run)
     theirs = solve_respond(other, mirrored, rocking_restitution=ratio, sensitivity=False, **friction).outcome
     exchange = {"left": "right", "right": "left", "+": "-", "-": "+", None: None}
     expected = [{**event, "corner": exchange[event["corner"]], "slip": exchange[event["slip"]]} for event in mine.events]
-    # impacts amplify the last digit, so the first events alone are compared
-    for ours, other_side in zip(expected[:30], theirs.events[:30], strict=True):
+    # impacts amplify the last digit, and ever smaller hops without bound, so the first events alone are compared
+    compared = [event for event in expected[:30] if event["time_s"] <= clear]
+    assert compared
+    for ours, other_side in zip(compared, theirs.events[: len(compared)], strict=True):
         assert other_side == {**ours, "time_s": pytest.approx(ours["time_s"], abs=1e-8)}
-    if len(expected) <= 30:
+    if len(compared) == len(expected):
         assert theirs.final_displacement_m == pytest.approx(-mine.final_displacement_m, abs=1e-9)
 
 
