@@ -25,7 +25,7 @@ def types() -> Any:
 
 
 def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> Callable[[Function], Function]:
-    """Compile a function for one explicit signature, cached, without the GIL and without ``fastmath``.
+    """Compile a function for one explicit signature, cached and read when it is first called, without the GIL and without ``fastmath``.
 
     A cache that is damaged, full or read-only costs the time of compiling afresh, and nothing else.
 
@@ -44,15 +44,11 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
     def decorate(function: Function) -> Function:
         if not ENABLED:
             return function
-        import numba
+        from seisblock._jit.on_demand import OnDemand
 
-        def compiled(cached: bool) -> Function:
-            """Compile, or load what an earlier process compiled."""
-            counting = {} if allocates else {"_nrt": False}
-            made = numba.njit(signature, cache=cached, nogil=True, error_model="numpy", forceinline=inline, **counting)
-            return made(function)  # type: ignore[no-any-return]
-
-        return cache.guarded(compiled, function, say)
+        counting = {} if allocates else {"_nrt": False}
+        options = {"nogil": True, "error_model": "numpy", "forceinline": inline, **counting}
+        return OnDemand.of(function, signature, options, say)  # type: ignore[return-value]
 
     return decorate
 

@@ -154,6 +154,32 @@ def test_hops_too_small_to_see_have_no_panel():
     assert ["lift (mm)" in each for each in labels] == [False, True]
 
 
+def test_what_did_not_happen_has_no_panel():
+    """At rest there is the ground alone, a slider has no lean; beside one that rocks each column keeps to its own, with a clock below."""
+    motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
+    rests, slides, rocks = (solve_respond(Block(width, 0.9), motion, mu=mu) for width, mu in ((0.9, 0.9), (0.9, 0.1), (0.2, 0.9)))
+
+    def panels(*responses):
+        """Return the panels but the strips above them, and what each shows."""
+        axes = [axis for axis in figure(responses).axes if axis.get_ylabel()]
+        return axes, [axis.get_ylabel().split()[0] for axis in axes]
+
+    assert [panels(each)[1] for each in (rests, slides, rocks)] == [["a"], ["a", "x"], ["a", "x", "θ/α"]]
+    axes, labels = panels(rests, rocks)
+    assert labels == ["a", "a", "x", "θ/α"]
+    assert [bool(axis.get_xlabel()) for axis in axes] == [True, False, False, True]
+    assert axes[0].xaxis.get_tick_params()["labelbottom"]
+
+
+@pytest.mark.parametrize(("mu", "named"), [(0.9, ["slides: μ"]), (9.0, [])], ids=["within sight", "far away"])
+def test_a_legend_names_lines_that_are_seen(mu, named):
+    """Beside what rests stands how much more it takes; what lies far beyond the picture is not named."""
+    motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
+    (axis,) = figure([solve_respond(Block(10.0 * mu, 0.9), motion, mu=mu)]).axes
+    assert axis.get_legend_handles_labels()[1] == named
+    assert axis.get_ylim()[1] == pytest.approx(1.15 * (100.0 * 9.80665 * mu if named else 300.0), rel=1e-3)
+
+
 def test_every_direction(tmp_path):
     """all-azimuths answers for the worst one and lists them all."""
     document = answer("synthetic_jma", "--width", "45cm", "--height", "180cm", "--mu", "0.3", "--component", "all-azimuths", "--runs", "0")

@@ -23,6 +23,7 @@ COMMANDS = {
     "a criterion study": ["stack", "--criterion"],
     "versions of a stone": ["rock", "--block", "gravestone", "--perturb", "100000"],
     "versions of a body": ["respond", "--block", "gravestone", "--runs", "100000"],
+    "a map of modes": ["spectrum", "--kind", "modes", "--steps", "300"],
     "a scan of factors": ["infer", "--slid", "5cm", "--mu", "0.2", "--steps", "100000"],
     "a study of sliding": ["slide", "--mu", "0.02:0.5:0.0005", "--kappa", "0.1:1.0:0.005"],
 }
@@ -37,7 +38,7 @@ os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])
 COMMAND = """
 from seisblock.cli import main
 import seisblock.solvers.slide.solve, seisblock.solvers.stack.solve, seisblock.studies.sliding
-import seisblock.solvers.respond.solve, seisblock.studies.standing.probability
+import seisblock.solvers.respond.solve, seisblock.studies.standing.mode_map, seisblock.studies.standing.probability
 import seisblock.studies.rocking.perturb, seisblock.studies.inverse.factors
 print("go", flush=True)
 try:

@@ -24,27 +24,53 @@ SEEN = 1 / 2000
 LEAST_LIFT = 1e-4
 """Lift that is drawn, m: hops below a tenth of a millimetre are not to be seen."""
 
+FAR = 4.0
+"""The nearest threshold is in the picture, though nothing reaches it, up to so many times the ground's peak."""
+
 Responds = Sequence[Response[RespondOutcome]]
 
 
+GROUND, DISPLACEMENT, LEAN, LIFT = range(4)
+"""What a panel shows, from above downwards."""
+
+
 def figure(responses: Responds, *, gal: bool = True) -> Figure:
-    """Return the figure: per component a column with ground acceleration, displacement, lean and, where it flies, lift."""
-    flies = any(float(response["lift"].max()) >= LEAST_LIFT for response in responses)
-    leans = any(response.outcome.max_rotation_rad > 0.0 for response in responses)
-    rows = 2 + leans + flies
+    """Return the figure: per component a column with ground acceleration and, where it moves, leans, flies, what of this it did."""
+    shown = [happened(response) for response in responses]
+    rows = max(map(len, shown))
     motions, stretches = [response.motion for response in responses], [stretch(response) for response in responses]
     made = canvas.titled(heading_of(motions), width=2.0 + 5.4 * len(responses), height=1.2 + 1.75 * rows)
-    for panels, response, (first, last) in zip(columns_of(made, motions, stretches, rows), responses, stretches, strict=True):
-        _ground(panels[0], response, gal=gal)
-        _curve(panels[1], response, 100.0 * response["displacement"], tell("x (cm)"), canvas.SECOND)
-        if leans:
-            _lean(panels[2], response)
-        if flies:
-            _curve(panels[-1], response, 1e3 * np.maximum(response["lift"], 0.0), tell("lift (mm)"), "#2e7d4f")
-        for panel in panels:
-            canvas.shade(panel, seen(response.phases, first, last), COLOURS, names=panel is panels[1])
-        canvas.legend(panels[1])
+    for panels, response, kinds, (first, last) in zip(columns_of(made, motions, stretches, rows), responses, shown, stretches, strict=True):
+        for panel in panels[len(kinds) :]:
+            panel.remove()
+        canvas.label(panels[len(kinds) - 1], x=panels[-1].get_xlabel())
+        panels[len(kinds) - 1].tick_params(labelbottom=True)
+        for kind, panel in zip(kinds, panels, strict=False):
+            _draw(kind, panel, response, gal=gal)
+            canvas.shade(panel, seen(response.phases, first, last), COLOURS, names=kind == DISPLACEMENT)
+            canvas.legend(panel)
     return made
+
+
+def happened(response: Response[RespondOutcome]) -> list[int]:
+    """Return the panels of a response: what did not happen has none."""
+    outcome = response.outcome
+    moves = outcome.max_displacement_m > 0.0 or outcome.slip_path_m > 0.0
+    flies = float(response["lift"].max()) >= LEAST_LIFT
+    there = ((GROUND, True), (DISPLACEMENT, moves), (LEAN, outcome.max_rotation_rad > 0.0), (LIFT, flies))
+    return [kind for kind, does in there if does]
+
+
+def _draw(kind: int, panel: Axes, response: Response[RespondOutcome], *, gal: bool) -> None:
+    """Draw one panel."""
+    if kind == GROUND:
+        _ground(panel, response, gal=gal)
+    elif kind == DISPLACEMENT:
+        _curve(panel, response, 100.0 * response["displacement"], tell("x (cm)"), canvas.SECOND)
+    elif kind == LEAN:
+        _lean(panel, response)
+    else:
+        _curve(panel, response, 1e3 * np.maximum(response["lift"], 0.0), tell("lift (mm)"), "#2e7d4f")
 
 
 def stretch(response: Response[RespondOutcome]) -> Stretch:
@@ -69,16 +95,20 @@ def _ground(axis: Axes, response: Response[RespondOutcome], *, gal: bool) -> Non
     right, left = block.arms
     gravity = options["gravity_m_s2"] / unit
     curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
-    for level, text, dash in (
-        ((-right / block.centre, left / block.centre), tell("rocks: b/h"), (0, (6, 2))),
-        ((-options["mu"], options["mu"]), tell("slides: μ"), (0, (1.5, 1.5))),
-    ):
-        for index, share in enumerate(level):
-            axis.axhline(share * gravity, color=canvas.THRESHOLD, linewidth=0.8, linestyle=dash, label=text if index == 0 else None)
     reach = float(np.abs(response["ground_acceleration"]).max()) / unit
-    axis.set_ylim(-1.15 * reach, 1.15 * reach)
+    levels = (
+        ((-right / block.centre * gravity, left / block.centre * gravity), tell("rocks: b/h"), (0, (6, 2))),
+        ((-options["mu"] * gravity, options["mu"] * gravity), tell("slides: μ"), (0, (1.5, 1.5))),
+    )
+    nearest = min(abs(level) for pair, _, _ in levels for level in pair)
+    limit = 1.15 * (max(reach, nearest) if nearest <= FAR * reach else reach)
+    for pair, text, dash in levels:
+        inside = [level for level in pair if abs(level) <= limit]
+        for index, level in enumerate(inside):
+            axis.axhline(level, color=canvas.THRESHOLD, linewidth=0.8, linestyle=dash, label=text if index == 0 else None)
+    if limit > 0.0:
+        axis.set_ylim(-limit, limit)
     canvas.label(axis, y=f"a ({name})")
-    canvas.legend(axis)
     title = f"{response.motion.name}  " + tell("{name}: {what}", name=tell(block.name), what=tell(response.outcome.outcome))
     canvas.panel_title(axis, title)
 
