@@ -6,8 +6,6 @@ import os
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from seisblock._jit import cache
-
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 announce: Callable[[str], None] | None = None
