@@ -60,28 +60,6 @@ def test_a_second_process_compiles_nothing(folder):
     assert kept(folder) == before
 
 
-def test_only_what_is_called_is_read(folder):
-    """Kernels that others call hold nothing that their callers lack: a process leaves them alone, whatever is in them."""
-    others = [path for path in folder.rglob("*.nbc") if not path.name.startswith(("polynomial.first_crossing-", "polynomial.evaluate-"))]
-    assert len(others) > 3
-    for path in others:
-        path.write_bytes(b"")
-    assert answers(folder) == []
-    assert not any(path.read_bytes() for path in others)
-
-
-@pytest.mark.parametrize("arguments", ["'one', 1, 0.5", "np.zeros(2), 1", "np.zeros((2, 2)), 1, 0.5"], ids=["a word", "too few", "a table"])
-def test_a_first_call_that_does_not_fit_is_refused(arguments):
-    """As every later one is, and the kernel answers whoever calls it rightly after that."""
-    script = (
-        "import numpy as np; from seisblock.dynamics.polynomial import evaluate\n"
-        f"try: evaluate({arguments})\nexcept TypeError as error: print(type(error).__name__)\n"
-        "print(evaluate(np.array([1.0, 2.0]), 1, 0.5))"
-    )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout.split()) == (0, ["TypeError", "2.0"]), done.stderr
-
-
 @pytest.mark.parametrize(
     "spoil", [lambda data: b"", lambda data: data[: len(data) // 2], lambda data: data[:-1]], ids=["empty", "half", "last byte"]
 )

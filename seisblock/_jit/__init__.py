@@ -6,6 +6,8 @@ import os
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from seisblock._jit import cache
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 announce: Callable[[str], None] | None = None
@@ -23,7 +25,7 @@ def types() -> Any:
 
 
 def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> Callable[[Function], Function]:
-    """Compile a function for one explicit signature, cached and read when it is first called, without the GIL and without ``fastmath``.
+    """Compile a function for one explicit signature, cached, without the GIL and without ``fastmath``.
 
     A cache that is damaged, full or read-only costs the time of compiling afresh, and nothing else.
 
@@ -42,11 +44,15 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
     def decorate(function: Function) -> Function:
         if not ENABLED:
             return function
-        from seisblock._jit.on_demand import OnDemand
+        import numba
 
-        counting = {} if allocates else {"_nrt": False}
-        options = {"nogil": True, "error_model": "numpy", "forceinline": inline, **counting}
-        return OnDemand.of(function, signature, options, say)  # type: ignore[return-value]
+        def compiled(cached: bool) -> Function:
+            """Compile, or load what an earlier process compiled."""
+            counting = {} if allocates else {"_nrt": False}
+            made = numba.njit(signature, cache=cached, nogil=True, error_model="numpy", forceinline=inline, **counting)
+            return made(function)  # type: ignore[no-any-return]
+
+        return cache.guarded(compiled, function, say)
 
     return decorate
 

@@ -123,23 +123,8 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
     return compiled(False)
 
 
-def is_kept(function: Callable[..., Any]) -> bool:
-    """Return whether an earlier process has kept a kernel, whole or not."""
-    return _stem(cast(FunctionType, function)) in _kept()
-
-
-@functools.cache
-def _kept() -> frozenset[str]:
-    """Return the kernels that earlier processes have kept."""
-    return frozenset(path.name.rsplit(".", 2)[0] for path in directory().rglob("*.nbi"))
-
-
-def _stem(function: FunctionType) -> str:
-    """Return how the names of a kernel's files begin."""
-    return f"{Path(function.__code__.co_filename).stem}.{function.__qualname__}-{function.__code__.co_firstlineno}"
-
-
 def _remove(function: FunctionType) -> None:
     """Remove what is kept of one kernel."""
-    for path in directory().rglob(f"{_stem(function)}.*.nb[ci]"):
+    stem = f"{Path(function.__code__.co_filename).stem}.{function.__qualname__}-{function.__code__.co_firstlineno}"
+    for path in directory().rglob(f"{stem}.*.nb[ci]"):
         path.unlink(missing_ok=True)
