@@ -120,7 +120,7 @@ def warm(*words):
 
 
 def test_a_warm_command(benchmark):
-    """`respond` with its 200 versions of two components, from the shell, kernels compiled before, costs less than twice what `slide` does."""
+    """From the shell, kernels compiled before, `respond` with 200 versions of two components costs less than twice what `slide` does."""
     words = ("respond", "--width", "45cm", "--height", "180cm", "--mu", "0.3")
     spent = []
 
