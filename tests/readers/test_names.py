@@ -130,7 +130,7 @@ def test_other_formats_of_obspy_need_a_unit(tmp_path):
         stream.append(obspy.Trace(np.arange(100, dtype=np.int32) * (1 + "ENZ".index(channel)), header=header))
     path = tmp_path / "a.mseed"
     stream.write(str(path), format="MSEED")
-    with pytest.raises(UnitError, match="--units"):
+    with pytest.raises(UnitError, match="give `units`"):
         read(path)
     record = read(path, units="gal")
     assert (record.format, record.station, record.codes, record.dt) == ("OBSPY:MSEED", "ABC", ("NS", "EW", "UD"), 0.01)

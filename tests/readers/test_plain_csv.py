@@ -77,7 +77,7 @@ def test_without_a_header_an_even_first_column_is_time(table):
     assert record.codes == ("ACC",)
     assert record.dt == 0.02
     assert "time" in record.history[0]
-    with pytest.raises(ParameterError, match="--dt"):
+    with pytest.raises(ParameterError, match="`dt`"):
         read(table("0.1\n0.2\n-0.1\n"), units="g")
     assert read(table("0.1\n0.2\n-0.1\n"), units="g", dt=0.01).samples == 3
 
@@ -152,7 +152,7 @@ def test_uneven_time_is_refused_and_a_last_digit_is_not(table):
         ("time,NS (gal),EW (gal)\n0,1,2\n0.01,1\n", {}, RecordFormatError, "line 3: the cell of column EW (gal) is empty"),
         ("time,NS (gal)\n0,1\n0.01,2,7\n", {}, RecordFormatError, "line 3: expected 2 cells, found 3"),
         ("time,NS (gal)\n0,1\n", {}, RecordFormatError, "at least 2 samples"),
-        ("time (s)\n0\n0.01\n", {}, RecordFormatError, "nothing else"),
+        ("time (s)\n0\n0.01\n", {}, RecordFormatError, "holds no acceleration: expected at least one such column, found time (s)"),
         ("time,NS (gal),N-S (gal)\n0,1,1\n0.01,2,2\n", {}, RecordFormatError, "several columns mean NS"),
         ("time,NS (gal),EW (gal),foo\n0,1,2,3\n0.01,2,3,4\n", {}, RecordFormatError, "column not understood: 'foo'; expected a direction"),
         ("time (JST),NS (gal)\n0,1\n0.01,2\n", {}, UnitError, "unknown unit of time 'JST'"),
