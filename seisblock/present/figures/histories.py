@@ -28,7 +28,12 @@ STRONG = (0.05, 0.95)
 
 
 def columns_of(
-    figure: Figure | SubFigure, motions: Sequence[Motion], stretches: Sequence[Stretch], rows: int, *, heights: Sequence[float] = ()
+    figure: Figure | SubFigure,
+    motions: Sequence[Motion],
+    stretches: Sequence[Stretch],
+    rows: int | Sequence[int],
+    *,
+    heights: Sequence[float] = (),
 ) -> list[list[Axes]]:
     """Return the panels of each motion from above downwards, all of a column on one clock that runs over its stretch.
 
@@ -39,23 +44,25 @@ def columns_of(
         One per column; their horizontal acceleration is what the strip shows.
     stretches : sequence of (float, float)
         What each column shows, s.
-    rows : int
+    rows : int, or one per column
+        Panels of a column; a shorter one leaves the places below it empty.
     heights : sequence of float
         Of the rows, relative; alike when left out.
     """
     partial = [is_part(motion.time, stretch) for motion, stretch in zip(motions, stretches, strict=True)]
-    tall = list(heights) or [1.0] * rows
+    counts = [rows] * len(motions) if isinstance(rows, int) else rows
+    tall = list(heights) or [1.0] * max(counts)
     lead = [STRIP * float(np.mean(tall))] if any(partial) else []
-    grid = figure.add_gridspec(len(lead) + rows, len(motions), height_ratios=[*lead, *tall])
+    grid = figure.add_gridspec(len(lead) + len(tall), len(motions), height_ratios=[*lead, *tall])
     columns = []
     for index, (motion, stretch) in enumerate(zip(motions, stretches, strict=True)):
         if partial[index]:
             strip(figure.add_subplot(grid[0, index]), motion.time, motion.horizontal, stretch, motion.name)
         panels: list[Axes] = []
-        for row in range(rows):
+        for row in range(counts[index]):
             panels.append(figure.add_subplot(grid[len(lead) + row, index], sharex=panels[0] if panels else None))
             canvas.dress(panels[-1])
-            panels[-1].tick_params(labelbottom=row + 1 == rows)
+            panels[-1].tick_params(labelbottom=row + 1 == counts[index])
         panels[0].set_xlim(*stretch)
         canvas.label(panels[-1], x=tell("t (s)"))
         columns.append(panels)

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from seisblock.measures import RecordMeasures, fourier_amplitude, ground_history, response_spectrum
 from seisblock.measures.spectra import DAMPING
-from seisblock.present.figures.canvas import ACCENT, INPUT, dress, label, legend, threshold, titled
+from seisblock.present.figures.canvas import ACCENT, INPUT, acceleration_unit, dress, label, legend, threshold, titled
 from seisblock.present.figures.curves import curve, in_view, thin
 from seisblock.present.figures.heading import BETWEEN, heading
 from seisblock.present.figures.histories import columns_of, strong_part
@@ -62,7 +62,7 @@ def _title(record: Record, answer: RecordMeasures) -> str:
 
 def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component], answer: RecordMeasures, *, gal: bool) -> None:
     """Draw the accelerations on one scale, what exceeds the threshold filled."""
-    unit, name = (GAL, "gal") if gal else (1.0, "m/s²")
+    unit, name = acceleration_unit(gal=gal)
     reach = 1.15 * max(m.pga_m_s2 for m in answer.components) / unit or 1.0
     for axis, part, m in zip(axes, parts, answer.components, strict=True):
         values = part.acceleration / unit
@@ -117,7 +117,7 @@ def _draw_fourier(axis: Axes, record: Record, parts: list[Component], smoothing_
 
 def _draw_response(axis: Axes, record: Record, parts: list[Component], *, gal: bool) -> None:
     """Draw the absolute acceleration response."""
-    unit, name = (GAL, "gal") if gal else (1.0, "m/s²")
+    unit, name = acceleration_unit(gal=gal)
     for part, (colour, dashes) in zip(parts, _styles(len(parts)), strict=True):
         spectrum = response_spectrum(part.acceleration, record.dt)
         axis.plot(spectrum.period_s, spectrum.sa_m_s2 / unit, color=colour, linestyle=dashes, linewidth=1.0, label=part.code)

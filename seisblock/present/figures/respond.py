@@ -37,15 +37,11 @@ GROUND, DISPLACEMENT, LEAN, LIFT = range(4)
 def figure(responses: Responds, *, gal: bool = True) -> Figure:
     """Return the figure: per component a column with ground acceleration and, where it moves, leans, flies, what of this it did."""
     shown = [happened(response) for response in responses]
-    rows = max(map(len, shown))
+    rows = [len(kinds) for kinds in shown]
     motions, stretches = [response.motion for response in responses], [stretch(response) for response in responses]
-    made = canvas.titled(heading_of(motions), width=2.0 + 5.4 * len(responses), height=1.2 + 1.75 * rows)
+    made = canvas.titled(heading_of(motions), width=2.0 + 5.4 * len(responses), height=1.2 + 1.75 * max(rows))
     for panels, response, kinds, (first, last) in zip(columns_of(made, motions, stretches, rows), responses, shown, stretches, strict=True):
-        for panel in panels[len(kinds) :]:
-            panel.remove()
-        canvas.label(panels[len(kinds) - 1], x=panels[-1].get_xlabel())
-        panels[len(kinds) - 1].tick_params(labelbottom=True)
-        for kind, panel in zip(kinds, panels, strict=False):
+        for kind, panel in zip(kinds, panels, strict=True):
             _draw(kind, panel, response, gal=gal)
             canvas.shade(panel, seen(response.phases, first, last), COLOURS, names=kind == DISPLACEMENT)
             canvas.legend(panel)
