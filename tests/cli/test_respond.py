@@ -185,3 +185,20 @@ def test_every_direction(tmp_path):
     document = answer("synthetic_jma", "--width", "45cm", "--height", "180cm", "--mu", "0.3", "--component", "all-azimuths", "--runs", "0")
     (result,) = document["results"]
     assert len(result["directions"]) == 36 and float(result["component"]) == result["directions"][0]["azimuth_deg"]
+
+
+def test_a_fall_after_the_record_is_said(tmp_path):
+    """A push that ends the record lets the body fall on still ground, at a time that the record does not have."""
+    push = tmp_path / "push.csv"
+    rows = [f"{0.01 * i:.2f},{4.5 * np.sin(np.pi * (i - 100) / 80) if i >= 100 else 0.0:.6f}" for i in range(160)]
+    push.write_text("time,NS (m/s2)\n" + "\n".join(rows) + "\n")
+    words = (push, "--width", "30cm", "--height", "100cm", "--mu", "0.6", "--runs", "0", "--quiet")
+    assert re.search(r"NS: overturns to -NS at 2\.\d\d s, after the record", run(*words).stdout)
+    assert "record" not in run("elcentro_1940_ns", *CABINET, "--mu", "0.6", "--scale", "4", "--runs", "0", "--quiet").stdout.splitlines()[2]
+
+
+def test_where_friction_meets_slenderness_it_slides():
+    """At mu = b/h the closed form of initiation slides: so does the body, and so says the table."""
+    words = ("--width", "50cm", "--height", "100cm", "--mu", "0.5", "--runs", "0", "--quiet", "--component", "NS", "--no-vertical")
+    shown = run(*words).stdout
+    assert "slides first, above 490 gal" in shown and "never rocks" in shown

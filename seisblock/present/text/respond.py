@@ -44,10 +44,14 @@ def verdict(response: Response[RespondOutcome]) -> str:
     """Return what happened, in words."""
     outcome, name = response.outcome, response.motion.name or "x"
     if outcome.overturned:
-        assert outcome.overturning_time_s is not None
+        at = outcome.overturning_time_s
+        assert at is not None
         slid = tell(", having slid {path}", path=length(outcome.slip_path_m)) if outcome.slip_path_m >= STIRS_M else ""
         towards = side(outcome.overturned_towards, name)
-        words = tell("overturns to {towards} at {time:.2f} s{slid}", towards=towards, time=outcome.overturning_time_s, slid=slid)
+        if at > response.motion.time[-1]:
+            words = tell("overturns to {towards} at {time:.2f} s, after the record{slid}", towards=towards, time=at, slid=slid)
+        else:
+            words = tell("overturns to {towards} at {time:.2f} s{slid}", towards=towards, time=at, slid=slid)
     elif outcome.outcome == "rests":
         words = tell("stands still")
     else:
@@ -178,7 +182,7 @@ def _table(responses: Responds) -> Any:
         ratio=ratio,
         mu=options["mu"],
         kinetic=options["mu_kinetic"],
-        first=tell("slides") if options["mu"] < ratio else tell("rocks"),
+        first=tell("slides") if options["mu"] <= ratio else tell("rocks"),
         onset=onset,
     )
     spent = [o.time_in_mode_s for o in outcomes]

@@ -276,13 +276,13 @@ def come_down(onto_right, y, f, p, held):
     y[OMEGA] = turned
     y[SPEED] = after
     y[LOSS] += loss
-    if turned == 0.0:
-        return go_on(True, True, NONE, y, f, p, held)
     if rate > 0.0:
         return lift_off(onto_right, rate, y, p)
     if abs(apart * turned) < p[SMALL_RATE] and stays_flat(after, f, p, held):
         speed = after + p[HEIGHT] * turned
         y[OMEGA] = 0.0
         y[SPEED] = 0.0 if abs(after) < p[SMALL_RATE] or speed * after <= 0.0 else speed
+        return go_on(True, True, NONE, y, f, p, held)
+    if turned == 0.0:
         return go_on(True, True, NONE, y, f, p, held)
     return go_on(not onto_right, onto_right, NONE, y, f, p, held)

@@ -167,6 +167,21 @@ def test_a_ratio_of_zero_stops_it_flat():
     assert sequence(outcome) == ["rock right", "rest"]
 
 
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+@pytest.mark.parametrize(("width", "height", "mu"), [(1.0, 3.0, 2.0), (1.0, 6.0, 5.0), (1.6, 6.8, 2.0)])
+def test_a_ratio_of_zero_that_leaves_a_slip_dies_away(width, height, mu, restitution):
+    """Above Painleve's limit what slips on after r = 0 jams and is thrown up, ever less: below the smallest rate it rests."""
+    block = Block(width, height, mass=1.0)
+    response = solve_respond(block, still(), mu=mu, restitution=restitution, rocking_restitution=0.0, initial=leaning(block, 0.03))
+    outcome = response.outcome
+    assert outcome.settled
+    assert outcome.jams > 3
+    assert sequence(outcome)[-1] == "rest"
+    total = outcome.energy_friction_j + outcome.energy_impacts_j
+    lifted = G * (leaning(block, 0.03)[1] - block.centre)
+    assert total == pytest.approx(lifted, rel=1e-9)
+
+
 def test_painleves_limit_of_a_rectangle():
     """2 sqrt(kappa (1 + kappa)) with kappa = 1/3 is 4/3, whatever the slenderness; it is said above it and not below."""
     for block in (SLENDER, Block(1.0, 0.4)):
