@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any, TypeVar
 
 from seisblock._jit import cache
+from seisblock._jit.on_demand import OnDemand
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -25,7 +26,7 @@ def types() -> Any:
 
 
 def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> Callable[[Function], Function]:
-    """Compile a function for one explicit signature, cached, without the GIL and without ``fastmath``.
+    """Compile a function for one explicit signature when it is first needed, cached, without the GIL and without ``fastmath``.
 
     A cache that is damaged, full or read-only costs the time of compiling afresh, and nothing else.
 
@@ -44,15 +45,15 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
     def decorate(function: Function) -> Function:
         if not ENABLED:
             return function
-        import numba
 
-        def compiled(cached: bool) -> Function:
+        def compiled(cached: bool) -> Any:
             """Compile, or load what an earlier process compiled."""
-            counting = {} if allocates else {"_nrt": False}
-            made = numba.njit(signature, cache=cached, nogil=True, error_model="numpy", forceinline=inline, **counting)
-            return made(function)  # type: ignore[no-any-return]
+            import numba
 
-        return cache.guarded(compiled, function, say)
+            counting = {} if allocates else {"_nrt": False}
+            return numba.njit(signature, cache=cached, nogil=True, error_model="numpy", forceinline=inline, **counting)(function)
+
+        return OnDemand(function, lambda: cache.guarded(compiled, function, say))  # type: ignore[return-value]
 
     return decorate
 

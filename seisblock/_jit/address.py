@@ -12,7 +12,7 @@ class Pointer(types.WrapperAddressProtocol):  # type: ignore[misc]
 
     Parameters
     ----------
-    kernel : numba dispatcher
+    kernel : OnDemand
         Kept alive as long as the pointer.
     signature : numba signature
         One of those it was compiled for.
@@ -21,7 +21,7 @@ class Pointer(types.WrapperAddressProtocol):  # type: ignore[misc]
     def __init__(self, kernel: Any, signature: Any) -> None:
         self._kernel = kernel
         self._signature = signature
-        compiled = kernel.get_compile_result(signature)
+        compiled = kernel.compiled.get_compile_result(signature)
         self._address = compiled.library.get_pointer_to_function(compiled.fndesc.llvm_cfunc_wrapper_name)
         # the attribute by which numba's dispatcher recognises a type without asking
         self._numba_type_ = types.FunctionType(signature)

@@ -10,6 +10,7 @@ import pytest
 from seisblock._jit import ENABLED, pointer
 from seisblock.dynamics import follow
 from seisblock.dynamics.contract import SERIES
+from seisblock.dynamics.polynomial import evaluate
 from seisblock.records import Motion
 from tests.dynamics.toy_models import BALL
 
@@ -25,6 +26,12 @@ def test_a_pointer_is_its_kernel():
         assert function(0, np.array([1.0, 2.0]), np.zeros((3, 2)), np.array([9.8, 0.5, 0.1]), 3, c, g) == 2
     np.testing.assert_array_equal(room[0], room[2])
     assert made.signature() == SERIES
+
+
+def test_a_kernel_travels_by_name():
+    """It is itself again where it arrives, described as the function that it is."""
+    assert pickle.loads(pickle.dumps(evaluate)) is evaluate
+    assert evaluate.__name__ == "evaluate" and "polynomial" in evaluate.__doc__
 
 
 def test_a_model_that_has_been_followed_can_be_sent_to_another_process():

@@ -1,0 +1,50 @@
+"""A kernel that is compiled, or read from the cache, when somebody first needs it."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+
+class OnDemand:
+    """A kernel in the place of its function: Python calls it, and kernels that name it call what it holds.
+
+    Most kernels are called by other kernels alone, whose machine code in the cache holds theirs: a process that finds
+    everything in the cache reads only the few that Python calls.
+
+    Parameters
+    ----------
+    function : function
+        The kernel's source.
+    make : callable
+        Compiles it, or reads it from the cache.
+    """
+
+    def __init__(self, function: Callable[..., Any], make: Callable[[], Any]) -> None:
+        self._make = make
+        self._compiled: Any = None
+        functools.update_wrapper(self, function)
+
+    @property
+    def compiled(self) -> Any:
+        """Numba's dispatcher.
+
+        No lock is held while it is made: two threads may both make it, one of them from what the other one kept.
+        """
+        if self._compiled is None:
+            self._compiled = self._make()
+        return self._compiled
+
+    @property
+    def _numba_type_(self) -> Any:
+        """The attribute by which numba learns the type of what a kernel names."""
+        return self.compiled._numba_type_
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the kernel from Python."""
+        return self.compiled(*arguments)
+
+    def __reduce__(self) -> str:
+        """Travel to another process by name; it is compiled, or read, there."""
+        return str(self.__qualname__)  # type: ignore[attr-defined]
