@@ -148,4 +148,4 @@ def _animate(animation: Callable[[Path, Filming], None], output: Output) -> None
         say(MISSING)
         spoken = drawable()
     with progress("drawing") as advance, speaking(spoken):
-        animation(output.animate, Filming(output.slow, advance))
+        animation(output.animate, Filming(output.slow, advance, output.gal))

@@ -72,7 +72,7 @@ def _ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
     help="The parameters of this figure of the paper; implies --harmonic, other options prevail.",
 )
 @gravity_option
-@output_options(film=False)
+@output_options()
 def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figure: str | None, **given: Any) -> None:
     """Uplift of a rigid block on springs at its four corners (Okumura et al. 1987).
 

@@ -181,6 +181,13 @@ def _film_jump(response: Response[Any], path: Path, filming: Filming) -> None:
     animate_jump(response, path, filming)
 
 
+def _film_uplift(response: Response[Any], path: Path, filming: Filming) -> None:
+    """Film a block on its springs."""
+    from seisblock.present.films.uplift import animate_uplift
+
+    animate_uplift(response, path, filming)
+
+
 def _film_stack(response: Response[Any], path: Path, filming: Filming) -> None:
     """Film a pile."""
     from seisblock.present.films.stack import animate_stack
@@ -193,7 +200,7 @@ FACES = {
     "rock": Face(_tell_rock, _rock, _film_rock),
     "slide": Face(_tell_slide, _slide, _film_slide),
     "jump": Face(_tell_jump, _jump, _film_jump),
-    "uplift": Face(_tell_uplift, _uplift),
+    "uplift": Face(_tell_uplift, _uplift, _film_uplift),
     "stack": Face(_tell_stack, _stack, _film_stack),
 }
 """Models in the order in which a user meets them."""

@@ -65,7 +65,7 @@ def test_a_title_is_the_figures(tmp_path):
 
 def test_options_are_those_that_act():
     """F6: what has no film has no option for one; what --csv holds is said where it is no time history."""
-    for command, film, history in (("slide", True, True), ("uplift", False, True), ("criteria", False, False), ("spectrum", False, False)):
+    for command, film, history in (("slide", True, True), ("uplift", True, True), ("criteria", False, False), ("spectrum", False, False)):
         told = " ".join(CliRunner().invoke(main, [command, "--help"]).output.split())
         assert ("--animate" in told) == film and ("--slow " in told) == film
         assert ("Write the time history" in told) == history

@@ -39,15 +39,6 @@ def test_gif_holds_every_picture_at_true_speed(tmp_path):
         assert image.info["loop"] == 0
 
 
-def test_html_needs_nothing_else(tmp_path):
-    """One file with as many pictures, no link to anything outside."""
-    animate(pictures(7), tmp_path / "a.html")
-    page = (tmp_path / "a.html").read_text()
-    assert page.count("iVBOR") == 7
-    assert "http" not in page
-    assert "@" not in page.split("const pictures")[0].split("<body")[-1]
-
-
 @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is not installed")
 def test_mp4_is_a_film(tmp_path):
     """Odd sizes are cut to even ones, as the codec wants."""

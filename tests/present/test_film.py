@@ -14,10 +14,11 @@ from seisblock.bodies.toml import read_table
 from seisblock.bodies.two_layer import Contact, contact, two_layer_block
 from seisblock.measures import ground_history
 from seisblock.present.films.animation import Filming
-from seisblock.present.films.film import Body, Film, Piece, rectangle, turned
+from seisblock.present.films.film import Film
 from seisblock.present.films.frames import pace
 from seisblock.present.films.jump import animate_jump, jump_film
 from seisblock.present.films.page import film_page
+from seisblock.present.films.plane import Body, Piece, Plane, rectangle, turned
 from seisblock.present.films.rock import animate_rocking, rocking_film
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
@@ -58,7 +59,7 @@ def test_a_turn_to_plus_x_moves_the_top_to_plus_x():
 
 def test_while_it_rocks_one_foot_stays_and_while_it_flies_none_touches(film):
     """The pivot is where it was, the flight is free of the floor, and no foot is ever below the ground."""
-    left, right = film.trails
+    left, right = film.scene.trails
     rocking, flying = during(film, "rocking"), during(film, "flight")
     np.testing.assert_allclose(left.z[rocking], 0.0, atol=1e-4)
     np.testing.assert_allclose(left.x[rocking], left.x[0], atol=1e-4)
@@ -69,7 +70,7 @@ def test_while_it_rocks_one_foot_stays_and_while_it_flies_none_touches(film):
 def test_the_feet_end_where_the_answer_says(film, jumped):
     """The path of each foot ends at the total displacement, 0.3 m further down."""
     total = jumped.outcome.chains[0].total_displacement_m
-    for trail in film.trails:
+    for trail in film.scene.trails:
         assert trail.x[-1] - trail.x[0] == pytest.approx(total, abs=1e-6)
         assert trail.z[-1] == pytest.approx(-0.3, abs=1e-6)
 
@@ -77,16 +78,16 @@ def test_the_feet_end_where_the_answer_says(film, jumped):
 def test_the_ground_moves_as_its_displacement(film, jumped):
     """The shift is the record's displacement on the baseline of PGD."""
     moved = ground_history(jumped.motion.horizontal, jumped.motion.dt).displacement
-    np.testing.assert_allclose(film.shift, np.interp(film.time, jumped.motion.time, moved), atol=1e-15)
+    np.testing.assert_allclose(film.scene.shift, np.interp(film.time, jumped.motion.time, moved), atol=1e-15)
 
 
 def test_everything_stays_in_the_picture(film):
     """The box holds every corner of every picture, ground displacement included."""
-    left, right, bottom, top = film.extent
+    left, right, bottom, top = film.scene.extent
     for index in range(0, film.time.size, 7):
-        for body in film.bodies:
+        for body in film.scene.bodies:
             for piece in body.pieces:
-                corners = body.placed(piece.corners, index) + np.array([film.shift[index], 0.0])
+                corners = body.placed(piece.corners, index) + np.array([film.scene.shift[index], 0.0])
                 assert (corners >= [left, bottom]).all() and (corners <= [right, top]).all()
 
 
@@ -94,7 +95,7 @@ def test_a_page_holds_the_film_and_fetches_nothing(film):
     """Data, script and style stand in the page; what it holds is the film to 0.01 mm."""
     page = film_page(film, Filming(slow=4.0))
     data = json.loads(re.search(r'id="film">(.*?)</script>', page, re.DOTALL).group(1))
-    np.testing.assert_allclose(data["trails"][1]["x"], film.trails[1].x, atol=5.1e-6)
+    np.testing.assert_allclose(data["scene"]["trails"][1]["x"], film.scene.trails[1].x, atol=5.1e-6)
     assert data["pace"] == 0.25 and '<option value="0.25" selected>' in page
     assert not re.search(r"https?://|src=|@import|url\(", page)
     assert len(page) < 150_000
@@ -103,7 +104,7 @@ def test_a_page_holds_the_film_and_fetches_nothing(film):
 def test_titles_are_text_and_not_markup():
     """A body named like a tag cannot break the page."""
     body = Body((Piece(rectangle(0, 1, 0, 1)),), *np.zeros((3, 2)))
-    film = Film("</script><b>", np.array([0.0, 1.0]), np.zeros(2), (body,), (rectangle(-1, 1, -1, 0),))
+    film = Film("</script><b>", np.array([0.0, 1.0]), Plane(np.zeros(2), (body,), (rectangle(-1, 1, -1, 0),)), heading="<b>", note="<b>")
     page = film_page(film, Filming())
     assert "<b>" not in page and page.count("</script>") == 2
 
@@ -132,8 +133,8 @@ def test_the_rocking_block_stands_on_its_pivot():
     t = np.arange(301) * 0.01
     response = solve_rock(Block(0.3, 0.9), Motion.from_arrays(4.0 * np.sin(2 * np.pi * 1.7 * t), 0.01, name="NS"))
     film = rocking_film(response, response.time)
-    corners = film.bodies[0].pieces[0].corners
-    feet = [film.bodies[0].path(corners[i])[1] for i in (0, 1)]
+    corners = film.scene.bodies[0].pieces[0].corners
+    feet = [film.scene.bodies[0].path(corners[i])[1] for i in (0, 1)]
     np.testing.assert_allclose(np.minimum(*feet), 0.0, atol=1e-12)
     lean = response["rotation"]
     assert (feet[0][lean > 1e-6] > 0).all() and (feet[1][lean < -1e-6] > 0).all()

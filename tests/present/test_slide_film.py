@@ -44,10 +44,10 @@ def test_beyond_the_foot_the_way_is_level():
 def test_the_object_is_where_the_answer_has_it(response):
     """On level ground x is the relative displacement, the base is under it at every picture."""
     film = slide_film(response, response.time)
-    np.testing.assert_array_equal(film.bodies[0].x, response["displacement"])
-    left, right, _, _ = film.extent
-    floor = film.floors[0][:, 0]
-    assert floor.min() + film.shift.max() < left and floor.max() + film.shift.min() > right
+    np.testing.assert_array_equal(film.scene.bodies[0].x, response["displacement"])
+    left, right, _, _ = film.scene.extent
+    floor = film.scene.floors[0][:, 0]
+    assert floor.min() + film.scene.shift.max() < left and floor.max() + film.scene.shift.min() > right
 
 
 def test_it_is_written(response, tmp_path):

@@ -1,9 +1,7 @@
-"""Animations: pictures on one stage, written as .gif, .mp4 or one .html file that needs nothing else."""
+"""Pictures on one stage, written as .gif or .mp4."""
 
 from __future__ import annotations
 
-import base64
-import io
 import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -17,7 +15,6 @@ from PIL import Image
 
 from seisblock.errors import OutputError
 from seisblock.present.files import replacing
-from seisblock.present.page import page
 from seisblock.typing import Progress
 from seisblock.words import tell
 
@@ -37,10 +34,13 @@ class Filming:
     slow : float
         How many times slower than life it plays.
     progress : callable
+    gal : bool
+        Unit of accelerations: gal, else m/s^2.
     """
 
     slow: float = 1.0
     progress: Progress | None = None
+    gal: bool = True
 
 
 REAL_TIME = Filming()
@@ -92,7 +92,7 @@ def animate(frames: Iterable[Image.Image], path: Path | str, *, fps: int = FRAME
     ----------
     frames : iterable of RGB images of one size
     path : path
-        ``.gif`` (plays anywhere), ``.mp4`` (needs ffmpeg), or ``.html`` (one file with its own player).
+        ``.gif`` (plays anywhere) or ``.mp4`` (needs ffmpeg).
     fps : int
         Pictures per second.
 
@@ -102,7 +102,7 @@ def animate(frames: Iterable[Image.Image], path: Path | str, *, fps: int = FRAME
         If the suffix is another, ffmpeg is missing for .mp4, or the file cannot be written.
     """
     target = Path(path)
-    writers = {".gif": _write_gif, ".mp4": _write_mp4, ".html": _write_html}
+    writers = {".gif": _write_gif, ".mp4": _write_mp4}
     writer = writers.get(target.suffix.lower())
     if writer is None:
         raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=target, suffixes=list(SUFFIXES))
@@ -186,16 +186,3 @@ def _is_whole_mp4(path: Path) -> bool:
             kinds.add(head[4:8])
             at += length
     return at == size and {b"ftyp", b"moov", b"mdat"} <= kinds
-
-
-def _write_html(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
-    """Write one page that holds the pictures and a player: play, pause, slide, step with the arrow keys."""
-    pictures = []
-    size = (1, 1)
-    for frame in frames:
-        held = io.BytesIO()
-        frame.quantize(64, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(held, format="PNG")
-        pictures.append(base64.b64encode(held.getvalue()).decode("ascii"))
-        size = frame.size
-    words = {"play": tell("play"), "pause": tell("pause")}
-    path.write_text(page("animation.html", "seisblock", width=size[0], fps=fps, pictures=pictures, words=words), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What an animation shows, before anyone decides how to draw it: shapes on a shaking ground, paths, and curves below."""
+"""What an animation shows, before anyone decides how to draw it: a scene, and curves against time below it."""
 
 from __future__ import annotations
 
@@ -8,70 +8,44 @@ from functools import cached_property
 
 import numpy as np
 
-from seisblock.measures import ground_history
+from seisblock.present.figures.canvas import acceleration_unit
+from seisblock.present.films.plane import Plane
+from seisblock.present.films.space import Space
 from seisblock.records import Motion
 from seisblock.results import Phase
 from seisblock.typing import FloatArray
 from seisblock.words import tell
 
-Box = tuple[float, float, float, float]
-"""Left, right, bottom, top, m."""
+GROUND, RESPONSE = "#737373", "#c0392b"
+"""Colours of the ground's motion and of what answers it."""
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
-    """A rigid polygon of a body: (k, 2) corners, m, in the body's own frame, and its colour."""
+class Line:
+    """One curve: times and values, (n,), its colour, its name where there are several, and its dashes, points on and off."""
 
-    corners: FloatArray
-    colour: str = "#d9d3c7"
-
-
-@dataclass(frozen=True, eq=False)
-class Body:
-    """What moves: pieces, and where their common origin is relative to the ground.
-
-    Parameters
-    ----------
-    pieces : tuple of Piece
-    x, z : (n,) arrays, m
-    turn : (n,) array, rad
-        Positive when the body leans to +x.
-    """
-
-    pieces: tuple[Piece, ...]
-    x: FloatArray
-    z: FloatArray
-    turn: FloatArray
-
-    def placed(self, corners: FloatArray, index: int) -> FloatArray:
-        """Return corners where they are in picture `index`, (k, 2), m relative to the ground."""
-        return turned(corners, float(self.turn[index])) + np.array([self.x[index], self.z[index]])
-
-    def path(self, corner: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the path of one point of the body relative to the ground, x and z, (n,), m."""
-        cosine, sine = np.cos(self.turn), np.sin(self.turn)
-        return self.x + corner[0] * cosine + corner[1] * sine, self.z + corner[1] * cosine - corner[0] * sine
-
-
-@dataclass(frozen=True, eq=False)
-class Trail:
-    """The path of a point relative to the ground, drawn behind it: x and z, (n,), m."""
-
-    name: str
-    x: FloatArray
-    z: FloatArray
-    colour: str = "#c0392b"
+    time: FloatArray
+    values: FloatArray
+    colour: str = RESPONSE
+    name: str = ""
+    dashes: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
 class Strip:
-    """A curve against time under the scene, with its thresholds."""
+    """Curves against time under the scene, with their thresholds."""
 
     label: str
-    time: FloatArray
-    values: FloatArray
+    lines: tuple[Line, ...]
     levels: tuple[float, ...] = ()
-    colour: str = "#c0392b"
+
+    def range_over(self, first: float, last: float) -> tuple[float, float]:
+        """Return the least and the largest value between two times, zero among them."""
+        low = high = 0.0
+        for line in self.lines:
+            inside = line.values[(line.time >= first) & (line.time <= last)]
+            low, high = float(np.fmin.reduce(inside, initial=low)), float(np.fmax.reduce(inside, initial=high))
+        return low, high
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,42 +55,33 @@ class Film:
     Parameters
     ----------
     title : str
+        What is seen, and what becomes of it.
     time : (n,) array, s
         Times of the pictures, from the record's first sample, evenly spaced.
-    shift : (n,) array, m
-        Displacement of the ground.
-    bodies, trails, strips : tuples
-    floors : tuple of (k, 2) arrays, m
-        Polygons that move with the ground.
+    scene : Plane or Space
+    strips : tuple of Strip
+    heading : str
+        Which record this is, as above every figure.
+    note : str
+        What one must know to read the scene.
     phases, colours : sequence, mapping
         Stretches of time and the colours of those to be shaded.
-    close : Box or None
-        Window, relative to the ground, that is shown enlarged.
     """
 
     title: str
     time: FloatArray
-    shift: FloatArray
-    bodies: tuple[Body, ...]
-    floors: tuple[FloatArray, ...]
-    trails: tuple[Trail, ...] = ()
+    scene: Plane | Space
     strips: tuple[Strip, ...] = ()
+    heading: str = ""
+    note: str = ""
     phases: tuple[Phase, ...] = ()
     colours: Mapping[str, str] = field(default_factory=dict)
-    close: Box | None = None
 
-    @property
-    def extent(self) -> Box:
-        """Box that holds every body in every picture and a strip of floor, in a frame that does not move."""
-        reach = [
-            (np.min(x + self.shift), np.max(x + self.shift), np.min(z), np.max(z))
-            for body in self.bodies
-            for piece in body.pieces
-            for x, z in (body.path(corner) for corner in piece.corners)
-        ]
-        left, right, bottom, top = (function([r[i] for r in reach]) for i, function in enumerate((min, max, min, max)))
-        margin = 0.12 * max(right - left, top - bottom)
-        return float(left - margin), float(right + margin), float(bottom - margin), float(top + margin)
+    @cached_property
+    def panels(self) -> tuple[Strip, ...]:
+        """The strips that show something: what did not happen has no panel."""
+        span = float(self.time[0]), float(self.time[-1])
+        return tuple(strip for strip in self.strips if any(strip.range_over(*span)))
 
     @cached_property
     def seen(self) -> tuple[Phase, ...]:
@@ -134,27 +99,16 @@ Build = Callable[[FloatArray], Film]
 """Makes the film for the times of its pictures."""
 
 
-def titled(motion: str, body: str, what: str) -> str:
-    """Return what a film is about, told: the direction of the record, the body, and what becomes of it."""
-    return f"{motion}  " + tell("{name}: {what}", name=tell(body), what=tell(what))
+def titled(body: str, what: str) -> str:
+    """Return what a film is about, told: the body, and what becomes of it."""
+    return tell("{name}: {what}", name=tell(body), what=tell(what))
 
 
-def turned(points: FloatArray, angle: float) -> FloatArray:
-    """Turn points about the origin, positive to +x (clockwise), (k, 2)."""
-    cosine, sine = np.cos(angle), np.sin(angle)
-    x, z = points.T
-    return np.column_stack([x * cosine + z * sine, z * cosine - x * sine])
-
-
-def rectangle(left: float, right: float, bottom: float, top: float) -> FloatArray:
-    """Return the corners of a rectangle, counter-clockwise from the lower left, (4, 2), m."""
-    return np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
-
-
-def ground_shift(motion: Motion, times: FloatArray) -> FloatArray:
-    """Return the displacement of the ground at some times, on the baseline of PGD, (n,), m."""
-    moved = ground_history(motion.horizontal, motion.dt).displacement
-    return np.interp(times, motion.time, moved)
+def ground_strip(motion: Motion, levels: tuple[float, ...] = (), *, gal: bool) -> Strip:
+    """Return the ground's acceleration with its thresholds, m/s^2, in the unit wanted."""
+    unit, name = acceleration_unit(gal=gal)
+    line = Line(motion.time, motion.horizontal / unit, GROUND)
+    return Strip(tell("a ({unit})", unit=name), (line,), tuple(level / unit for level in levels))
 
 
 def at(times: FloatArray, time: FloatArray, values: FloatArray) -> FloatArray:

@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.present.figures.heading import heading_of
 from seisblock.present.figures.jump import COLOURS
 from seisblock.present.films.animation import Filming
-from seisblock.present.films.film import Body, Box, Film, Piece, Strip, Trail, at, ground_shift, rectangle, stretch, titled
+from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, stretch, titled
+from seisblock.present.films.plane import Body, Box, Piece, Plane, Trail, ground_shift, rectangle
 from seisblock.present.films.projector import animate_film
 from seisblock.results import Response
 from seisblock.solvers.jump.solve import JumpOutcome
@@ -23,10 +25,10 @@ PEDESTAL = 0.06
 def animate_jump(response: Response[JumpOutcome], path: Path | str, filming: Filming) -> None:
     """Write the film of a jump, see :func:`seisblock.present.films.projector.animate_film`."""
     span = stretch(response.phases, COLOURS, float(response.motion.time[0]), float(max(response.motion.time[-1], response.time[-1])))
-    animate_film(lambda times: jump_film(response, times), span, path, filming)
+    animate_film(lambda times: jump_film(response, times, gal=filming.gal), span, path, filming)
 
 
-def jump_film(response: Response[JumpOutcome], times: FloatArray) -> Film:
+def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool = True) -> Film:
     """Return the film of a jump for the times of its pictures, (n,), s."""
     block: TwoLayerBlock = response.body
     motion, drop = response.motion, float(response.options["drop_m"])
@@ -38,22 +40,25 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray) -> Film:
         Trail(name, *foot, colour) for name, foot, colour in zip(map(tell, ("left foot", "right foot")), feet, FEET, strict=True)
     )
     rise = (response["height"] - block.centroid_height) * 1e3
-    level = response.outcome.rocking_threshold_m_s2 * 100.0
+    level = response.outcome.rocking_threshold_m_s2
     return Film(
-        title=titled(motion.name, block.name, response.outcome.outcome),
+        title=titled(block.name, response.outcome.outcome),
+        heading=heading_of([motion]),
         time=times,
-        shift=ground_shift(motion, times),
-        bodies=(body,),
-        floors=tuple(_floors(block, drop, float(np.abs(x).max()))),
-        trails=trails,
+        scene=Plane(
+            shift=ground_shift(motion, times),
+            bodies=(body,),
+            floors=tuple(_floors(block, drop, float(np.abs(x).max()))),
+            trails=trails,
+            close=_close(feet, float(x[-1]), drop),
+        ),
         strips=(
-            Strip(tell("a ({unit})", unit="gal"), motion.time, motion.horizontal * 100.0, (-level, level), "#737373"),
-            Strip(tell("θ (deg)"), response.time, np.degrees(response["rotation"])),
-            Strip(tell("rise of G (mm)"), response.time, rise),
+            ground_strip(motion, (-level, level), gal=gal),
+            Strip(tell("θ (deg)"), (Line(response.time, np.degrees(response["rotation"])),)),
+            Strip(tell("rise of G (mm)"), (Line(response.time, rise),)),
         ),
         phases=response.phases,
         colours=COLOURS,
-        close=_close(feet, float(x[-1]), drop),
     )
 
 

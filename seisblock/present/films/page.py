@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 
-from seisblock.present.figures.curves import thin
+from seisblock.present.figures.curves import in_view, thin
+from seisblock.present.figures.heading import BETWEEN
 from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Film, Strip
+from seisblock.present.films.plane import Plane
+from seisblock.present.films.space import AZIMUTH, ELEVATION, LIGHT, STONE, Solid, Space, Spring
 from seisblock.present.page import page
 from seisblock.typing import FloatArray
 from seisblock.words import tell
@@ -16,6 +20,11 @@ from seisblock.words import tell
 PACES = (0.02, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
 METRES, RADIANS, SECONDS = 5, 6, 4
 """Decimals that are kept: 0.01 mm, 1e-6 rad, 0.1 ms."""
+
+IN_SPACE = 4
+"""Decimals of metres and quaternions in a scene in three dimensions: 0.1 mm."""
+
+MOST_POINTS = 3000
 
 
 def film_page(film: Film, filming: Filming) -> str:
@@ -29,7 +38,22 @@ def film_page(film: Film, filming: Filming) -> str:
         Speed at the start.
     """
     pace = 1.0 / filming.slow
-    return page("film.html", film.title, film=film, data=_data(film, filming), pace=pace, paces=_paces(pace))
+    named = {phase.name: film.colours[phase.name] for phase in film.seen if phase.name in film.colours}
+    return page(
+        "film.html",
+        film.title,
+        subtitles=[film.heading.replace(BETWEEN, " · ")],
+        note=film.note,
+        strips=len(film.panels),
+        close=isinstance(film.scene, Plane) and film.scene.close is not None,
+        space=isinstance(film.scene, Space),
+        trails=[(trail.name, trail.colour) for trail in film.scene.trails] if isinstance(film.scene, Plane) else [],
+        phases=[(tell(name), colour) for name, colour in named.items()],
+        lines=_lines(film),
+        data=_data(film, filming),
+        pace=pace,
+        paces=_paces(pace),
+    )
 
 
 def _paces(chosen: float) -> list[tuple[float, str]]:
@@ -37,16 +61,36 @@ def _paces(chosen: float) -> list[tuple[float, str]]:
     return [(value, f"× {value:g}" + (f" ({tell('real time')})" if value == 1.0 else "")) for value in sorted({*PACES, chosen})]
 
 
+def _lines(film: Film) -> list[tuple[str, str, str]]:
+    """Return the curves that have a name: name, colour, and the style of a border that looks like them."""
+    found = {}
+    for line in (line for strip in film.panels for line in strip.lines if line.name):
+        found[line.name] = (line.colour, "solid" if not line.dashes else "dashed" if line.dashes[0] > 2 else "dotted")
+    return [(name, *style) for name, style in found.items()]
+
+
 def _data(film: Film, filming: Filming) -> dict[str, Any]:
     """Return everything the script draws."""
     return {
         "first": float(film.time[0]),
         "last": float(film.time[-1]),
+        "count": int(film.time.size),
         "pace": 1.0 / filming.slow,
-        "extent": film.extent,
-        "close": film.close,
-        "shift": _numbers(film.shift, METRES),
-        "floors": [_numbers(floor, METRES) for floor in film.floors],
+        "scene": _plane(film.scene) if isinstance(film.scene, Plane) else _space(film.scene),
+        "strips": [_strip(film, strip) for strip in film.panels],
+        "phases": [[phase.start_s, phase.end_s, film.colours[phase.name]] for phase in film.seen if phase.name in film.colours],
+        "names": [[phase.start_s, phase.end_s, tell(phase.name)] for phase in film.seen],
+        "words": {"play": tell("play"), "pause": tell("pause")},
+    }
+
+
+def _plane(scene: Plane) -> dict[str, Any]:
+    """Return a scene from the side."""
+    return {
+        "extent": scene.extent,
+        "close": scene.close,
+        "shift": _numbers(scene.shift, METRES),
+        "floors": [_numbers(floor, METRES) for floor in scene.floors],
         "bodies": [
             {
                 "x": _numbers(body.x, METRES),
@@ -54,31 +98,54 @@ def _data(film: Film, filming: Filming) -> dict[str, Any]:
                 "turn": _numbers(body.turn, RADIANS),
                 "pieces": [{"corners": _numbers(piece.corners, METRES), "colour": piece.colour} for piece in body.pieces],
             }
-            for body in film.bodies
+            for body in scene.bodies
         ],
-        "trails": [{"x": _numbers(t.x, METRES), "z": _numbers(t.z, METRES), "colour": t.colour} for t in film.trails],
-        "strips": [_strip(film, strip) for strip in film.strips],
-        "phases": [[phase.start_s, phase.end_s, film.colours[phase.name]] for phase in film.seen if phase.name in film.colours],
-        "names": [[phase.start_s, phase.end_s, tell(phase.name)] for phase in film.seen],
-        "words": {"play": tell("play"), "pause": tell("pause")},
+        "trails": [{"x": _numbers(t.x, METRES), "z": _numbers(t.z, METRES), "colour": t.colour} for t in scene.trails],
     }
+
+
+def _space(scene: Space) -> dict[str, Any]:
+    """Return a scene in three dimensions."""
+    return {
+        "extent": scene.extent(),
+        "view": [AZIMUTH, ELEVATION],
+        "half": scene.half,
+        "stone": STONE.tolist(),
+        "light": LIGHT.tolist(),
+        "moved": _columns(scene.moved),
+        "solids": [_solid(solid) for solid in scene.solids],
+        "springs": [_spring(spring) for spring in scene.springs],
+    }
+
+
+def _solid(solid: Solid) -> dict[str, Any]:
+    """Return a cuboid."""
+    fell = solid.fell_s if math.isfinite(solid.fell_s) else None
+    return {"size": solid.size, "centre": _columns(solid.centre), "turn": _columns(solid.turn), "fell": fell}
+
+
+def _spring(spring: Spring) -> dict[str, Any]:
+    """Return a spring under a corner."""
+    return {"foot": _numbers(spring.foot, METRES), "free": spring.free, "top": _columns(spring.top)}
+
+
+def _columns(values: FloatArray) -> list[Any]:
+    """Return the columns of an (n, k) array; one that never changes is a single number."""
+    rounded = (np.round(values, IN_SPACE) + 0.0).T
+    return [float(row[0]) if (row == row[0]).all() else row.tolist() for row in rounded]
 
 
 def _strip(film: Film, strip: Strip) -> dict[str, Any]:
-    """Return one curve over the time shown, with the range of its axis."""
-    inside = (strip.time >= film.time[0]) & (strip.time <= film.time[-1])
-    time, values = thin(strip.time[inside], strip.values[inside], 3000)
-    low, high = float(np.min(values, initial=0.0)), float(np.max(values, initial=0.0))
-    margin = 0.08 * (high - low) or 1.0
-    return {
-        "label": strip.label,
-        "time": _numbers(time, SECONDS),
-        "values": [float(f"{v:.5g}") for v in values],
-        "levels": strip.levels,
-        "colour": strip.colour,
-        "inner": [low, high],
-        "range": [low - margin, high + margin],
-    }
+    """Return the curves of a strip over the time shown, with the range of its axis."""
+    first, last = float(film.time[0]), float(film.time[-1])
+    low, high = strip.range_over(first, last)
+    margin = 0.08 * (high - low)
+    lines = []
+    for line in strip.lines:
+        time, values = thin(*in_view(line.time, line.values, first, last), MOST_POINTS)
+        kept = [float(f"{value:.5g}") if math.isfinite(value) else None for value in values]
+        lines.append({"time": _numbers(time, SECONDS), "values": kept, "colour": line.colour, "dashes": line.dashes})
+    return {"label": strip.label, "lines": lines, "levels": strip.levels, "inner": [low, high], "range": [low - margin, high + margin]}
 
 
 def _numbers(values: FloatArray, decimals: int) -> Any:

@@ -18,7 +18,7 @@ PAGE_RATE, MOST_MOMENTS = 250.0, 12000
 """Moments a second that a page holds, so that slow motion stays smooth, and at most how many."""
 
 
-def animate_film(build: Build, span: tuple[float, float], path: Path | str, filming: Filming) -> None:
+def animate_film(build: Build, span: tuple[float, float], path: Path | str, filming: Filming, *, rate: float = PAGE_RATE) -> None:
     """Write a film; the suffix decides the format.
 
     Parameters
@@ -31,6 +31,8 @@ def animate_film(build: Build, span: tuple[float, float], path: Path | str, film
         ``.gif``, ``.mp4`` (needs ffmpeg), or ``.html`` (one page that draws the film itself, at any size and speed).
     filming : Filming
         Speed and progress.
+    rate : float, 1/s
+        Moments that a page holds; fewer where there are many bodies.
 
     Raises
     ------
@@ -41,7 +43,7 @@ def animate_film(build: Build, span: tuple[float, float], path: Path | str, film
     if target.suffix.lower() not in animation.SUFFIXES:
         raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=target, suffixes=list(animation.SUFFIXES))
     if target.suffix.lower() == ".html":
-        count = int(min(max((span[1] - span[0]) * PAGE_RATE, 2), MOST_MOMENTS)) + 1
+        count = int(min(max((span[1] - span[0]) * rate, 2), MOST_MOMENTS)) + 1
         write_text(target, film_page(build(np.linspace(*span, count)), filming))
         return
     times, speed = animation.frame_times(*span, slow=filming.slow)

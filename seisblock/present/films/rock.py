@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.present.figures.heading import heading_of
 from seisblock.present.figures.rock import COLOURS, stretch
 from seisblock.present.films.animation import REAL_TIME, Filming
-from seisblock.present.films.film import Body, Film, Piece, Strip, at, ground_shift, rectangle, titled, turned
+from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, titled
+from seisblock.present.films.plane import Body, Piece, Plane, ground_shift, rectangle, turned
 from seisblock.present.films.projector import animate_film
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
@@ -32,28 +34,31 @@ def animate_rocking(response: Response[RockOutcome], path: Path | str, filming: 
     filming : Filming
         Speed and progress.
     """
-    animate_film(lambda times: rocking_film(response, times), stretch(response), path, filming)
+    animate_film(lambda times: rocking_film(response, times, gal=filming.gal), stretch(response), path, filming)
 
 
-def rocking_film(response: Response[RockOutcome], times: FloatArray) -> Film:
+def rocking_film(response: Response[RockOutcome], times: FloatArray, *, gal: bool = True) -> Film:
     """Return the film of a rocking block for the times of its pictures, (n,), s."""
     block: Block = response.body
     motion, outcome = response.motion, response.outcome
     lean = at(times, response.time, response["rotation"])
     origins = np.array([corners(block, float(theta))[0] for theta in lean])
     outline = corners(block, 0.0)
-    level = outcome.threshold_m_s2 * 100.0
+    level = outcome.threshold_m_s2
     alpha = math.degrees(outcome.slenderness_rad)
     wide = 4.0 * math.hypot(block.width, block.height)
     return Film(
-        title=titled(motion.name, block.name, "overturns" if outcome.overturned else "stands"),
+        title=titled(block.name, "overturns" if outcome.overturned else "stands"),
+        heading=heading_of([motion]),
         time=times,
-        shift=ground_shift(motion, times),
-        bodies=(Body((Piece(outline - outline[0]),), origins[:, 0], origins[:, 1], lean),),
-        floors=(rectangle(-wide, wide, -block.height, 0.0),),
+        scene=Plane(
+            shift=ground_shift(motion, times),
+            bodies=(Body((Piece(outline - outline[0]),), origins[:, 0], origins[:, 1], lean),),
+            floors=(rectangle(-wide, wide, -block.height, 0.0),),
+        ),
         strips=(
-            Strip(tell("a ({unit})", unit="gal"), motion.time, motion.horizontal * 100.0, (-level, level), "#737373"),
-            Strip(tell("θ (deg)"), response.time, np.degrees(response["rotation"]), (-alpha, alpha)),
+            ground_strip(motion, (-level, level), gal=gal),
+            Strip(tell("θ (deg)"), (Line(response.time, np.degrees(response["rotation"])),), (-alpha, alpha)),
         ),
         phases=response.phases,
         colours=COLOURS,

@@ -8,9 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.present.figures.heading import heading_of
 from seisblock.present.figures.slide import COLOURS
 from seisblock.present.films.animation import Filming
-from seisblock.present.films.film import Body, Film, Piece, Strip, Trail, at, ground_shift, rectangle, stretch
+from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, stretch
+from seisblock.present.films.plane import Body, Piece, Plane, Trail, ground_shift, rectangle
 from seisblock.present.films.projector import animate_film
 from seisblock.present.text.slide import setting
 from seisblock.results import Response
@@ -25,10 +27,10 @@ SMALLEST = 0.05
 def animate_slide(response: Response[SlideOutcome], path: Path | str, filming: Filming) -> None:
     """Write the film of a slide, see :func:`seisblock.present.films.projector.animate_film`."""
     span = stretch(response.phases, COLOURS, float(response.motion.time[0]), float(response.motion.time[-1]))
-    animate_film(lambda times: slide_film(response, times), span, path, filming)
+    animate_film(lambda times: slide_film(response, times, gal=filming.gal), span, path, filming)
 
 
-def slide_film(response: Response[SlideOutcome], times: FloatArray) -> Film:
+def slide_film(response: Response[SlideOutcome], times: FloatArray, *, gal: bool = True) -> Film:
     """Return the film of a slide for the times of its pictures, (n,), s."""
     base: SlidingBase = response.body
     motion = response.motion
@@ -36,19 +38,21 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray) -> Film:
     x, z, turn = place(base, slip)
     size = max(0.5 * float(np.ptp(slip)), SMALLEST)
     block = Piece(rectangle(-size, size, 0.0, 1.2 * size), "#b5a58a")
-    gal = motion.horizontal * 100.0
-    limit = base.mu * float(response.options["gravity_m_s2"]) * 100.0
+    limit = base.mu * float(response.options["gravity_m_s2"])
     level = not base.slope_deg and not response.options["vertical"]
     return Film(
-        title=f"{motion.name}  {setting(response)}",
+        title=setting(response),
+        heading=heading_of([motion]),
         time=times,
-        shift=ground_shift(motion, times),
-        bodies=(Body((block,), x, z, turn),),
-        floors=(_floor(base, float(np.abs(slip).max()) + 4.0 * size),),
-        trails=(Trail(tell("object"), x, z),),
+        scene=Plane(
+            shift=ground_shift(motion, times),
+            bodies=(Body((block,), x, z, turn),),
+            floors=(_floor(base, float(np.abs(slip).max()) + 4.0 * size),),
+            trails=(Trail(tell("object"), x, z),),
+        ),
         strips=(
-            Strip(tell("a ({unit})", unit="gal"), motion.time, gal, (-limit, limit) if level else (), "#737373"),
-            Strip(tell("x − z (mm)"), response.time, response["displacement"] * 1e3),
+            ground_strip(motion, (-limit, limit) if level else (), gal=gal),
+            Strip(tell("x − z (mm)"), (Line(response.time, response["displacement"] * 1e3),)),
         ),
         phases=response.phases,
         colours=COLOURS,

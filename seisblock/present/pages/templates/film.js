@@ -1,10 +1,9 @@
-// Draws a film that stands in the page as data: the scene, the enlarged window, the curves; at any size and any speed.
+// Plays a film that stands in the page as data: clock, speed, scrubbing, and the curves below a scene that another script draws.
 "use strict";
-const film = JSON.parse(document.getElementById("film").textContent);
 const byId = name => document.getElementById(name);
 const INK = "#1c1f23", SOFT = "#626a73", FLOOR = "#c9ccd0", FONT = "11px system-ui, -apple-system, 'Hiragino Sans', 'Noto Sans JP', sans-serif";
-const count = film.shift.length, first = film.first, last = film.last;
-let now = first, playing = true, pace = film.pace, before = null;
+const LEFT = 46, RIGHT = 6;
+let film = null, now = 0, playing = true, pace = 1, before = null;
 
 function canvasOf(id, height) {
   const canvas = byId(id), ratio = window.devicePixelRatio || 1, width = canvas.clientWidth;
@@ -20,7 +19,8 @@ function canvasOf(id, height) {
 }
 
 function sample(values, place) {
-  const i = Math.min(Math.floor(place), count - 2), w = place - i;
+  if (typeof values === "number") return values;
+  const i = Math.min(Math.floor(place), film.count - 2), w = place - i;
   return values[i] * (1 - w) + values[i + 1] * w;
 }
 
@@ -32,38 +32,6 @@ function polygon(pen, points, fill, line) {
   if (line) { pen.strokeStyle = line; pen.lineWidth = 1.2; pen.stroke(); }
 }
 
-function scene(id, height, box, moving, place) {
-  const [pen, width] = canvasOf(id, height);
-  const scale = Math.min(width / (box[1] - box[0]), height / (box[3] - box[2]));
-  const middle = [(box[0] + box[1]) / 2, (box[2] + box[3]) / 2];
-  const shift = moving ? sample(film.shift, place) : 0;
-  const put = ([x, z]) => [width / 2 + (x + shift - middle[0]) * scale, height / 2 - (z - middle[1]) * scale];
-  film.floors.forEach(floor => polygon(pen, floor.map(put), FLOOR, null));
-  if (moving) {
-    const step = (box[1] - box[0]) / 12, top = Math.max(...film.floors[0].map(p => p[1]));
-    pen.strokeStyle = SOFT; pen.lineWidth = 1; pen.beginPath();
-    for (let k = -24; k <= 24; k++) {
-      const [x, y] = put([middle[0] + k * step, top]);
-      pen.moveTo(x, y); pen.lineTo(x - 4, y + 8);
-    }
-    pen.stroke();
-  }
-  film.bodies.forEach(body => {
-    const x = sample(body.x, place), z = sample(body.z, place), turn = sample(body.turn, place);
-    const c = Math.cos(turn), s = Math.sin(turn);
-    body.pieces.forEach(piece => polygon(pen, piece.corners.map(([a, b]) => put([x + a * c + b * s, z + b * c - a * s])), piece.colour, INK));
-  });
-  film.trails.forEach(trail => {
-    pen.strokeStyle = trail.colour; pen.lineWidth = 1.6; pen.beginPath();
-    const end = Math.min(Math.ceil(place), count - 1), skip = Math.max(1, Math.floor(count / 3000));
-    for (let i = 0; i <= end; i += skip) { const [x, y] = put([trail.x[i], trail.z[i]]); i ? pen.lineTo(x, y) : pen.moveTo(x, y); }
-    const [x, y] = put([sample(trail.x, place), sample(trail.z, place)]);
-    pen.lineTo(x, y); pen.stroke();
-    pen.fillStyle = trail.colour; pen.beginPath(); pen.arc(x, y, 3, 0, 7); pen.fill();
-  });
-  bar(pen, width, height, scale);
-}
-
 function bar(pen, width, height, scale) {
   const steps = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5];
   const length = steps.filter(step => step * scale < width / 3).pop() || steps[0];
@@ -72,64 +40,97 @@ function bar(pen, width, height, scale) {
   pen.textAlign = "right"; pen.fillText(text, width - 10, height - 15); pen.textAlign = "left";
 }
 
+function ticks(low, high, most) {
+  const rough = (high - low) / most, decade = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map(k => k * decade).find(size => size >= rough), found = [];
+  for (let k = Math.ceil(low / step); k * step <= high; k++) found.push(+(k * step).toPrecision(12));
+  return found;
+}
+
 function strip(index, height) {
-  const data = film.strips[index], [pen, width] = canvasOf("strip" + index, height);
-  const ends = index === film.strips.length - 1, left = 46, right = width - 6, top = 16, bottom = height - (ends ? 14 : 4);
-  const [low, high] = data.range, x = t => left + (t - first) / (last - first) * (right - left);
-  const y = v => bottom - (v - low) / (high - low) * (bottom - top);
+  const data = film.strips[index], [pen, width] = canvasOf("strip" + index, height), ends = index === film.strips.length - 1;
+  const right = width - RIGHT, top = 16, bottom = height - (ends ? 16 : 4), [low, high] = data.range;
+  const x = t => LEFT + (t - film.first) / (film.last - film.first) * (right - LEFT), y = v => bottom - (v - low) / (high - low) * (bottom - top);
+  pen.save(); pen.beginPath(); pen.rect(LEFT, top, right - LEFT, bottom - top); pen.clip();
   film.phases.forEach(([start, end, colour]) => { pen.fillStyle = colour; pen.fillRect(x(start), top, Math.max(x(end) - x(start), .5), bottom - top); });
   pen.strokeStyle = "#333"; pen.lineWidth = .8; pen.setLineDash([6, 3]);
-  data.levels.filter(level => low <= level && level <= high).forEach(level => { pen.beginPath(); pen.moveTo(left, y(level)); pen.lineTo(right, y(level)); pen.stroke(); });
+  data.levels.filter(level => low <= level && level <= high).forEach(level => { pen.beginPath(); pen.moveTo(LEFT, y(level)); pen.lineTo(right, y(level)); pen.stroke(); });
+  data.lines.forEach(line => {
+    pen.strokeStyle = line.colour; pen.lineWidth = 1.1; pen.setLineDash(line.dashes); pen.beginPath();
+    let broken = true;
+    line.time.forEach((t, i) => {
+      const value = line.values[i];
+      if (value !== null) { broken ? pen.moveTo(x(t), y(value)) : pen.lineTo(x(t), y(value)); }
+      broken = value === null;
+    });
+    pen.stroke();
+  });
   pen.setLineDash([]);
-  pen.strokeStyle = data.colour; pen.lineWidth = 1.1; pen.beginPath();
-  data.time.forEach((t, i) => i ? pen.lineTo(x(t), y(data.values[i])) : pen.moveTo(x(t), y(data.values[i])));
-  pen.stroke();
-  pen.fillStyle = SOFT; pen.fillText(data.label, left, 11);
+  pen.strokeStyle = INK; pen.lineWidth = 1.2; pen.beginPath(); pen.moveTo(x(now), top); pen.lineTo(x(now), bottom); pen.stroke();
+  pen.restore();
+  pen.fillStyle = SOFT; pen.fillText(data.label, LEFT, 11);
   pen.textAlign = "right";
   [data.inner[1], 0, data.inner[0]].filter((v, i, all) => all.indexOf(v) === i).forEach(v => {
-    if (v === 0 || Math.abs(y(v) - y(0)) > 11) pen.fillText(String(+v.toPrecision(3)), left - 5, y(v) + 4);
+    if (v === 0 || Math.abs(y(v) - y(0)) > 11) pen.fillText(String(+v.toPrecision(3)).replace("-", "\u2212"), LEFT - 5, y(v) + 4);
   });
-  pen.textAlign = "left"; if (ends) pen.fillText(first.toFixed(2), left, height - 2);
-  pen.textAlign = "right"; if (ends) pen.fillText(last.toFixed(2) + " s", right, height - 2);
+  if (ends) {
+    pen.textAlign = "center";
+    ticks(film.first, film.last, Math.min(8, width / 90)).filter(t => x(t) < right - 24).forEach(t => {
+      pen.fillRect(x(t), bottom, 1, 3); pen.fillText(String(t), x(t), height - 3);
+    });
+    pen.textAlign = "right"; pen.fillText("s", right, height - 3);
+  }
   pen.textAlign = "left";
-  pen.strokeStyle = INK; pen.lineWidth = 1.2; pen.beginPath(); pen.moveTo(x(now), top); pen.lineTo(x(now), bottom); pen.stroke();
 }
 
 function draw() {
-  const place = (now - first) / (last - first) * (count - 1);
-  const wide = byId("scene").clientWidth, tall = Math.min(Math.max(wide * 0.8, 220), 400);
-  scene("scene", tall, film.extent, true, place);
-  if (film.close) scene("close", Math.min(tall, byId("close").clientWidth * 0.8), film.close, false, place);
-  film.strips.forEach((_, i) => strip(i, i === film.strips.length - 1 ? 106 : 96));
+  drawScene((now - film.first) / (film.last - film.first) * (film.count - 1));
+  film.strips.forEach((_, i) => strip(i, i === film.strips.length - 1 ? 108 : 96));
   const phase = film.names.filter(([start, end]) => start <= now && now <= end).pop();
   byId("clock").textContent = now.toFixed(3) + " s";
   byId("phase").textContent = phase ? phase[2] : "";
-  byId("at").value = Math.round(1000 * (now - first) / (last - first));
+  byId("at").value = Math.round(1000 * (now - film.first) / (film.last - film.first));
   byId("play").textContent = playing ? film.words.pause : film.words.play;
 }
 
 function tick(stamp) {
   if (playing && before !== null) {
     now += (stamp - before) / 1000 * pace;
-    if (now > last) now = first;
+    if (now > film.last) now = film.first;
     draw();
   }
   before = stamp;
   requestAnimationFrame(tick);
 }
 
-function hold(time) { playing = false; now = Math.min(Math.max(time, first), last); draw(); }
+function hold(time) { playing = false; now = Math.min(Math.max(time, film.first), film.last); draw(); }
 
-byId("play").onclick = () => { playing = !playing; draw(); };
-byId("at").oninput = event => hold(first + event.target.value / 1000 * (last - first));
-byId("pace").onchange = event => { pace = +event.target.value; };
-document.onkeydown = event => {
-  if (event.target.tagName === "SELECT") return;
-  if (event.key === " ") { playing = !playing; draw(); event.preventDefault(); }
-  if (event.key === "ArrowRight") hold(now + pace / 25);
-  if (event.key === "ArrowLeft") hold(now - pace / 25);
-};
-window.onresize = draw;
-const asked = /[#&]t=([0-9.]+)/.exec(location.hash);
-if (asked) hold(+asked[1]); else draw();
-requestAnimationFrame(tick);
+function toggle() { playing = !playing; draw(); }
+
+function follow(event) {
+  if (event.type === "pointermove" && !event.buttons) return;
+  const box = event.currentTarget.getBoundingClientRect(), share = (event.clientX - box.left - LEFT) / (box.width - LEFT - RIGHT);
+  hold(film.first + share * (film.last - film.first));
+}
+
+function onKey(event) {
+  if (["SELECT", "BUTTON"].includes(event.target.tagName)) return;
+  if (event.key === " ") { toggle(); event.preventDefault(); }
+  const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+  if (step) { hold(now + step * pace / 25); event.preventDefault(); }
+}
+
+function play(data) {
+  film = JSON.parse(data.textContent);
+  now = film.first; pace = film.pace;
+  playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+  byId("play").onclick = toggle;
+  byId("at").oninput = event => hold(film.first + event.target.value / 1000 * (film.last - film.first));
+  byId("pace").onchange = event => { pace = +event.target.value; };
+  document.querySelectorAll(".strip").forEach(canvas => { canvas.onpointerdown = canvas.onpointermove = follow; });
+  document.onkeydown = onKey;
+  window.onresize = draw;
+  const asked = /[#&]t=([0-9.]+)/.exec(location.hash);
+  if (asked) hold(+asked[1]); else draw();
+  requestAnimationFrame(tick);
+}

@@ -1,0 +1,137 @@
+"""Scenes as artists of a figure: what of them moves, and where it is in each picture."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.patches import Polygon
+
+from seisblock.present.figures import canvas
+from seisblock.present.films.plane import Plane
+from seisblock.present.films.space import Space, on_picture, view_axes
+from seisblock.typing import FloatArray
+from seisblock.words import tell
+
+FLOOR, EDGE = "#c9ccd0", "0.2"
+
+COILS, WIDE = 5, 0.35
+"""Turns of a spring, and how wide it is drawn, of its free height."""
+
+
+class Actor(Protocol):
+    """What puts a scene into a panel."""
+
+    @property
+    def artists(self) -> Sequence[Any]:
+        """What is drawn anew in each picture."""
+
+    def place(self, index: int, time: float) -> None:
+        """Put everything where it is in a picture."""
+
+
+class PlaneActor:
+    """Bodies on their ground from the side, in a frame that stands still or in the ground's."""
+
+    def __init__(self, axis: Axes, scene: Plane, *, moving: bool) -> None:
+        self.scene, self.moving = scene, moving
+        left, right, bottom, top = scene.extent if moving or scene.close is None else scene.close
+        axis.set_aspect("equal")
+        axis.set_xlim(left, right)
+        axis.set_ylim(bottom, top)
+        if moving:
+            axis.axis("off")
+        else:
+            canvas.dress(axis)
+            canvas.label(axis, "x (m)", "z (m)")
+            axis.set_title(tell("enlarged, seen from the ground"), fontsize=8, loc="left")
+        self.floors = [Polygon(floor, facecolor=FLOOR, edgecolor="none") for floor in scene.floors]
+        self.ticks = axis.plot([], [], "|", color="0.45", markersize=6, clip_on=True)[0] if moving else None
+        self.marks = _marks(left, right)
+        self.level = float(scene.floors[0][:, 1].max()) if scene.floors else 0.0
+        self.pieces = [
+            (body, piece, Polygon(piece.corners, facecolor=piece.colour, edgecolor=EDGE, linewidth=1.1, alpha=0.92))
+            for body in scene.bodies
+            for piece in body.pieces
+        ]
+        for shape in (*self.floors, *(shape for _, _, shape in self.pieces)):
+            axis.add_patch(shape)
+        self.trails = [(trail, axis.plot([], [], color=trail.colour, linewidth=1.2)[0]) for trail in scene.trails]
+        if not moving and scene.trails:
+            for trail, line in self.trails:
+                line.set_label(trail.name)
+            axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", loc="upper right")
+
+    @property
+    def artists(self) -> Sequence[Any]:
+        """What is drawn anew in each picture."""
+        ticks = [self.ticks] if self.ticks is not None else []
+        return [*self.floors, *ticks, *(patch for _, _, patch in self.pieces), *(line for _, line in self.trails)]
+
+    def place(self, index: int, time: float) -> None:
+        """Put everything where it is in a picture."""
+        shift = np.array([float(self.scene.shift[index]) if self.moving else 0.0, 0.0])
+        for floor, patch in zip(self.scene.floors, self.floors, strict=True):
+            patch.set_xy(floor + shift)
+        if self.ticks is not None:
+            self.ticks.set_data(self.marks + shift[0], np.full(self.marks.size, self.level))
+        for body, piece, patch in self.pieces:
+            patch.set_xy(body.placed(piece.corners, index) + shift)
+        for trail, line in self.trails:
+            line.set_data(trail.x[: index + 1] + shift[0], trail.z[: index + 1])
+
+
+class SpaceActor:
+    """Cuboids on their patch of ground in three dimensions."""
+
+    def __init__(self, axis: Axes, scene: Space) -> None:
+        self.scene = scene
+        left, right, bottom, top = scene.extent()
+        axis.set_aspect("equal")
+        axis.axis("off")
+        axis.set_xlim(left, right)
+        axis.set_ylim(bottom, top)
+        self.floor = PolyCollection([], facecolors="0.90", edgecolors="0.75", linewidths=0.8)
+        self.springs = LineCollection([], colors="0.35", linewidths=1.0)
+        self.faces = PolyCollection([], linewidths=0.8)
+        self.hidden, self.corners = (axis.scatter([], [], s=28, zorder=order, linewidths=0) for order in (0.5, 3))
+        for collection in (self.floor, self.springs, self.faces):
+            axis.add_collection(collection)
+
+    @property
+    def artists(self) -> Sequence[Any]:
+        """What is drawn anew in each picture."""
+        return [self.floor, self.springs, self.hidden, self.faces, self.corners]
+
+    def place(self, index: int, time: float) -> None:
+        """Put everything where it is in a picture."""
+        scene, moved = self.scene, self.scene.moved[index]
+        self.floor.set_verts([on_picture(scene.floor(index))])
+        faces = list(scene.faces(index, time))
+        self.faces.set_verts([on_picture(points) for points, _, _ in faces])
+        self.faces.set_facecolor([shade for _, shade, _ in faces])
+        self.faces.set_edgecolor([canvas.ACCENT if fell else "0.25" for _, _, fell in faces])
+        coils = [_coil(spring.foot + moved, min(float(spring.top[index, 2]), spring.free), spring.free) for spring in scene.springs]
+        self.springs.set_segments(coils)
+        # of the corners below a block the farthest is behind it
+        behind, *before = sorted(scene.springs, key=lambda spring: float(spring.foot @ view_axes()[2])) or (None,)
+        for dots, springs in ((self.hidden, [behind] if behind else []), (self.corners, before)):
+            dots.set_offsets(np.array([on_picture(spring.top[index] + moved) for spring in springs]).reshape(-1, 2))
+            dots.set_facecolor([canvas.ACCENT if spring.lifted[index] else "0.25" for spring in springs])
+
+
+def _coil(foot: FloatArray, height: float, free: float) -> FloatArray:
+    """Return a spring in the picture: a zigzag from its foot so high, (k, 2)."""
+    low, high = on_picture(np.array([foot, [foot[0], foot[1], height]]))
+    share = np.linspace(0.0, 1.0, 2 * COILS + 2)
+    aside = np.array([0.0, *(WIDE * free * (0.5 if i % 2 else -0.5) for i in range(2 * COILS)), 0.0])
+    return np.column_stack([low[0] + aside, low[1] + share * (high[1] - low[1])])
+
+
+def _marks(left: float, right: float) -> Any:
+    """Return places of marks on the ground, without which one would not see it move."""
+    width = right - left
+    return np.arange(left - width, right + width, width / 12)

@@ -1,0 +1,145 @@
+"""A scene in three dimensions, seen without perspective: cuboids on a patch of ground, some on springs at their corners."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.measures import ground_history
+from seisblock.records import Motion
+from seisblock.solvers.stack.outcome import rotated
+from seisblock.typing import BoolArray, FloatArray
+
+AZIMUTH, ELEVATION = math.radians(-60.0), math.radians(16.0)
+"""Where the viewer stands: from +x towards +y, and above the ground."""
+
+STONE, LIGHT = np.array([0.80, 0.77, 0.72]), np.array([0.25, -0.55, 0.80])
+"""Colour of a face towards the light, and where that comes from."""
+
+MOMENTS = 100.0
+"""Moments a second that a page holds: each has seven numbers for every cuboid."""
+
+FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A cuboid.
+
+    Parameters
+    ----------
+    size : (float, float, float), m
+    centre : (n, 3) array, m
+        Relative to the ground.
+    turn : (n, 4) array
+        Quaternions w, x, y, z.
+    fell_s : float, s
+        From when its edges are marked; infinite where it never falls.
+    """
+
+    size: tuple[float, float, float]
+    centre: FloatArray
+    turn: FloatArray
+    fell_s: float = math.inf
+
+    def placed(self, index: int) -> FloatArray:
+        """Return its corners in picture `index`, (8, 3), m relative to the ground."""
+        return self.centre[index] + rotated(self.turn[index], CORNERS * np.array(self.size))
+
+
+@dataclass(frozen=True, eq=False)
+class Spring:
+    """What stands between the ground and a corner.
+
+    Parameters
+    ----------
+    foot : (3,) array, m
+        On the ground.
+    top : (n, 3) array, m
+        The corner.
+    free : float, m
+        Height above which the corner leaves the spring.
+    """
+
+    foot: FloatArray
+    top: FloatArray
+    free: float
+
+    @property
+    def lifted(self) -> BoolArray:
+        """In which pictures the corner is in the air, (n,)."""
+        return self.top[:, 2] > self.free
+
+
+@dataclass(frozen=True, eq=False)
+class Space:
+    """The scene.
+
+    Parameters
+    ----------
+    moved : (n, 3) array, m
+        Displacement of the ground.
+    solids, springs : tuples
+    half : float, m
+        Half the side of the patch of ground.
+    """
+
+    moved: FloatArray
+    solids: tuple[Solid, ...]
+    half: float
+    springs: tuple[Spring, ...] = ()
+
+    def extent(self, azimuth: float = AZIMUTH, elevation: float = ELEVATION) -> tuple[float, float, float, float]:
+        """Return a box in the picture that holds everything wherever it goes, but not a stone that rolls far away, m."""
+        right, up, _ = view_axes(azimuth, elevation)
+        tall = max(float(solid.centre[0, 2]) + 0.5 * solid.size[2] for solid in self.solids)
+        reach = 0.6 * max(math.hypot(*solid.size) for solid in self.solids)
+        centres = np.concatenate([solid.centre + self.moved for solid in self.solids])
+        across, high, wide = centres @ right, centres @ up, 1.2 * tall + self.half
+        patch = self.half * (abs(float(right[0])) + abs(float(right[1]))), self.half * (abs(float(up[0])) + abs(float(up[1])))
+        sides = max(min(float(across.min()) - reach, -patch[0]), -wide), min(max(float(across.max()) + reach, patch[0]), wide)
+        return *sides, max(min(float(high.min()) - reach, -1.1 * patch[1]), -wide), min(float(high.max()) + reach, 1.5 * tall)
+
+    def floor(self, index: int) -> FloatArray:
+        """Return the patch of ground in picture `index`, (4, 3), m."""
+        return np.array([(x * self.half, y * self.half, 0.0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]) + self.moved[index]
+
+    def faces(self, index: int, time: float) -> Iterator[tuple[FloatArray, FloatArray, bool]]:
+        """Yield the faces that the viewer sees, the farthest first: corners (4, 3), m, shade (3,), and whether the solid has fallen."""
+        ahead = view_axes()[2]
+        seen = []
+        for solid in self.solids:
+            corners = solid.placed(index) + self.moved[index]
+            for face in FACES:
+                points = corners[list(face)]
+                normal = np.cross(points[1] - points[0], points[2] - points[1])
+                normal = normal / np.linalg.norm(normal)
+                if normal @ ahead > 1e-9:
+                    shade = np.clip(STONE * (0.72 + 0.32 * float(normal @ LIGHT)), 0.0, 1.0)
+                    seen.append((float(points.mean(axis=0) @ ahead), points, shade, time >= solid.fell_s))
+        for _, points, shade, fell in sorted(seen, key=lambda entry: entry[0]):
+            yield points, shade, fell
+
+
+def view_axes(azimuth: float = AZIMUTH, elevation: float = ELEVATION) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the unit vectors to the right, upwards in the picture, and towards the viewer."""
+    c, s, ce, se = math.cos(azimuth), math.sin(azimuth), math.cos(elevation), math.sin(elevation)
+    return np.array([-s, c, 0.0]), np.array([-c * se, -s * se, ce]), np.array([c * ce, s * ce, se])
+
+
+def on_picture(points: FloatArray) -> FloatArray:
+    """Return where points (..., 3) stand in the picture, (..., 2)."""
+    right, up, _ = view_axes()
+    return np.stack([points @ right, points @ up], axis=-1)
+
+
+def ground_path(motion: Motion, acts: tuple[bool, bool, bool], times: FloatArray) -> FloatArray:
+    """Return the displacement of the ground along, across and up, (n, 3), m, on the baseline of PGD; rows that do not act stay zero."""
+    still = np.zeros(motion.samples)
+    rows = zip(acts, motion.acceleration, strict=True)
+    moved = [ground_history(row, motion.dt).displacement if act and row.any() else still for act, row in rows]
+    return np.array([np.interp(times, motion.time, row) for row in moved]).T

@@ -1,0 +1,253 @@
+"""Every film of a long record shows what was computed: the scene, the curves below it, which record it is, as pictures and as a page."""
+
+import functools
+import itertools
+import json
+import math
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from seisblock.bodies.spring_block import CORNERS
+from seisblock.measures import ground_history
+from seisblock.present.faces import FACES
+from seisblock.present.films import jump, respond, rock, slide, stack, uplift
+from seisblock.present.films.animation import MOST_FRAMES, Filming, frame_times
+from seisblock.present.films.frames import film_frames, set_up
+from seisblock.present.films.page import film_page
+from seisblock.present.films.space import view_axes
+from seisblock.solvers.stack.outcome import rotated
+from seisblock.words import speaking
+from tests.language.english import english_in, seen_in
+from tests.present.test_histories import deviation, response, shared, visible_texts
+
+FILMS = {
+    "respond": respond.respond_film,
+    "rock": rock.rocking_film,
+    "slide": slide.slide_film,
+    "jump": jump.jump_film,
+    "uplift": uplift.uplift_film,
+    "stack": stack.stack_film,
+}
+SPANS = {
+    "respond": respond.stretch,
+    "rock": rock.stretch,
+    "slide": lambda r: slide.stretch(r.phases, slide.COLOURS, 0.0, 300.0),
+    "jump": lambda r: jump.stretch(r.phases, jump.COLOURS, 0.0, 300.0),
+    "uplift": uplift.stretch,
+    "stack": lambda r: stack.stretch(r, margin=1.5),
+}
+CURVES = {
+    "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ (deg)": np.degrees(r["rotation"])},
+    "rock": lambda r: {"θ (deg)": np.degrees(r["rotation"])},
+    "slide": lambda r: {"x − z (mm)": 1e3 * r["displacement"]},
+    "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "rise of G (mm)": 1e3 * (r["height"] - r.body.centroid_height)},
+    "uplift": lambda r: {"u (mm)": 1e3 * r["uplift_1"]},
+    "stack": lambda r: {"tilt θ (deg)": np.degrees(r["sao_tilt"])},
+}
+"""What each film shows of its response, by the label of its strip."""
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
+
+
+def film(model, pictures=200, **options):
+    """Return the film of a record of 300 s, at so many moments."""
+    found = response(model)
+    return FILMS[model](found, np.linspace(*SPANS[model](found), pictures), **options)
+
+
+def test_each_model_has_a_film():
+    """What moves is seen moving, and each film is under test here."""
+    assert [name for name, face in FACES.items() if face.film is not None] == list(FACES)
+    assert set(FILMS) == set(FACES)
+
+
+@pytest.mark.parametrize("model", FILMS)
+def test_pictures_draw_the_true_curve(model):
+    """F1: the curves in .gif and .mp4 hold every point of the response in view."""
+    found, stage = response(model), set_up(film(model))
+    stage.sheet.canvas.draw()
+    for label, values in CURVES[model](found).items():
+        (axis,) = [axis for axis in stage.panels if axis.get_ylabel() == label]
+        lines = [line for line in axis.get_lines() if len(line.get_xdata()) > 2]
+        assert min(deviation(axis, line, found.time, values) for line in lines) < 0.01
+
+
+@pytest.mark.parametrize("model", FILMS)
+def test_pages_draw_the_true_curve(model):
+    """F1: so do the curves of a page; each point of the response in view lies on the line, to a 300th of the strip's height."""
+    found = response(model)
+    data = data_of(film_page(film(model), Filming()))
+    first, last = data["first"], data["last"]
+    inside = (found.time > first) & (found.time < last)
+    for label, values in CURVES[model](found).items():
+        (strip,) = [strip for strip in data["strips"] if strip["label"] == label]
+        low, high = strip["range"]
+        apart = []
+        for line in strip["lines"]:
+            time, kept = np.array(line["time"]), np.array(line["values"], dtype=float)
+            drawn = np.interp(found.time[inside], time, kept)
+            # where two values share an instant, or are thinned to the extremes of a bin, either is right
+            near = np.minimum(np.abs(drawn - values[inside]), np.abs(nearest(found.time[inside], time, kept) - values[inside]))
+            apart.append(np.quantile(near, 0.99) / (high - low))
+            assert time[0] <= first + 0.11 and time[-1] >= last - 0.11
+        assert min(apart) < 1 / 300
+
+
+def nearest(times, time, values):
+    """Return the value of the point before each time."""
+    return values[np.clip(np.searchsorted(time, times, side="right") - 1, 0, None)]
+
+
+def data_of(page):
+    """Return what the script of a page is given."""
+    return json.loads(re.search(r'id="film">(.*?)</script>', page, re.DOTALL).group(1))
+
+
+@pytest.mark.parametrize("model", FILMS)
+def test_a_film_says_which_record_it_shows(model):
+    """Station, local time and direction stand above pictures and pages as above figures."""
+    shown = film(model)
+    assert set_up(shown).sheet.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST   NS")
+    page = film_page(shown, Filming())
+    assert '<p class="soft">X012 小さな町 $a_b$ · 2024-01-01 16:10:00 JST · NS' in page
+    assert ("scaled by 1.6" in page) == (model == "jump")
+
+
+@pytest.mark.parametrize("lang", ["en", "ja"])
+@pytest.mark.parametrize("model", FILMS)
+def test_no_text_of_a_picture_lies_on_another(model, lang):
+    """Titles, clock, legends and labels stand by themselves, within the picture."""
+    with speaking(lang):
+        stage = set_up(film(model))
+        stage.show(100, "real time")
+        stage.sheet.canvas.draw()
+    renderer = stage.sheet.canvas.get_renderer()
+    boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in visible_texts(stage.sheet) if text.get_text().strip()]
+    width, height = stage.sheet.bbox.width, stage.sheet.bbox.height
+    assert not [told for told, box in boxes if box.x0 < -2 or box.y0 < -2 or box.x1 > width + 2 or box.y1 > height + 2]
+    assert not [(a, b) for (a, one), (b, other) in itertools.combinations(boxes, 2) if shared(one, other) > 0.05]
+
+
+@pytest.mark.parametrize("model", FILMS)
+def test_pages_are_told_in_the_language_spoken(model):
+    """Title, notes, legends and labels of the player; and a page of a long record stays small enough to send."""
+    with speaking("ja"):
+        page = film_page(film(model, 3000), Filming())
+    assert not english_in(seen_in(page).replace("$a_b$", "")) and "再生" in page
+    assert not english_in(" ".join(strip["label"] for strip in data_of(page)["strips"]))
+    assert len(page.encode()) < 1_000_000
+
+
+@pytest.mark.parametrize("model", FILMS)
+def test_accelerations_are_in_the_unit_asked_for(model):
+    """--si: the strip of the ground is in m/s2, its thresholds too."""
+    (gal, si) = (film(model, gal=gal).strips[0] for gal in (True, False))
+    assert (gal.label, si.label) == ("a (gal)", "a (m/s²)")
+    np.testing.assert_allclose(gal.lines[0].values, 100.0 * si.lines[0].values)
+    np.testing.assert_allclose(gal.levels, np.multiply(si.levels, 100.0))
+
+
+def test_a_film_of_five_minutes_has_no_more_pictures_than_the_most():
+    """It plays faster and says so."""
+    times, speed = frame_times(0.0, 300.0)
+    assert len(times) <= MOST_FRAMES and speed == 8.0
+    shown = FILMS["slide"](response("slide"), np.asarray(times))
+    pictures = list(itertools.islice(film_frames(shown, speed, Filming()), 3))
+    assert all(isinstance(picture, Image.Image) for picture in pictures) and pictures[0].size == pictures[-1].size
+
+
+def test_what_did_not_happen_has_no_strip():
+    """Before anything moves the ground's acceleration is all there is."""
+    found = response("rock")
+    assert [strip.label for strip in FILMS["rock"](found, np.linspace(0.0, 5.0, 20)).panels] == ["a (gal)"]
+
+
+def test_stones_are_where_the_response_has_them():
+    """Each corner of each stone in a picture is that of the channels, on ground that moves along and up as its displacement."""
+    found = response("stack")
+    shown = film("stack", 60)
+    scene, motion = shown.scene, found.motion
+    for row, axis in ((0, 0), (2, 2)):
+        moved = ground_history(motion.acceleration[row], motion.dt).displacement
+        np.testing.assert_allclose(scene.moved[:, axis], np.interp(shown.time, motion.time, moved), atol=1e-15)
+    for stone, solid in zip(found.body.stones, scene.solids, strict=True):
+        index = 40
+        near = int(np.argmin(np.abs(found.time - shown.time[index])))
+        turn = np.array([found[f"{stone.name}_q{axis}"][near] for axis in "wxyz"])
+        corner = np.array([found[f"{stone.name}_{axis}"][near] for axis in "xyz"]) + rotated(turn, 0.5 * np.array(stone.size))
+        assert np.linalg.norm(solid.placed(index)[7] - corner) < 0.05 * max(stone.size)
+
+
+def test_the_viewer_sees_at_most_three_faces_of_a_stone_and_the_nearest_last():
+    """A convex body shows a face if and only if its outward normal points to the viewer; far ones are drawn before near ones."""
+    scene, ahead = film("stack", 20).scene, view_axes()[2]
+    faces = list(scene.faces(0, 0.0))
+    depths = [float(points.mean(axis=0) @ ahead) for points, _, _ in faces]
+    assert len(faces) == 3 * len(scene.solids) and depths == sorted(depths)
+
+
+def test_a_fallen_stone_is_marked_from_its_fall_on():
+    """Its edges change colour at the time of the answer."""
+    found = response("stack")
+    fell = {stone.name: stone.fell_at_s for stone in found.outcome.stones}
+    assert any(time is not None for time in fell.values())
+    for name, solid in zip(found.body.names, film("stack", 20).scene.solids, strict=True):
+        assert solid.fell_s == (math.inf if fell[name] is None else fell[name])
+
+
+def test_a_corner_is_drawn_in_the_air_when_it_is():
+    """Uplift: the mark of each corner tells whether its spring is let go of; the block stands on its corners' heights, magnified."""
+    found, shown = response("uplift"), film("uplift", 400)
+    factor = uplift.magnification(found)
+    for i, spring in enumerate(shown.scene.springs):
+        rise = np.interp(shown.time, found.time, found[f"uplift_{i + 1}"])
+        np.testing.assert_array_equal(spring.lifted, rise > 0.0)
+        assert spring.lifted.any()
+        np.testing.assert_allclose(spring.top[:, 2] - spring.free, factor * rise, atol=1e-12)
+
+
+def test_the_block_on_springs_leans_as_its_corners_rise():
+    """The turn of the cuboid and the heights of its corners, found independently, agree to the curvature of the turn."""
+    shown = film("uplift", 100)
+    (block,), springs = shown.scene.solids, shown.scene.springs
+    for (x, y), spring in zip(CORNERS, springs, strict=True):
+        corner = block.centre + rotated(block.turn, 0.5 * np.array(block.size) * np.array([x, y, -1.0]))
+        assert np.abs(corner - spring.top).max() < 0.02 * block.size[2]
+
+
+@functools.cache
+def magnified():
+    return uplift.magnification(response("uplift"))
+
+
+def test_small_motion_is_magnified_by_a_round_factor():
+    """1, 2 or 5 times a power of ten, such that lean and rise just stay within what is drawn; the page says by how much."""
+    factor, found = magnified(), response("uplift")
+    digits = factor / 10.0 ** math.floor(math.log10(factor) + 1e-9)
+    assert min(abs(digits - step) for step in (1.0, 2.0, 5.0)) < 1e-9
+    rise = max(float(np.abs(found[f"uplift_{i}"]).max()) for i in (1, 2, 3, 4))
+    fill = factor * max(found.outcome.max_rotation_rad / uplift.MOST_LEAN, rise / (uplift.MOST_RISE * found.body.height))
+    assert 0.39 < fill <= 1.0
+    assert f"drawn {factor:g} times as large" in film_page(film("uplift"), Filming())
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
+@pytest.mark.parametrize("model", ["stack", "uplift"])
+def test_a_browser_draws_a_scene_in_space(model, tmp_path):
+    """The script runs: the clock stands where the address says, scene and curves are drawn, and nothing runs off the page."""
+    probe = """<script>
+    const inked = id => byId(id).getContext("2d").getImageData(0, 0, byId(id).width, byId(id).height).data.some((v, i) => i % 4 < 3 && v > 0);
+    document.title = [inked("scene"), inked("strip1"), document.documentElement.scrollWidth <= innerWidth].join();
+    </script>"""
+    path = tmp_path / "film.html"
+    path.write_text(film_page(film(model), Filming()) + probe, encoding="utf-8")
+    options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=390,900", "--virtual-time-budget=300"]
+    command = [CHROMIUM, *options, f"--user-data-dir={tmp_path}/profile", "--dump-dom", f"{path.as_uri()}#t=56.25"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    assert 'id="clock">56.250 s<' in done.stdout
+    assert "<title>true,true,true</title>" in done.stdout
