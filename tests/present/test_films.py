@@ -241,7 +241,8 @@ def test_small_motion_is_magnified_by_a_round_factor():
 def test_a_browser_draws_a_scene_in_space(model, tmp_path):
     """The script runs: the clock stands where the address says, scene and curves are drawn, and nothing runs off the page."""
     probe = """<script>
-    const inked = id => byId(id).getContext("2d").getImageData(0, 0, byId(id).width, byId(id).height).data.some((v, i) => i % 4 < 3 && v > 0);
+    const inked = id => { const { width, height } = byId(id), pen = byId(id).getContext("2d");
+      return pen.getImageData(0, 0, width, height).data.some((v, i) => i % 4 < 3 && v > 0); };
     document.title = [inked("scene"), inked("strip1"), document.documentElement.scrollWidth <= innerWidth].join();
     </script>"""
     path = tmp_path / "film.html"
