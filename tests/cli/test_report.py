@@ -1,6 +1,7 @@
 """``seisblock report``: one page with everything about a record and some bodies, in two languages, that fetches nothing."""
 
 import re
+from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
@@ -9,9 +10,11 @@ from seisblock.bodies.library import load_block
 from seisblock.bodies.subjects import subject
 from seisblock.cli import main
 from seisblock.present.pages.report import report
+from seisblock.present.pages.report_words import verdict
 from seisblock.readers import read, sample_path
 from seisblock.records import motion_of
 from seisblock.records.process import crop
+from seisblock.solvers.jump.chain import JUMPED
 from seisblock.solvers.respond import solve_respond
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.assessment import assess
@@ -125,3 +128,12 @@ def test_a_record_of_one_component_is_enough(tmp_path):
     answer = CliRunner().invoke(main, ["report", "elcentro_1940_ns.csv", "--body", "0.3x1.2", "--mu", "0.2", "-o", str(page), "--quiet"])
     assert answer.exit_code == 0 and answer.stderr == ""
     assert "JMA intensity" not in page.read_text(encoding="utf-8").split("<footer>")[0].split("data:image")[0]
+
+
+def test_a_jump_that_rounds_to_nothing_is_no_minus():
+    """A body that ends a hundredth of a millimetre to the left of where it stood has moved +0 mm, not -0 mm."""
+    moved = [SimpleNamespace(outcome=JUMPED, final_displacement_m=metres) for metres in (-1e-5, 0.0, -6e-4)]
+    effects = [
+        SimpleNamespace(kind="jump", response=SimpleNamespace(outcome=outcome, motion=SimpleNamespace(name="NS"))) for outcome in moved
+    ]
+    assert [verdict(effect) for effect in effects] == ["jumps: +0 mm along NS"] * 2 + ["jumps: -1 mm along NS"]

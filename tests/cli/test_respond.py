@@ -11,9 +11,10 @@ from click.testing import CliRunner
 from seisblock.bodies.block import Block
 from seisblock.cli import main
 from seisblock.present.figures.respond import figure
-from seisblock.present.text.respond import signed
+from seisblock.present.text.respond import share, signed
 from seisblock.records import Motion
 from seisblock.solvers.respond import solve_respond
+from seisblock.studies.standing.probability import Probability, Versions
 
 CABINET = ("--width", "45cm", "--height", "180cm", "--mu", "0.3")
 KEYS = {
@@ -202,3 +203,17 @@ def test_where_friction_meets_slenderness_it_slides():
     words = ("--width", "50cm", "--height", "100cm", "--mu", "0.5", "--runs", "0", "--quiet", "--component", "NS", "--no-vertical")
     shown = run(*words).stdout
     assert "slides first, above 490 gal" in shown and "never rocks" in shown
+
+
+@pytest.mark.parametrize(
+    ("fallen", "begins"),
+    [
+        (0, "none of 20 plausible versions falls;"),
+        (1, "1 of 20 plausible versions falls, 5 % ("),
+        (2, "2 of 20 plausible versions fall, 10 % ("),
+    ],
+)
+def test_one_version_falls_and_two_fall(fallen, begins):
+    """The number of versions and its verb agree."""
+    found = Probability(20, fallen / 20, 0.5, (0.0, 0.3), 0.01, {"q05": 0.0, "q95": 0.0}, Versions(), 0)
+    assert share(found).startswith(begins)

@@ -66,7 +66,7 @@ def verdict(effect: Effect) -> str:
         return tell("slides up to {mm:.0f} mm ({name})", mm=outcome.max_slip_m * 1e3, name=name)
     if effect.kind == "jump":
         if outcome.outcome == JUMPED:
-            return tell("jumps: {mm:+.0f} mm along {name}", mm=_moved(effect) * 1e3, name=name)
+            return tell("jumps: {mm:+z.0f} mm along {name}", mm=_moved(effect) * 1e3, name=name)
         return tell("rocks without jumping ({name})" if outcome.chains else "stands still", name=name)
     if not outcome.uplifts:
         return tell("no corner lifts")
@@ -145,7 +145,7 @@ def _slide(effect: Effect, outcome: Any) -> Iterator[str]:
     if not outcome.slips:
         yield tell("Friction holds throughout.")
         return
-    text = noted("The body slides from {start:.2f} s, up to {most:.1f} mm at {time:.2f} s; {rest:+.1f} mm remain.")
+    text = noted("The body slides from {start:.2f} s, up to {most:.1f} mm at {time:.2f} s; {rest:+z.1f} mm remain.")
     yield tell(
         text,
         start=outcome.slip_start_s,
@@ -162,7 +162,7 @@ def _jump(effect: Effect, outcome: Any) -> Iterator[str]:
     for number, chain in enumerate(outcome.chains, start=1):
         if chain.outcome == JUMPED:
             text = noted(
-                "Chain {number}: rocks for {rock:.3f} s, flies for {fly:.3f} s, moves {mm:+.1f} mm; the centroid rises by {rise:.1f} mm."
+                "Chain {number}: rocks for {rock:.3f} s, flies for {fly:.3f} s, moves {mm:+z.1f} mm; the centroid rises by {rise:.1f} mm."
             )
             yield tell(
                 text,

@@ -72,16 +72,15 @@ def _cells(chains: Sequence[Chain]) -> Iterator[list[str]]:
     for heading, key in _ROWS:
         yield [tell(heading), *(seconds(getattr(chain, key)) for chain in chains)]
     yield [tell("largest tilt (deg)"), *(f"{math.degrees(chain.max_rotation_rad):.2f}" for chain in chains)]
-    yield [tell("impact velocity (rad/s)"), *(_or_dash(chain.impact_velocity_rad_s, "{:.3f}") for chain in chains)]
+    yield [tell("impact velocity (rad/s)"), *(_or_dash(chain.impact_velocity_rad_s, "{:z.3f}") for chain in chains)]
     for heading, key in _LENGTHS:
-        yield [tell(heading), *(_or_dash(getattr(chain, key), "{:.1f}", 1e3) for chain in chains)]
+        yield [tell(heading), *(_or_dash(getattr(chain, key), "{:z.1f}", 1e3) for chain in chains)]
     yield [tell("friction its landing needs"), *(_friction(chain.friction_needed_at_landing) for chain in chains)]
 
 
 def _or_dash(value: float | None, form: str, factor: float = 1.0) -> str:
-    """Return a number in a form, or a dash."""
-    # adding zero after rounding turns -0.0 into 0.0
-    return "-" if value is None else form.format(round(value * factor, 6) + 0.0)
+    """Return a number in a form, in which z leaves zero no sign, or a dash."""
+    return "-" if value is None else form.format(value * factor)
 
 
 def _friction(needed: float | None) -> str:

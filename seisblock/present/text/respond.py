@@ -10,7 +10,7 @@ from seisblock.present.text.tables import line, number, record_line, seconds, ta
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.probability import Probability
-from seisblock.words import listed, tell
+from seisblock.words import listed, noted, tell
 
 Responds = Sequence[Response[RespondOutcome]]
 
@@ -112,8 +112,10 @@ def share(found: Probability) -> str:
     elif fallen == found.runs:
         falls = tell("all {runs} plausible versions fall", runs=found.runs)
     else:
+        one = noted("1 of {runs} plausible versions falls, {share} ({low} to {high})")
+        more = noted("{fallen} of {runs} plausible versions fall, {share} ({low} to {high})")
         falls = tell(
-            "{fallen} of {runs} plausible versions fall, {share} ({low} to {high})",
+            one if fallen == 1 else more,
             fallen=fallen,
             runs=found.runs,
             share=percent(found.overturned),
