@@ -13,7 +13,7 @@ from seisblock.criteria.gravestones import overturning_level
 from seisblock.criteria.intensity import intensity_from_velocity
 from seisblock.errors import BodyError, ParameterError
 from seisblock.measures import jma_class
-from seisblock.studies.cemetery.limits import fitted_limits
+from seisblock.studies.cemetery.limits import fitted_limits, rigid_limits
 from seisblock.studies.inverse.assumptions import FREQUENCY_ERROR, Assumptions
 from seisblock.studies.inverse.estimate import ALL_STONES, DOWELLED_STONES, PLAIN_STONES, contour, estimate_shaking, groups_of
 from seisblock.studies.inverse.survey import (
@@ -149,21 +149,24 @@ def test_stones_that_are_not_marked_are_left_out():
     assert (other.fallen, other.standing) == (3, 1)
 
 
-def test_the_likelihood_is_the_integral_over_the_common_error():
-    """The convolution agrees with adaptive quadrature."""
+@pytest.mark.parametrize("limits", [fitted_limits, rigid_limits])
+def test_the_likelihood_is_the_integral_over_the_common_error(limits):
+    """The convolution agrees with adaptive quadrature, at whatever frequency it was asked for before."""
     from scipy.integrate import quad
 
     survey = marked_survey(marked(AOYAMA, AOYAMA.ratios > 2.84))
-    found = likelihood(survey, 2.0, bias=0.0)
-    probe = np.log([4.2, 4.8])
+    likelihood(survey, 0.6, bias=0.0, limits=limits)
+    found = likelihood(survey, 2.0, bias=0.0, limits=limits)
+    around = np.log([4.2, 4.8] if limits is fitted_limits else [6.3, 7.2])
+    probe = found.log_pga[np.searchsorted(found.log_pga, around)]
 
     def integrand(error: float, at: float) -> float:
         weight = np.exp(-0.5 * (error / COMMON_ERROR) ** 2) / (COMMON_ERROR * np.sqrt(2 * np.pi))
-        return float(weight * np.exp(log_likelihood(survey, np.array([at + error]), 2.0, STONE_ERROR)[0] + 10.0))
+        return float(weight * np.exp(log_likelihood(survey, np.array([at + error]), 2.0, STONE_ERROR, limits)[0] + 10.0))
 
     direct = [quad(integrand, -1.5, 1.5, args=(at,), points=[0.0], limit=400, epsabs=0.0, epsrel=1e-8)[0] for at in probe]
     ratio = found.interpolated(probe)
-    assert ratio[1] / ratio[0] == pytest.approx(direct[1] / direct[0], rel=1e-4)
+    assert ratio[1] / ratio[0] == pytest.approx(direct[1] / direct[0], rel=1e-8)
 
 
 def test_intensity_goes_with_pgv():

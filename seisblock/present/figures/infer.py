@@ -15,7 +15,7 @@ from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legen
 from seisblock.records import Record
 from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.estimate import ShakingEstimate, contour
-from seisblock.studies.inverse.survey import Survey, likelihood
+from seisblock.studies.inverse.survey import Survey
 from seisblock.typing import FloatArray
 from seisblock.units import GAL
 from seisblock.words import tell
@@ -89,7 +89,7 @@ def _likelihoods(axis: Axes, survey: Survey, assumptions: Assumptions, chosen: S
     """Draw the likelihood over PGA at the frequencies chosen, or at three."""
     frequencies = [each.frequency_hz for each in chosen if each.frequency_hz is not None] or [1.0, 2.0, 3.0]
     for index, f in enumerate(frequencies):
-        found = likelihood(survey, f, common_error=assumptions.common_error, stone_error=assumptions.stone_error, limits=assumptions.limits)
+        (found,) = assumptions.likelihoods(survey, [f])
         share = index / max(len(frequencies) - 1, 1)
         colour = ACCENT if len(frequencies) == 1 else str(round(0.15 + 0.55 * share, 2))
         dashes = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)))[index % 3]

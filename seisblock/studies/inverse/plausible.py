@@ -50,7 +50,7 @@ def plausibility(survey: Survey, assumptions: Assumptions | None = None, *, seed
     rules = assumptions or Assumptions()
     if survey.counted is not None or survey.fell in (0, survey.judged):
         return None
-    limits = np.log(rules.limits(survey.cemetery.rows(), math.sqrt(BAND[0] * BAND[1])))
+    limits = np.log(rules.limits(survey.rows, math.sqrt(BAND[0] * BAND[1])))
     fallen, standing = survey.fallen.astype(np.float64), survey.standing.astype(np.float64)
     levels = np.linspace(limits.min() - 3.0, limits.max() + 3.0, 601)
     falls, stands = _log_chances(levels, limits, rules.stone_error)

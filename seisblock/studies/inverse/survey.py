@@ -15,6 +15,7 @@ Of the six surveyed rates of table 6, taken as of 100 stones each, the interval 
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 from dataclasses import dataclass
@@ -66,6 +67,11 @@ class Survey:
     fallen: IntArray
     standing: IntArray
     counted: tuple[int, int] | None = None
+
+    @functools.cached_property
+    def rows(self) -> Cemetery:
+        """The cemetery with each row taken for one stone."""
+        return self.cemetery.rows()
 
     @property
     def fell(self) -> int:
@@ -158,10 +164,14 @@ def log_likelihood(survey: Survey, log_pga: FloatArray, frequency: float, stone_
     limits : callable
         The criterion.
     """
+    return _log_likelihood(survey, log_pga, np.log(limits(survey.rows, frequency)), stone_error)
+
+
+def _log_likelihood(survey: Survey, log_pga: FloatArray, log_limits: FloatArray, stone_error: float) -> FloatArray:
+    """Return the same, given the logarithm of each row's limit, (rows,)."""
     from scipy.special import log_ndtr, logsumexp
 
-    rows = survey.cemetery.rows()
-    x = (log_pga[:, None] - np.log(limits(rows, frequency))[None, :]) / stone_error
+    x = (log_pga[:, None] - log_limits[None, :]) / stone_error
     falls, stands = log_ndtr(x), log_ndtr(-x)
     if survey.counted is None:
         total: FloatArray = falls @ survey.fallen.astype(np.float64) + stands @ survey.standing.astype(np.float64)
@@ -233,14 +243,23 @@ def likelihood(
                 least=LEAST_ERROR,
                 error=error,
             )
-    centres = np.log(limits(survey.cemetery.rows(), frequency))
+    centres = np.log(limits(survey.rows, frequency))
+    least = float(centres.min())
+    grid, value = _curve(survey, tuple(np.round(centres - least, 12).tolist()), common_error, stone_error)
+    return Likelihood(frequency, least + grid + bias, value)
+
+
+@functools.lru_cache(maxsize=8)
+def _curve(survey: Survey, log_limits: tuple[float, ...], common_error: float, stone_error: float) -> tuple[FloatArray, FloatArray]:
+    """Return the likelihood over ln PGA, both relative to the lowest limit.
+
+    Where the limits of all stones change alike with frequency ([Furukawa2009]_ eqs. (8), (9)), one curve serves for every frequency.
+    """
     spread, step = math.hypot(common_error, stone_error), min(common_error, stone_error) / POINTS_PER_ERROR
     reach = math.ceil(REACH * spread / step)
-    steps = np.arange(-reach, math.ceil(float(np.ptp(centres)) / step) + reach + 1, dtype=np.float64)
-    grid: FloatArray = float(centres.min()) + step * steps
-    bare = log_likelihood(survey, grid, frequency, stone_error, limits)
+    grid = step * np.arange(-reach, math.ceil(max(log_limits) / step) + reach + 1, dtype=np.float64)
+    bare = _log_likelihood(survey, grid, np.array(log_limits), stone_error)
     half = math.ceil(REACH * common_error / step)
     kernel = np.exp(-0.5 * (step * np.arange(-half, half + 1) / common_error) ** 2)
     padded = np.pad(np.exp(bare - bare.max()), half, mode="edge")
-    value: FloatArray = np.convolve(padded, kernel / kernel.sum(), mode="valid")
-    return Likelihood(frequency, grid + bias, value)
+    return grid, np.convolve(padded, kernel / kernel.sum(), mode="valid")
