@@ -25,7 +25,7 @@ DEFAULT_PILE = "wagata"
     examples=(
         "seisblock stack --stones wagata.toml --reinforced",
         "seisblock stack record.csv --stones lantern.toml --plot stack.png --animate stack.gif",
-        "seisblock stack --criterion --grid 4 --resume study.jsonl --plot criterion.png",
+        "seisblock stack --criterion --grid 4 --points 2 --resume study.jsonl --plot criterion.png",
     ),
 )
 @record_options

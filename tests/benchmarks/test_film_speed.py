@@ -1,6 +1,7 @@
 """How long a film of a 20 s response takes to draw: it should play longer than it takes."""
 
 import numpy as np
+import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.present.films.animation import Filming
@@ -9,6 +10,7 @@ from seisblock.records import Motion
 from seisblock.solvers.rock.solve import solve_rock
 
 
+@pytest.mark.slow
 def test_twenty_seconds_of_rocking(benchmark, tmp_path):
     """A 20 s response as a .gif, in real time."""
     t = np.arange(2001) * 0.01

@@ -131,6 +131,7 @@ def test_the_fit_has_its_edges_in_it(run):
     assert any("changes nothing" in text for text in told["warnings"])
 
 
+@pytest.mark.slow
 def test_estimates_of_worn_rigid_stones_need_less_shaking(run):
     """`infer --criterion rigid`: stones that turn about worn edges fell at a smaller PGA, by the rule of their limits."""
     words = ("infer", "--cemetery", "aoyama.csv", "--rate", "35/100", "--frequency", 1, "--criterion", "rigid", "--inset")

@@ -52,7 +52,7 @@ def test_start_costs_less_than_150_ms_of_cpu():
     assert min(spent() for _ in range(3)) < 0.15
 
 
-@pytest.mark.parametrize("line", ["jump --json", "validate --quick", "measure --json", "samples", "cite --bibtex"])
+@pytest.mark.parametrize("line", ["jump --json", "validate --paper Housner1963", "measure --json", "samples", "cite --bibtex"])
 def test_a_reader_that_goes_away_is_no_event(line, tmp_path):
     """`| head -1` leaves stderr without a word about pipes and a traceback least of all."""
     done = shell(f"{SEISBLOCK} {line} --quiet | head -1" if "cite" not in line else f"{SEISBLOCK} {line} | head -1", tmp_path)
@@ -170,7 +170,11 @@ def examples(name):
     return [line for line in lines if line]
 
 
-@pytest.mark.parametrize("name", ["", *COMMANDS])
+SECONDS = ("report", "stack", "validate")
+"""Commands some of whose examples take seconds."""
+
+
+@pytest.mark.parametrize("name", ["", *(pytest.param(name, marks=[pytest.mark.slow] * (name in SECONDS)) for name in COMMANDS)])
 def test_help_ends_with_lines_that_run(name, workshop):
     """At least two lines at the end of each help can be pasted as they stand, and run."""
     lines = examples(name)

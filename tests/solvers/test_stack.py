@@ -259,6 +259,7 @@ def test_options_out_of_range_are_refused():
         solve_stack(block(), motion, tilts={"nose": 0.1})
 
 
+@pytest.mark.slow
 def test_stones_that_fall_on_each_other_create_no_energy():
     """A lantern and a gravestone shaken to pieces: every tumble, edge on edge, keeps the books."""
     from seisblock.validation.furukawa_pile import kobe_like

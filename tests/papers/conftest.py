@@ -1,0 +1,11 @@
+"""Which of the papers' cases take seconds: those that ``validate --quick`` leaves out."""
+
+import pytest
+
+
+def pytest_collection_modifyitems(items):
+    """Mark them as slow."""
+    for item in items:
+        case = getattr(item, "callspec", None) and item.callspec.params.get("case")
+        if case and not case.quick:
+            item.add_marker(pytest.mark.slow)
