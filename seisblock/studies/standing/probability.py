@@ -14,7 +14,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block, resized
-from seisblock.bodies.inset import Inset
+from seisblock.bodies.inset import HALF, Inset
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.records.motion import ACROSS
@@ -65,13 +65,12 @@ class Versions:
     azimuth_deg: float = 10.0
 
     def __post_init__(self) -> None:
-        for name, most in (("size", 1.0), ("inset", 0.5), ("mu", 1.0), ("restitution", 1.0), ("amplitude", 1.0)):
-            if not 0.0 <= getattr(self, name) < most:
-                raise ParameterError(
-                    "the spread of the {name} lies in [0, {most:g}), found {found}", name=name, most=most, found=getattr(self, name)
-                )
-        if not 0.0 <= self.azimuth_deg <= 180.0:
-            raise ParameterError("the spread of the azimuth lies between 0 and 180 degrees, found {found}", found=self.azimuth_deg)
+        checks.within("the spread of the size, a share,", self.size, "[0, 1)")
+        checks.within("the spread of the inset, a share of the width,", self.inset, f"[0, {HALF})")
+        checks.within("the spread of the friction, a share,", self.mu, "[0, 1)")
+        checks.within("the spread of the restitution", self.restitution, "[0, 1)")
+        checks.within("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
+        checks.within("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
 
 
 @dataclass(frozen=True)
