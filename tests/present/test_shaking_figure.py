@@ -1,0 +1,23 @@
+"""The figure of inferred shaking draws what the numbers beside it say."""
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.present.figures.infer import estimate_figure
+from seisblock.studies.inverse.assumptions import Assumptions
+from seisblock.studies.inverse.estimate import estimate_shaking
+from seisblock.studies.inverse.survey import counted_survey
+from seisblock.units import GAL
+
+
+@pytest.mark.parametrize("bias", [0.0, 0.33])
+def test_the_likelihood_is_drawn_with_the_bias_that_was_asked_for(bias):
+    """The curve's highest point lies where the estimate does."""
+    rules = Assumptions(bias=bias, frequency_error=0.0)
+    survey = counted_survey(read_cemetery("aoyama.csv"), 35, 100)
+    found = estimate_shaking(survey, 2.0, rules)
+    figure = estimate_figure("Aoyama", survey, rules, [found])
+    (curve,) = figure.axes[-1].lines
+    top = curve.get_xdata()[np.argmax(curve.get_ydata())]
+    assert top == pytest.approx(found.pga_m_s2 / GAL, rel=0.05)
