@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -73,6 +74,26 @@ class Channel:
 
 
 @dataclass(frozen=True, eq=False)
+class Curves:
+    """Quantities on one time axis.
+
+    Parameters
+    ----------
+    time : (n,) array, s
+        From the record's first sample.
+    channels : tuple of Channel
+    """
+
+    time: FloatArray
+    channels: tuple[Channel, ...] = ()
+
+
+def no_curves() -> Curves:
+    """Return the curves of an answer that has none."""
+    return Curves(np.empty(0))
+
+
+@dataclass(frozen=True, eq=False)
 class Response(Drawn, Generic[Outcome]):
     """The answer of a solver to one motion.
 
@@ -84,10 +105,8 @@ class Response(Drawn, Generic[Outcome]):
         The numbers a user asks for; its fields are the keys of the JSON document.
     motion, body : Motion, object
         What shook, and what stood there.
-    time : (n,) array, s
-        Times from the record's first sample: the samples, and both sides of each event where the model logs them.
-    channels : tuple of Channel
-        Quantities on that axis; displacements are relative to the ground unless the name says otherwise.
+    make_curves : callable
+        Makes :attr:`time` and :attr:`channels`, which are made when one of them is first asked for: a verdict needs neither.
     phases, events : tuple
         In the order of time.
     options : mapping
@@ -104,14 +123,28 @@ class Response(Drawn, Generic[Outcome]):
     outcome: Outcome
     motion: Motion
     body: Any
-    time: FloatArray
-    channels: tuple[Channel, ...] = ()
+    make_curves: Callable[[], Curves] = no_curves
     phases: tuple[Phase, ...] = ()
     events: tuple[Event, ...] = ()
     options: Mapping[str, Any] = field(default_factory=dict)
     status: Status = Status.RECORD_ENDED
     warnings: tuple[str, ...] = ()
     citations: tuple[str, ...] = ()
+
+    @cached_property
+    def curves(self) -> Curves:
+        """The time axis and the quantities on it."""
+        return self.make_curves()
+
+    @property
+    def time(self) -> FloatArray:
+        """Times from the record's first sample, (n,), s: the samples, and both sides of each event where the model logs them."""
+        return self.curves.time
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Quantities on that axis; displacements are relative to the ground unless the name says otherwise."""
+        return self.curves.channels
 
     def __getitem__(self, name: str) -> FloatArray:
         """Return the values of a channel by name."""
@@ -152,4 +185,4 @@ class Response(Drawn, Generic[Outcome]):
         return pd.DataFrame(self.to_columns())
 
 
-__all__ = ["Channel", "Event", "Phase", "Response", "Status"]
+__all__ = ["Channel", "Curves", "Event", "Phase", "Response", "Status"]

@@ -17,7 +17,7 @@ class Ground(NamedTuple):
     Parameters
     ----------
     acceleration : (rows, n) array, m/s^2
-        Ground acceleration at the samples, linear between them.
+        Ground acceleration at the samples of the motion, or of a stretch of it, linear between them.
     gains : (rows,) array
         Factor on each row, so that scaling a record copies nothing; a zero leaves the row unread.
     dt : float, s
@@ -44,8 +44,8 @@ class Cursor(NamedTuple):
 
     Parameters
     ----------
-    place : (7,) array of int
-        See ``SAMPLE`` to ``STEPS_LEFT``.
+    place : (9,) array of int
+        See ``SAMPLE`` to ``BEYOND``.
     clock : (3,) array, s
         ``TAU``: time after the sample. ``FIRST_EVENT``: time of the first event after sample 0, NaN before it. ``SINCE``: that of the last
         event, or of the start.
@@ -57,9 +57,10 @@ class Cursor(NamedTuple):
     state: FloatArray
 
 
-SAMPLE, MODE, FOUND, AT_ONE_INSTANT, STILL, STARTED, STEPS_LEFT = range(7)
+SAMPLE, MODE, FOUND, AT_ONE_INSTANT, STILL, STARTED, STEPS_LEFT, BASE, BEYOND = range(9)
 """A cursor's integers: sample, mode, events so far, events since time last moved, whether the state does not move, whether the
-trajectory has begun, and how many steps may be taken before the loop pauses."""
+trajectory has begun, how many steps may be taken before the loop pauses; of the motion's samples, which one the ground given begins with,
+and how many follow after it."""
 
 TAU, FIRST_EVENT, SINCE = range(3)
 
@@ -70,7 +71,7 @@ class Kept(NamedTuple):
     Parameters
     ----------
     path, modes : (n, n_states), (n,) arrays
-        State and mode at each sample reached.
+        State and mode at each sample reached, counted from the first of the stretch.
     events, times, limits : (m, 4), (m,), (m, 2, n_states) arrays
         Sample, guard, mode before and after (``EVENT_SAMPLE`` to ``EVENT_TO``); seconds after that sample; both limits of the state.
         With no rows events are counted, without a bound.

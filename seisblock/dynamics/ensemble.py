@@ -11,12 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arguments import FIRST_EVENT, FOUND, MODE, SAMPLE, SHAPE, STEPS_LEFT, TAU, Cursor, Ground, Kept
+from seisblock.dynamics.arguments import BASE, BEYOND, FIRST_EVENT, FOUND, MODE, SAMPLE, SHAPE, STEPS_LEFT, TAU, Cursor, Ground, Kept
 from seisblock.dynamics.arrays import BLOCK, INTEGER_BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX
 from seisblock.dynamics.halt import heed
 from seisblock.dynamics.hybrid import POINTERS, go_on, room
-from seisblock.dynamics.model import SLICE, Instant, Model, cursor_at
+from seisblock.dynamics.model import SLICE, Model, cursor_at
 from seisblock.dynamics.status import FAILURES, PAUSED
+from seisblock.dynamics.trajectory import Instant
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records.motion import Motion
 from seisblock.typing import ArrayLike, FloatArray, IntArray
@@ -26,7 +27,7 @@ _t = types()
 
 
 class Grounds(NamedTuple):
-    """What shakes each row: one motion, (rows, n), m/s^2, with factors of each trajectory's own, (m, rows), every dt seconds."""
+    """What shakes: a motion or a stretch of it, (rows, n), m/s^2, with factors of each trajectory's own, (m, rows), every dt seconds."""
 
     acceleration: FloatArray
     gains: FloatArray
@@ -61,6 +62,10 @@ def integrate_rows(series, reset, skip, grounds, shape, parameters, rows, first,
     scratch = room(shape, n_states, grounds.acceleration.shape[0])
     row = first
     while row < parameters.shape[0] and steps > 0:
+        if rows.statuses[row] != PAUSED:
+            # it ended in an earlier stretch of the motion
+            row += 1
+            continue
         place = rows.places[row]
         place[STEPS_LEFT] = steps
         rows.statuses[row] = go_on(
@@ -75,7 +80,8 @@ def integrate_rows(series, reset, skip, grounds, shape, parameters, rows, first,
             scratch,
         )
         steps = place[STEPS_LEFT] - 1
-        if rows.statuses[row] != PAUSED:
+        through = place[BEYOND] > 0 and place[SAMPLE] - place[BASE] == grounds.acceleration.shape[1] - 1
+        if rows.statuses[row] != PAUSED or through:
             row += 1
     return row
 
@@ -121,7 +127,7 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     ----------
     model : Model
     motion : Motion
-        Piecewise linear between its samples; not copied.
+        Piecewise linear between its samples; not copied, but for a stretch of a long one at a time.
     parameters : (m, n_parameters) array
         In the model's order and units.
     initial : (n_states,) or (m, n_states) array
@@ -156,13 +162,15 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
         np.zeros((m, model.tracked, 4)),
         np.zeros((m, len(model.guards), len(model.modes)), dtype=np.int64),
         np.zeros((m, len(model.modes), 2)),
-        np.zeros(m, dtype=np.int64),
+        np.full(m, PAUSED, dtype=np.int64),
     )
-    grounds = Grounds(motion.acceleration, scale, motion.dt)
-    row = 0
-    while row < m:
-        heed()
-        row = integrate_rows(*model.pointers, grounds, model.shape, p, rows, row, SLICE)
+    for stretch in motion.stretches((scale != 0.0).any(axis=0).tolist()):
+        grounds = Grounds(stretch.acceleration, scale, motion.dt)
+        rows.places[:, BASE], rows.places[:, BEYOND] = stretch.first, stretch.beyond
+        row = 0
+        while row < m:
+            heed()
+            row = integrate_rows(*model.pointers, grounds, model.shape, p, rows, row, SLICE)
     end_time = rows.places[:, SAMPLE] * motion.dt + rows.clocks[:, TAU]
     for row in np.flatnonzero(np.isin(rows.statuses, list(FAILURES)))[:1]:
         raise SolverError(

@@ -17,6 +17,9 @@ Events
 Slices
     Compiled code hears no interruption. The loop pauses after so many steps, between two samples, and goes on from there when it is
     called again: the answer does not depend on where it paused. No sample may take more than ``MOST_STEPS``.
+Stretches
+    A long motion is given stretch by stretch, the last sample of one being the first of the next. The loop pauses at the end of each but
+    the last; times and events are those of the whole.
 Extrema
     Maxima and minima of the tracked states come from the zeros of the derivative's polynomial, not from samples.
 """
@@ -28,6 +31,8 @@ import numpy as np
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arguments import (
     AT_ONE_INSTANT,
+    BASE,
+    BEYOND,
     CURSOR,
     EVENT_FROM,
     EVENT_GUARD,
@@ -127,22 +132,23 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
     place, clock, y = cursor
     events, times, extrema, tally = kept.events, kept.times, kept.extrema, kept.tally
     c, g, f = scratch.c, scratch.g, scratch.f
+    base = place[BASE]
     last = acceleration.shape[1] - 1
     order = shape.order
     floors = p.size - y.size if shape.floored else -1
     keeps_path = kept.path.shape[0] > 0
     keeps_events = times.size > 0
-    sample, mode, found, repeated, left = place[SAMPLE], place[MODE], place[FOUND], place[AT_ONE_INSTANT], place[STEPS_LEFT]
+    sample, mode, found, repeated, left = place[SAMPLE] - base, place[MODE], place[FOUND], place[AT_ONE_INSTANT], place[STEPS_LEFT]
     still = place[STILL] != 0
     tau = clock[TAU]
+    # a row that is left out stays zero, whatever the trajectory before this one read
+    for row in range(f.shape[0]):
+        f[row, 0] = f[row, 1] = 0.0
     if place[STARTED] == 0:
         place[STARTED] = 1
         clock[FIRST_EVENT] = np.nan
-        clock[SINCE] = sample * dt + tau
-        # a row that is left out stays zero, whatever the trajectory before this one read
-        for row in range(f.shape[0]):
-            f[row, 0] = f[row, 1] = 0.0
-        begin(extrema, shape.tracked, y, sample * dt + tau)
+        clock[SINCE] = (base + sample) * dt + tau
+        begin(extrema, shape.tracked, y, (base + sample) * dt + tau)
         if keeps_path and tau == 0.0:
             _keep_sample(kept, sample, y, mode)
     status = RECORD_ENDED
@@ -174,7 +180,7 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
                     break
             fired, h = first_to_fire(scratch, shape, max(degree, 1), h)
             if h > 0.0:
-                if degree > CONSTANT and not move(scratch, degree, h, sample * dt + tau, shape.tracked, y, extrema):
+                if degree > CONSTANT and not move(scratch, degree, h, (base + sample) * dt + tau, shape.tracked, y, extrema):
                     status = NOT_FINITE
                     break
                 if tau + h > tau:
@@ -192,17 +198,17 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
                     _keep_limit(kept, found, 0, y)
                 following = reset(mode, fired, y, f, p)
                 if keeps_events:
-                    events[found, EVENT_SAMPLE] = sample
+                    events[found, EVENT_SAMPLE] = base + sample
                     events[found, EVENT_GUARD] = fired
                     events[found, EVENT_FROM] = mode
                     events[found, EVENT_TO] = following
                     times[found] = tau
                     _keep_limit(kept, found, 1, y)
                 for i in range(shape.tracked):
-                    keep(extrema, i, y[i], sample * dt + tau)
+                    keep(extrema, i, y[i], (base + sample) * dt + tau)
                 if found == 0:
-                    clock[FIRST_EVENT] = sample * dt + tau
-                _keep_stay(kept, mode, clock, sample * dt + tau)
+                    clock[FIRST_EVENT] = (base + sample) * dt + tau
+                _keep_stay(kept, mode, clock, (base + sample) * dt + tau)
                 if tally.shape[0] > 0:
                     tally[fired, following] += 1
                 found += 1
@@ -226,9 +232,11 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
             tau = 0.0
             if keeps_path:
                 _keep_sample(kept, sample, y, mode)
+    if status == RECORD_ENDED and place[BEYOND] > 0:
+        status = PAUSED
     if status == RECORD_ENDED:
-        _keep_stay(kept, mode, clock, sample * dt + tau)
-    place[SAMPLE], place[MODE], place[FOUND], place[AT_ONE_INSTANT], place[STEPS_LEFT] = sample, mode, found, repeated, left
+        _keep_stay(kept, mode, clock, (base + sample) * dt + tau)
+    place[SAMPLE], place[MODE], place[FOUND], place[AT_ONE_INSTANT], place[STEPS_LEFT] = base + sample, mode, found, repeated, left
     place[STILL] = still
     clock[TAU] = tau
     return status

@@ -1,10 +1,14 @@
-"""A model is three tables of names and two functions; following it gives a trajectory."""
+"""A model is three tables of names and two functions; following it gives a trajectory.
+
+Room for the path is taken only where the motion is short. A long one is followed stretch by stretch, and its path, where somebody asks for
+it, by following it again.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -12,6 +16,8 @@ import numpy as np
 from seisblock._jit import pointer
 from seisblock.dynamics import hybrid
 from seisblock.dynamics.arguments import (
+    BASE,
+    BEYOND,
     EVENT_FROM,
     EVENT_GUARD,
     EVENT_SAMPLE,
@@ -28,8 +34,9 @@ from seisblock.dynamics.arguments import (
 )
 from seisblock.dynamics.halt import heed
 from seisblock.dynamics.status import FAILURES, PAUSED, TOO_MANY_EVENTS
+from seisblock.dynamics.trajectory import BEGINNING, Change, Instant, Path, Trajectory
 from seisblock.errors import SolverError
-from seisblock.records.motion import Motion
+from seisblock.records.motion import Motion, Stretch
 from seisblock.typing import ArrayLike, FloatArray, IntArray
 from seisblock.words import said
 
@@ -39,7 +46,7 @@ ORDER = 12
 SLICE = 1 << 16
 """Steps that compiled code takes before Python may be interrupted: 10 to 150 ms, and no more than 1e-3 of that to come back."""
 
-_FIRST_CAPACITY = 256
+_FIRST_CAPACITY, _LONG_CAPACITY = 256, 1 << 14
 _LAST_CAPACITY = 1 << 18
 
 _NO_TALLY, _NO_STAYS = np.empty((0, 0), dtype=np.int64), np.empty((0, 2))
@@ -95,98 +102,6 @@ class Model:
         return Shape(self.scratch, len(self.guards), self.tracked, self.order, int(self.floored), self.sharp)
 
 
-@dataclass(frozen=True)
-class Instant:
-    """A time of a sampled motion, exact to the sample: `tau` seconds after sample number `sample`."""
-
-    sample: int = 0
-    tau: float = 0.0
-
-
-@dataclass(frozen=True, eq=False)
-class Change:
-    """An event as the engine logs it; times in s after sample 0 of the motion."""
-
-    at: Instant
-    time: float
-    guard: int
-    source: int
-    target: int
-    before: FloatArray
-    after: FloatArray
-
-
-@dataclass(frozen=True, eq=False)
-class Trajectory:
-    """What the engine found.
-
-    Parameters
-    ----------
-    model, dt, status : Model, float, int
-    first : int
-        Sample from which `states` and `modes` are meaningful.
-    states, modes : (n, n_states), (n,) arrays
-        State and mode at each sample reached; empty when they were not asked for.
-    changes : tuple of Change
-    n_changes : int
-        How many there were, kept or not.
-    extrema : (n_tracked, 4) array
-        Highest value, its time, lowest value, its time; s after sample 0.
-    end : Instant
-    final, final_mode : (n_states,) array, int
-    """
-
-    model: Model
-    dt: float
-    status: int
-    first: int
-    states: FloatArray
-    modes: IntArray
-    changes: tuple[Change, ...]
-    n_changes: int
-    extrema: FloatArray
-    end: Instant
-    final: FloatArray
-    final_mode: int
-
-    @property
-    def end_time(self) -> float:
-        """Time at which the integration ended, s after sample 0."""
-        return self.end.sample * self.dt + self.end.tau
-
-    def table(self) -> tuple[FloatArray, FloatArray, IntArray]:
-        """Return times, states and modes at the samples and at both limits of every event, in order.
-
-        Returns
-        -------
-        time : (m,) array, s after sample 0
-        states : (m, n_states) array
-        modes : (m,) array
-        """
-        last = self.end.sample + 1
-        time = self.dt * np.arange(self.first, last, dtype=np.float64)
-        states = self.states[self.first : last]
-        modes = self.modes[self.first : last]
-        if not self.changes:
-            return time, states, modes
-        at = np.array([change.at.sample for change in self.changes]) + 1 - self.first
-        where = np.clip(np.repeat(at, 2), 0, time.size)
-        both = np.array([limit for change in self.changes for limit in (change.before, change.after)])
-        kinds = np.array([mode for change in self.changes for mode in (change.source, change.target)])
-        times = np.repeat([change.time for change in self.changes], 2)
-        return np.insert(time, where, times), np.insert(states, where, both, axis=0), np.insert(modes, where, kinds)
-
-    def sampled(self, values: FloatArray) -> FloatArray:
-        """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
-        part = values[self.first : self.end.sample + 1]
-        if not self.changes:
-            return part
-        at = np.array([change.at.sample for change in self.changes])
-        share = np.array([change.at.tau for change in self.changes]) / self.dt
-        there = values[at] + share * (values[np.minimum(at + 1, values.size - 1)] - values[at])
-        return np.insert(part, np.clip(np.repeat(at + 1 - self.first, 2), 0, part.size), np.repeat(there, 2))
-
-
 def follow(
     model: Model,
     motion: Motion,
@@ -195,7 +110,7 @@ def follow(
     mode: int,
     *,
     gains: Sequence[float] = (1.0, 0.0, 0.0),
-    start: Instant = Instant(),
+    start: Instant = BEGINNING,
     keep_path: bool = True,
     keep_events: bool = True,
 ) -> Trajectory:
@@ -217,7 +132,8 @@ def follow(
     start : Instant
         Where to begin.
     keep_path, keep_events : bool
-        Whether states at samples, and events, are kept (ensembles need neither).
+        Whether states at samples, and events, are kept on the way. A path that was not kept, as that through a long motion never is, is
+        followed again when it is asked for.
 
     Returns
     -------
@@ -228,17 +144,21 @@ def follow(
     SolverError
         If the integration had to be given up.
     """
-    p = np.array(parameters, dtype=np.float64)
-    ground = Ground(motion.acceleration, np.array(gains, dtype=np.float64), motion.dt)
+    course = _Course(model, motion, np.array(parameters, dtype=np.float64), np.array(gains, dtype=np.float64))
     n_states = len(model.states)
-    rows = motion.samples if keep_path else 0
-    path, modes = np.empty((rows, n_states)), np.empty(rows, dtype=np.int64)
     extrema = np.zeros((model.tracked, 4))
-    capacity = _FIRST_CAPACITY if keep_events else 0
+    keeps = keep_path and not motion.is_long
+    path, modes = (np.empty((motion.samples, n_states)), np.empty(motion.samples, dtype=np.int64)) if keeps else _no_path(n_states)
+    capacity = (_LONG_CAPACITY if motion.is_long else _FIRST_CAPACITY) if keep_events else 0
     while True:
         cursor = cursor_at(start, mode, np.array(initial, dtype=np.float64))
         events, times, limits = np.empty((capacity, 4), dtype=np.int64), np.empty(capacity), np.empty((capacity, 2, n_states))
-        status = follow_on(model, ground, p, cursor, Kept(path, modes, events, times, limits, extrema, _NO_TALLY, _NO_STAYS))
+        kept = Kept(path, modes, events, times, limits, extrema, _NO_TALLY, _NO_STAYS)
+        status = PAUSED
+        for stretch in course.stretches(start.sample):
+            status = course.follow_on(stretch, cursor, kept)
+            if status != PAUSED:
+                break
         if not (status == TOO_MANY_EVENTS and cursor.place[FOUND] == capacity < _LAST_CAPACITY):
             break
         capacity *= 8
@@ -248,24 +168,78 @@ def follow(
         at = motion.start_s + ended.sample * motion.dt + ended.tau
         raise SolverError("{name}: given up at {at:.6f} s, where {failure}", name=model.name, at=at, failure=said(FAILURES[status]))
     changes = _changes(events[:found], times[:found], limits[:found], motion.dt) if keep_events else ()
-    first = start.sample if start.tau == 0.0 else start.sample + 1
-    return Trajectory(model, motion.dt, status, first, path, modes, changes, found, extrema, ended, cursor.state, final_mode)
+    if keeps:
+        first = _first_kept(start)
+        whole = Path(motion.dt, first, path[first : ended.sample + 1], modes[first : ended.sample + 1], changes)
+        walk: Callable[[], Iterator[Path]] = partial(iter, (whole,))
+    else:
+        walk = partial(course.walk, start, mode, np.array(initial, dtype=np.float64), changes)
+    return Trajectory(model, motion.dt, status, changes, found, extrema, ended, cursor.state, final_mode, walk)
 
 
 def cursor_at(start: Instant, mode: int, state: FloatArray) -> Cursor:
     """Return the cursor of a trajectory that is about to begin; the state is moved in place."""
-    # sample, mode, events, events at one instant, still, not started, steps
-    return Cursor(np.array([start.sample, mode, 0, 0, 1, 0, 0]), np.array([start.tau, np.nan, 0.0]), state)
+    # sample, mode, events, events at one instant, still, not started, steps, of the motion: first sample given, samples beyond
+    return Cursor(np.array([start.sample, mode, 0, 0, 1, 0, 0, 0, 0]), np.array([start.tau, np.nan, 0.0]), state)
 
 
-def follow_on(model: Model, ground: Ground, p: FloatArray, cursor: Cursor, kept: Kept) -> int:
-    """Follow a trajectory on to its end, in slices between which Python may be interrupted; return the status."""
-    status = PAUSED
-    while status == PAUSED:
-        heed()
-        cursor.place[STEPS_LEFT] = SLICE
-        status = hybrid.integrate(*model.pointers, ground, model.shape, p, cursor, kept)
-    return int(status)
+@dataclass(frozen=True, eq=False)
+class _Course:
+    """What determines a trajectory but where it begins."""
+
+    model: Model
+    motion: Motion
+    p: FloatArray
+    gains: FloatArray
+
+    def stretches(self, first: int) -> Iterator[Stretch]:
+        """Return the stretches of the motion from a sample on."""
+        return self.motion.stretches((self.gains != 0.0).tolist(), first)
+
+    def follow_on(self, stretch: Stretch, cursor: Cursor, kept: Kept) -> int:
+        """Follow a trajectory on through a stretch, in slices between which Python may be interrupted; return the status."""
+        ground = Ground(stretch.acceleration, self.gains, self.motion.dt)
+        cursor.place[BASE], cursor.place[BEYOND] = stretch.first, stretch.beyond
+        last = stretch.first + stretch.acceleration.shape[1] - 1
+        status = PAUSED
+        while status == PAUSED and (cursor.place[SAMPLE] < last or not stretch.beyond):
+            heed()
+            cursor.place[STEPS_LEFT] = SLICE
+            status = hybrid.integrate(*self.model.pointers, ground, self.model.shape, self.p, cursor, kept)
+        return int(status)
+
+    def walk(self, start: Instant, mode: int, initial: FloatArray, changes: tuple[Change, ...]) -> Iterator[Path]:
+        """Yield the path that leads through some changes, piece by piece, as it is followed again."""
+        cursor, first, passed = cursor_at(start, mode, initial.copy()), _first_kept(start), 0
+        extrema = np.zeros((self.model.tracked, 4))
+        for stretch in self.stretches(start.sample):
+            size = stretch.acceleration.shape[1]
+            path, modes = np.empty((size, initial.size)), np.empty(size, dtype=np.int64)
+            status = self.follow_on(stretch, cursor, Kept(path, modes, *_no_events(initial.size), extrema, _NO_TALLY, _NO_STAYS))
+            reached = int(cursor.place[SAMPLE])
+            rows = slice(first - stretch.first, reached + 1 - stretch.first)
+            ahead = passed
+            while ahead < len(changes) and (status != PAUSED or changes[ahead].at.sample < reached):
+                ahead += 1
+            yield Path(self.motion.dt, first, path[rows], modes[rows], changes[passed:ahead])
+            first, passed = reached + 1, ahead
+            if status != PAUSED:
+                return
+
+
+def _first_kept(start: Instant) -> int:
+    """Return the first sample at which a trajectory has a state."""
+    return start.sample if start.tau == 0.0 else start.sample + 1
+
+
+def _no_path(n_states: int) -> tuple[FloatArray, IntArray]:
+    """Return room for no path."""
+    return np.empty((0, n_states)), np.empty(0, dtype=np.int64)
+
+
+def _no_events(n_states: int) -> tuple[IntArray, FloatArray, FloatArray]:
+    """Return room for no events."""
+    return np.empty((0, 4), dtype=np.int64), np.empty(0), np.empty((0, 2, n_states))
 
 
 def _changes(events: IntArray, times: FloatArray, limits: FloatArray, dt: float) -> tuple[Change, ...]:

@@ -3,18 +3,41 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
 from seisblock import checks
 from seisblock.errors import ComponentError, ParameterError
-from seisblock.records.record import Component, Record, frozen
+from seisblock.records.record import Component, Record, frozen, sealed
 from seisblock.showing import Drawn
 from seisblock.typing import ArrayLike, FloatArray
 from seisblock.words import said
 
-ALONG, ACROSS, UP = range(3)
+ALONG: Final = 0
+ACROSS: Final = 1
+UP: Final = 2
+
+LONG = 2**20
+"""Samples (three hours at 100 Hz) beyond which nothing holds a motion or a trajectory whole that need not."""
+
+STRETCH = 2**18
+"""Samples of a long motion that are looked at at a time."""
+
+
+Rows: TypeAlias = FloatArray | tuple[FloatArray, FloatArray | Callable[[], FloatArray], FloatArray]
+"""Along, across and up, in one array or each in its own."""
+
+
+class Stretch(NamedTuple):
+    """Samples of a motion that follow each other: which one is the first, their rows, (3, k), m/s^2, and how many follow after them."""
+
+    first: int
+    acceleration: FloatArray
+    beyond: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,8 +46,9 @@ class Motion(Drawn):
 
     Parameters
     ----------
-    acceleration : (3, n) array, m/s^2
-        Rows: along +x, across (+y, 90 degrees counter-clockwise of x seen from above), up (+z). Kept read-only.
+    rows : (3, n) array or three (n,) arrays, m/s^2
+        Along +x, across (+y, 90 degrees counter-clockwise of x seen from above), up (+z). Kept read-only; arrays of their own are not
+        copied, and the one across may be a function that makes it when it is first asked for.
     dt : float, s
         Sampling interval.
     name : str
@@ -35,20 +59,23 @@ class Motion(Drawn):
         Where it comes from.
     """
 
-    acceleration: FloatArray
+    rows: Rows
     dt: float
     name: str = ""
     start_s: float = 0.0
     record: Record | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "acceleration", frozen(self.acceleration))
-        if self.acceleration.ndim != 2 or self.acceleration.shape[0] != 3:
-            raise ParameterError("a motion has three rows (along, across, up), found shape {shape}", shape=str(self.acceleration.shape))
-        if self.acceleration.shape[1] < 2:
-            raise ParameterError("a motion needs at least 2 samples, found {count}", count=self.acceleration.shape[1])
+        kept = tuple(row if callable(row) else frozen(row) for row in self.rows) if isinstance(self.rows, tuple) else frozen(self.rows)
+        object.__setattr__(self, "rows", kept)
+        known = [row for row in kept if not callable(row)]
+        shape = kept.shape if isinstance(kept, np.ndarray) else (len(kept), *known[0].shape)
+        if len(shape) != 2 or shape[0] != 3 or any(row.shape != shape[1:] for row in known):
+            raise ParameterError("a motion has three rows (along, across, up), found shape {shape}", shape=str(shape))
+        if shape[1] < 2:
+            raise ParameterError("a motion needs at least 2 samples, found {count}", count=shape[1])
         checks.positive("the sampling interval", self.dt, "s")
-        if not np.isfinite(self.acceleration).all():
+        if not all(np.isfinite(row).all() for row in known):
             raise ParameterError("a motion must hold finite numbers only")
 
     @classmethod
@@ -69,22 +96,57 @@ class Motion(Drawn):
     @property
     def horizontal(self) -> FloatArray:
         """Ground acceleration along +x, (n,), m/s^2."""
-        return self.acceleration[ALONG]
+        along: FloatArray = self.rows[ALONG]
+        return along
 
-    @property
+    @cached_property
     def transverse(self) -> FloatArray:
         """Ground acceleration across +x, (n,), m/s^2."""
-        return self.acceleration[ACROSS]
+        across: FloatArray | Callable[[], FloatArray] = self.rows[ACROSS]
+        return across() if callable(across) else across
 
     @property
     def vertical(self) -> FloatArray:
         """Ground acceleration upwards, (n,), m/s^2."""
-        return self.acceleration[UP]
+        up: FloatArray = self.rows[UP]
+        return up
+
+    @property
+    def acceleration(self) -> FloatArray:
+        """The three rows as one read-only array, (3, n), m/s^2; a long motion makes it anew each time."""
+        return self.rows if isinstance(self.rows, np.ndarray) else sealed(np.stack([self.horizontal, self.transverse, self.vertical]))
 
     @property
     def samples(self) -> int:
         """Number of samples."""
-        return int(self.acceleration.shape[1])
+        return int(self.horizontal.size)
+
+    @property
+    def is_long(self) -> bool:
+        """Whether it has so many samples that nothing should hold a copy of it, or a trajectory through it, that need not."""
+        return self.samples > LONG
+
+    def stretches(self, acting: Sequence[bool], first: int = 0) -> Iterator[Stretch]:
+        """Yield the samples in the order of time: all at once, or stretch by stretch where they are many.
+
+        Parameters
+        ----------
+        acting : three bool
+            Whether a row is wanted; of a long motion the others are zero.
+        first : int
+            Sample to begin with, at the latest.
+        """
+        if not self.is_long:
+            yield Stretch(0, self.acceleration, 0)
+            return
+        last = self.samples - 1
+        for begin in range(min(first, last - 1), last, STRETCH):
+            end = min(begin + STRETCH, last)
+            piece = np.zeros((3, end + 1 - begin))
+            for index, row in enumerate(("horizontal", "transverse", "vertical")):
+                if acting[index]:
+                    piece[index] = getattr(self, row)[begin : end + 1]
+            yield Stretch(begin, sealed(piece), last - end)
 
     @property
     def time(self) -> FloatArray:
@@ -108,17 +170,16 @@ def motion_of(record: Record, component: str) -> Motion:
         If there is no such component, or an azimuth is asked of a record without two oriented horizontals.
     """
     along, across = _along_and_across(record, component)
-    rows = np.zeros((3, record.samples))
-    rows[ALONG] = along
-    if across is not None:
-        rows[ACROSS] = across
-    if record.vertical is not None:
-        rows[UP] = record.vertical.acceleration
+    nothing = np.zeros(record.samples)
+    up = nothing if record.vertical is None else record.vertical.acceleration
+    if record.samples > LONG:
+        return Motion((along, across or nothing, up), record.dt, name=component, start_s=record.offset_s, record=record)
+    rows = sealed(np.stack([along, nothing if across is None else across(), up]))
     return Motion(rows, record.dt, name=component, start_s=record.offset_s, record=record)
 
 
-def _along_and_across(record: Record, component: str) -> tuple[FloatArray, FloatArray | None]:
-    """Return the acceleration along a direction and, when known, 90 degrees counter-clockwise of it."""
+def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Callable[[], FloatArray] | None]:
+    """Return the acceleration along a direction and, when known, what makes that 90 degrees counter-clockwise of it."""
     azimuth = _as_azimuth(component)
     if azimuth is None:
         chosen = record.component(component)
@@ -132,9 +193,12 @@ def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Float
         others = [c for c in record.horizontals if c is not chosen]
         if azimuth is None or not others or any(c.azimuth_deg is None for c in others):
             return chosen.acceleration, None
-        return chosen.acceleration, _resolve(_oriented_pair(record), azimuth - 90.0)
-    pair = _oriented_pair(record)
-    return _resolve(pair, azimuth), _resolve(pair, azimuth - 90.0)
+        pair = _oriented_pair(record)
+        along = chosen.acceleration
+    else:
+        pair = _oriented_pair(record)
+        along = _resolve(pair, azimuth)
+    return along, _towards(pair, azimuth - 90.0)
 
 
 def _as_azimuth(component: str) -> float | None:
@@ -162,14 +226,25 @@ def _oriented_pair(record: Record) -> tuple[Component, Component]:
 
 def _resolve(pair: tuple[Component, Component], azimuth_deg: float) -> FloatArray:
     """Return the acceleration towards an azimuth from two horizontals, which need not be orthogonal."""
+    return _towards(pair, azimuth_deg)()
+
+
+def _towards(pair: tuple[Component, Component], azimuth_deg: float) -> Callable[[], FloatArray]:
+    """Return what makes the acceleration towards an azimuth from two horizontals."""
     first, second = pair
     # for exact axes keep the samples bit by bit: "numbers round-trip"
     for component in pair:
         if component.azimuth_deg == azimuth_deg % 360.0:
-            return component.acceleration
+            return lambda: component.acceleration
     a, b, t = (math.radians(angle or 0.0) for angle in (first.azimuth_deg, second.azimuth_deg, azimuth_deg))
     span = math.sin(b - a)
     if abs(span) < 1e-6:
         raise ComponentError("the two horizontal components are parallel: no other direction follows from them")
-    # north/east of the ground from its two projections, then projected on the azimuth
-    return first.acceleration * (math.sin(b - t) / span) + second.acceleration * (math.sin(t - a) / span)
+
+    def mixed() -> FloatArray:
+        # north/east of the ground from its two projections, then projected on the azimuth
+        found = first.acceleration * (math.sin(b - t) / span)
+        found += second.acceleration * (math.sin(t - a) / span)
+        return sealed(found)
+
+    return mixed

@@ -34,6 +34,12 @@ def frozen(values: ArrayLike) -> FloatArray:
     return array
 
 
+def sealed(array: FloatArray) -> FloatArray:
+    """Return an array that nobody else holds, read-only from now on: :func:`frozen` does not copy it."""
+    array.flags.writeable = False
+    return array
+
+
 @dataclass(frozen=True, eq=False)
 class Component:
     """One component of ground acceleration.

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from seisblock._jit import ENABLED
-from seisblock.dynamics import follow, follow_many
+from seisblock.dynamics import Instant, follow, follow_many
 from seisblock.dynamics import model as following
 from seisblock.errors import SolverError
 from seisblock.records import Motion
@@ -28,11 +28,53 @@ def short_slices(request, monkeypatch):
     return cut
 
 
-@pytest.mark.parametrize(
+TOYS = pytest.mark.parametrize(
     ("model", "motion", "p", "start"),
     [(BALL, Motion.from_arrays(np.zeros(301), 0.01), [9.8, 0.7, 1e-6], [1.0, 0.0]), (SLED, NOISE, [1.5], [0.0, 0.0])],
     ids=["ball", "sled"],
 )
+
+
+@pytest.fixture(params=[1, 2, 7, 100])
+def short_stretches(request, monkeypatch):
+    """Motions that count as long from ten samples on, and stretches of so many."""
+
+    def cut():
+        monkeypatch.setattr("seisblock.records.motion.LONG", 10)
+        monkeypatch.setattr("seisblock.records.motion.STRETCH", request.param)
+
+    return cut
+
+
+@TOYS
+@pytest.mark.parametrize("begins", [Instant(), Instant(3, 0.004), Instant(29, 0.0)], ids=["at first", "inside", "late"])
+def test_a_long_motion_is_followed_stretch_by_stretch_to_the_same_bits(model, motion, p, start, begins, short_stretches):
+    """The trajectory, and the path that is followed again when it is asked for, are those of a motion that is held whole."""
+    whole = follow(model, motion, p, start, 0, start=begins)
+    table, ground = whole.table(), whole.sampled(motion.horizontal)
+    short_stretches()
+    parts = follow(model, motion, p, start, 0, start=begins)
+    assert sum(1 for _ in parts.walk()) > 1
+    for one, other in zip((*table, ground), (*parts.table(), parts.sampled(motion.horizontal)), strict=True):
+        np.testing.assert_array_equal(other, one)
+    for field in ("extrema", "final"):
+        np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
+    assert (parts.end, parts.status, parts.n_changes, parts.final_mode) == (whole.end, whole.status, whole.n_changes, whole.final_mode)
+    for path in parts.walk():
+        assert all(path.first - 1 <= change.at.sample for change in path.changes)
+
+
+def test_rows_go_through_a_long_motion_stretch_by_stretch(short_stretches):
+    """Many trajectories, those that end early among them, are those through a motion that is held whole."""
+    limits, gains = np.array([[0.3], [1.5], [99.0], [2.0]]), np.array([[1.0, 0.0, 0.0]])
+    whole = follow_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    short_stretches()
+    parts = follow_many(SLED, NOISE, limits, [0.0, 0.0], 0, gains=gains)
+    for field in ("final", "final_mode", "n_changes", "end_time", "first_change", "extrema", "tally", "stays"):
+        np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
+
+
+@TOYS
 def test_where_the_loop_pauses_changes_no_bit(model, motion, p, start, short_slices):
     """Path, modes, events, extrema and end of a trajectory in slices of a few steps are those of one in a single slice."""
     whole = follow(model, motion, p, start, 0)

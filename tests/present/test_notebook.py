@@ -63,7 +63,7 @@ def test_a_data_frame_has_a_column_per_channel(response):
 
 def test_a_model_without_a_figure_says_so():
     """The message lists those that have one."""
-    unknown = Response("knit", None, Motion.from_arrays(np.zeros(3), 0.01), None, np.zeros(3))
+    unknown = Response("knit", None, Motion.from_arrays(np.zeros(3), 0.01), None)
     with pytest.raises(ParameterError, match="rock, slide, jump, uplift, stack"):
         unknown.plot()
 

@@ -93,7 +93,7 @@ def test_a_stone_that_is_held_has_one_fate():
     """Where the top stone of a pile is fixed nobody is asked what it would do."""
     pile = load_pile("wagata")
     held = replace(pile, fixed=(pile.names[-1],))
-    assert pile_agreement(Response("stack", None, MOTION, held, np.empty(0))) is None
+    assert pile_agreement(Response("stack", None, MOTION, held)) is None
 
 
 def test_no_shaking_no_disagreement():

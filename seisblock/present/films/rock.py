@@ -71,7 +71,7 @@ def to_the_end(response: Response[RockOutcome]) -> Response[RockOutcome]:
     if not (outcome.decided_after_record and outcome.overturning_time_s is not None):
         return response
     still = math.ceil((outcome.overturning_time_s - response.time[-1]) / motion.dt) + 2
-    longer = replace(motion, acceleration=np.pad(motion.acceleration, ((0, 0), (0, still))))
+    longer = replace(motion, rows=np.pad(motion.acceleration, ((0, 0), (0, still))))
     return solve_rock(
         response.body,
         longer,

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import partial
-
-import numpy as np
+from dataclasses import dataclass
+from functools import cache, partial
 
 from seisblock import checks
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
@@ -25,7 +23,7 @@ from seisblock.solvers.jump.flight import FLYING
 from seisblock.solvers.jump.impact import launch, spin_ratio
 from seisblock.solvers.jump.landing import RULES
 from seisblock.solvers.jump.still import follow_on
-from seisblock.solvers.jump.tale import warnings_of, with_curves
+from seisblock.solvers.jump.tale import curves_of, final_displacement, parts_of, phases_and_events_of, warnings_of
 from seisblock.typing import Stretch
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted
@@ -171,22 +169,28 @@ def solve_jump(
     }
     chains = tuple(chain_of(each) for each in followed)
     needed = [chain.friction_needed_at_landing for chain in chains if chain.friction_needed_at_landing is not None]
+    parts = parts_of(motion, followed)
     outcome = JumpOutcome(
         _end_of(chains),
         chains,
         math.fsum(chain.total_displacement_m or 0.0 for chain in chains),
-        0.0,
+        final_displacement(parts),
         landing,
         max(needed, default=None),
         block.rocking_threshold(gravity),
         ratio,
     )
-    citations = papers("jump", *(() if landing == "paper" else ("landing with friction",)))
-    bare = Response(
-        "jump", outcome, motion, block, np.empty(0), options=options, warnings=warnings_of(motion, chains, contact.mu), citations=citations
+    return Response(
+        "jump",
+        outcome,
+        motion,
+        block,
+        cache(partial(curves_of, motion, block, parts)),
+        *phases_and_events_of(motion, parts),
+        options,
+        warnings=warnings_of(motion, chains, contact.mu),
+        citations=papers("jump", *(() if landing == "paper" else ("landing with friction",))),
     )
-    shown = with_curves(bare, followed)
-    return replace(shown, outcome=replace(outcome, final_displacement_m=float(shown["displacement"][-1])))
 
 
 def _end_of(chains: tuple[Chain, ...]) -> str:

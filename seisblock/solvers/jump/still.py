@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from seisblock.dynamics import Instant, Model, Trajectory, follow
+from seisblock.dynamics import Change, Instant, Model, Path, Trajectory, follow
 from seisblock.records import Motion
-from seisblock.typing import ArrayLike, FloatArray, IntArray
+from seisblock.typing import ArrayLike
 
 STRETCH_S, MOST_S = 4.0, 60.0
 """Still ground is added in stretches of so many seconds, and at most so long."""
@@ -47,29 +47,31 @@ def follow_on(
 def _later(part: Trajectory, samples: int) -> Trajectory:
     """Return a trajectory that was followed on a clock which started so many samples late."""
     seconds = samples * part.dt
-    states: FloatArray = np.concatenate([np.zeros((samples, part.states.shape[1])), part.states])
-    modes: IntArray = np.concatenate([np.zeros(samples, dtype=np.int64), part.modes])
     extrema = part.extrema.copy()
     extrema[:, 1::2] += seconds
-    changes = tuple(replace(c, at=Instant(c.at.sample + samples, c.at.tau), time=c.time + seconds) for c in part.changes)
+
+    def later(changes: Iterable[Change]) -> tuple[Change, ...]:
+        return tuple(replace(c, at=Instant(c.at.sample + samples, c.at.tau), time=c.time + seconds) for c in changes)
+
+    def walk() -> Iterator[Path]:
+        return (replace(path, first=path.first + samples, changes=later(path.changes)) for path in part.walk())
+
     end = Instant(part.end.sample + samples, part.end.tau)
-    return replace(part, first=part.first + samples, states=states, modes=modes, extrema=extrema, changes=changes, end=end)
+    return replace(part, walk=walk, extrema=extrema, changes=later(part.changes), end=end)
 
 
 def _joined(one: Trajectory, two: Trajectory) -> Trajectory:
     """Return one trajectory from one that reached a sample and its continuation from there."""
-    cut = one.end.sample + 1
     higher = two.extrema[:, 0] > one.extrema[:, 0]
     lower = two.extrema[:, 2] < one.extrema[:, 2]
     extrema = one.extrema.copy()
     extrema[higher, :2] = two.extrema[higher, :2]
     extrema[lower, 2:] = two.extrema[lower, 2:]
-    return replace(
-        two,
-        first=one.first,
-        states=np.concatenate([one.states[:cut], two.states[cut:]]),
-        modes=np.concatenate([one.modes[:cut], two.modes[cut:]]),
-        changes=one.changes + two.changes,
-        n_changes=one.n_changes + two.n_changes,
-        extrema=extrema,
-    )
+
+    def walk() -> Iterator[Path]:
+        yield from one.walk()
+        for path in two.walk():
+            again = 1 if path.first == one.end.sample else 0
+            yield replace(path, first=path.first + again, states=path.states[again:], modes=path.modes[again:])
+
+    return replace(two, walk=walk, changes=one.changes + two.changes, n_changes=one.n_changes + two.n_changes, extrema=extrema)

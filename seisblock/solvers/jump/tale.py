@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.records import Motion
-from seisblock.results import Channel, Event, Phase, Response
+from seisblock.results import Channel, Curves, Event, Phase
 from seisblock.solvers.jump.chain import (
     ENDED_FLYING,
     ENDED_LANDED,
@@ -21,6 +22,7 @@ from seisblock.solvers.jump.chain import (
     Followed,
     chain_of,
     curves,
+    end_of_curves,
     phases_and_events,
 )
 from seisblock.words import noted, said
@@ -84,39 +86,69 @@ def exceeds(needed: float | None, given: float) -> bool:
     return needed is not None and needed > given * (1.0 + ROUND_OFF) + ROUND_OFF
 
 
-def with_curves(response: Response[Any], followed: list[Followed]) -> Response[Any]:
-    """Return a response with phases, events and channels over the whole motion: the chains and the rest between them."""
-    motion, block = response.motion, response.body
-    clock = motion.time
-    parts: list[tuple[np.ndarray, ...]] = []
+@dataclass(frozen=True)
+class Part:
+    """A stretch of the whole motion: a chain, or the rest between two, at which the block has been moved and raised by so much, m."""
+
+    since_s: float
+    until_s: float
+    moved: float
+    raised: float
+    chain: Followed | None = None
+
+
+def parts_of(motion: Motion, followed: Sequence[Followed]) -> tuple[Part, ...]:
+    """Return the chains, and the rests before, between and after them, in the order of time."""
+    parts: list[Part] = []
+    now, moved, raised = motion.start_s, 0.0, 0.0
+    last = motion.start_s + motion.dt * float(motion.samples - 1)
+    for each in followed:
+        parts.append(Part(now, each.onset_s, moved, raised))
+        until, x, rise = end_of_curves(each)
+        parts.append(Part(each.onset_s, until, moved, raised, each))
+        now, moved, raised = until, moved + x, raised + rise
+    if not followed or (followed[-1].finished and chain_of(followed[-1]).outcome in (NO_JUMP, JUMPED)):
+        parts.append(Part(now, last + motion.dt, moved, raised))
+    return tuple(parts)
+
+
+def final_displacement(parts: Sequence[Part]) -> float:
+    """Return where the centroid is in the end, m, relative to where it stood."""
+    last = parts[-1]
+    return last.moved if last.chain is None else last.moved + end_of_curves(last.chain)[1]
+
+
+def phases_and_events_of(motion: Motion, parts: Sequence[Part]) -> tuple[tuple[Phase, ...], tuple[Event, ...]]:
+    """Return phases and events over the whole motion."""
     phases: list[Phase] = []
     events: list[Event] = []
-    now, moved, raised = motion.start_s, 0.0, 0.0
-    for each in followed:
-        _rest(parts, phases, clock, now, each.onset_s, moved, raised)
-        time, theta, x, rise = curves(each)
-        parts.append((time, theta, x + moved, rise + raised))
-        some_phases, some_events = phases_and_events(each)
-        phases.extend(some_phases)
-        events.extend(some_events)
-        now, moved, raised = float(time[-1]), moved + float(x[-1]), raised + float(rise[-1])
-    if not followed or (followed[-1].finished and chain_of(followed[-1]).outcome in (NO_JUMP, JUMPED)):
-        _rest(parts, phases, clock, now, float(clock[-1]) + motion.dt, moved, raised)
-    time, theta, x, rise = (np.concatenate(column) for column in zip(*parts, strict=True))
+    last = motion.start_s + motion.dt * float(motion.samples - 1)
+    for part in parts:
+        if part.chain is None:
+            phases.append(Phase(REST, part.since_s, min(part.until_s, last)))
+        else:
+            some_phases, some_events = phases_and_events(part.chain)
+            phases.extend(some_phases)
+            events.extend(some_events)
+    return tuple(phases), tuple(events)
+
+
+def curves_of(motion: Motion, block: TwoLayerBlock, parts: Sequence[Part]) -> Curves:
+    """Return the curves over the whole motion: the chains and the rest between them."""
+    clock = motion.time
+    columns: list[tuple[np.ndarray, ...]] = []
+    for part in parts:
+        if part.chain is None:
+            time = clock[(clock >= part.since_s) & (clock < part.until_s)]
+            theta = x = rise = np.zeros(time.size)
+        else:
+            time, theta, x, rise = curves(part.chain)
+        columns.append((time, theta, x + part.moved, rise + part.raised))
+    time, theta, x, rise = (np.concatenate(column) for column in zip(*columns, strict=True))
     channels = (
         Channel("rotation", "rad", theta, "θ"),
         Channel("displacement", "m", x, "x_G"),
         Channel("height", "m", block.centroid_height + rise, "y_G"),
         Channel("ground_acceleration", "m/s^2", np.interp(time, clock, motion.horizontal, right=0.0), "z''"),
     )
-    return replace(response, time=time, channels=channels, phases=tuple(phases), events=tuple(events))
-
-
-def _rest(
-    parts: list[tuple[np.ndarray, ...]], phases: list[Phase], clock: np.ndarray, since: float, until: float, moved: float, raised: float
-) -> None:
-    """Add the samples at which the block stands still between two instants."""
-    inside = clock[(clock >= since) & (clock < until)]
-    zero = np.zeros(inside.size)
-    parts.append((inside, zero, zero + moved, zero + raised))
-    phases.append(Phase(REST, since, min(until, float(clock[-1]))))
+    return Curves(time, channels)

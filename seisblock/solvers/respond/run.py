@@ -9,8 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.dynamics import Change, Trajectory, follow
-from seisblock.dynamics.model import Instant
+from seisblock.dynamics import Change, Instant, Trajectory, follow
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.respond import names

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache, partial
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_call
 from seisblock.references import papers
-from seisblock.results import Channel, Response
+from seisblock.results import Channel, Curves, Response
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.curves import curves
 from seisblock.solvers.respond.outcome import RespondOutcome, gather, motion_modes, phases, status
 from seisblock.solvers.respond.run import Run, check_settling, run
 from seisblock.solvers.respond.setting import Body, Initial, Setting, gains, stand
 from seisblock.solvers.respond.tale import event_log, warnings
-from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
 
 NUDGE = 1e-6
@@ -136,14 +136,12 @@ def solve_respond(
         "tenon_m": tenon,
         "further_points_m": [list(point) for point in setting.further_points],
     }
-    time, channels = _channels(found, setting, motion, factors)
     return Response(
         "respond",
         outcome,
         motion,
         block,
-        motion.start_s + time,
-        channels,
+        cache(partial(_curves, found, setting, motion, factors)),
         phases(outcome.events, outcome.end_s),
         event_log(found, motion.start_s),
         options,
@@ -208,12 +206,12 @@ def is_sensitive(
     return False
 
 
-def _channels(found: Run, setting: Setting, motion: Motion, factors: tuple[float, float, float]) -> tuple[FloatArray, tuple[Channel, ...]]:
-    """Return the time axis and the curves on it."""
+def _curves(found: Run, setting: Setting, motion: Motion, factors: tuple[float, float, float]) -> Curves:
+    """Return the curves on the run's own time axis, both limits at each event."""
     time, states, modes = found.table()
     of = curves(setting.stand, states, motion_modes(found, modes))
     speed, acceleration = "m/s", "m/s^2"
-    return time, (
+    channels = (
         Channel("rotation", "rad", of.rotation, "θ"),
         Channel("angular_velocity", "rad/s", of.angular_velocity, "θ'"),
         Channel("displacement", "m", of.displacement, "x"),
@@ -225,3 +223,4 @@ def _channels(found: Run, setting: Setting, motion: Motion, factors: tuple[float
         Channel("ground_acceleration", acceleration, found.sampled(motion.horizontal), "a"),
         Channel("vertical_acceleration", acceleration, factors[2] * found.sampled(motion.vertical), "a_v"),
     )
+    return Curves(motion.start_s + time, channels)

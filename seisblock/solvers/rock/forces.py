@@ -7,13 +7,14 @@ has its angle, angular velocity and angular acceleration at both ends, which is 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from seisblock.bodies.block import LEFT, RIGHT
-from seisblock.dynamics import Trajectory
+from seisblock.dynamics import Path, Trajectory
 from seisblock.records import Motion
 from seisblock.solvers.rock.model import BEYOND_LEFT, REST, TO_LEFT
 from seisblock.solvers.rock.rocker import Rocker
@@ -47,8 +48,9 @@ class Demand:
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """Rows of a trajectory with the ground motion, and the block as a table by mode."""
+    """Rows of a trajectory, by their numbers, with the ground motion, and the block as a table by mode."""
 
+    number: IntArray
     time: FloatArray
     theta: FloatArray
     omega: FloatArray
@@ -60,10 +62,25 @@ class _Rows:
     radius: FloatArray
     linear: bool
 
-    def pick(self, index: IntArray) -> _Rows:
-        """Return some of the rows, as a column."""
-        arrays: dict[str, Any] = {key: values[index, None] for key, values in vars(self).items() if isinstance(values, np.ndarray)}
+    def pick(self, index: IntArray | tuple[IntArray, None]) -> _Rows:
+        """Return some of the rows."""
+        arrays: dict[str, Any] = {key: values[index] for key, values in vars(self).items() if isinstance(values, np.ndarray)}
         return replace(self, **arrays)
+
+    def extremes(self) -> _Rows:
+        """Return the rows that come nearest to slipping and to leaving the ground, with their neighbours, and where rocking shows."""
+        if self.time.size <= LOOKED_AT:
+            return self
+        ratio, normal = self.ratio()
+        chosen = np.concatenate([_chosen(ratio, normal), [np.argmax(ratio)], np.flatnonzero(self.mode != REST)[:1]])
+        near = np.unique(np.clip(np.concatenate([chosen - 1, chosen, chosen + 1, [0, self.time.size - 1]]), 0, self.time.size - 1))
+        return self.pick(near)
+
+    def ratio(self) -> tuple[FloatArray, FloatArray]:
+        """Return abs(H/N), infinite where contact is lost, and N/m."""
+        along, normal = self.forces(self.theta, self.omega, self.push, self.weight)
+        with np.errstate(divide="ignore"):
+            return np.where(normal > 0.0, np.abs(along) / np.maximum(normal, 1e-300), math.inf), normal
 
     def angular(self, theta: FloatArray, push: FloatArray, weight: FloatArray) -> FloatArray:
         """Return the angular acceleration at other leans and ground accelerations, rad/s^2."""
@@ -87,20 +104,18 @@ def demand(block: Rocker, motion: Motion, trajectory: Trajectory, *, until_s: fl
     The block's acceleration relative to the ground is that of a point at R from the corner in contact (derived here): with
     psi = s alpha - theta, H/m = a + R (theta'' cos(psi) + theta'^2 sin(psi)), N/m = g + a_v + R (theta'' sin(psi) - theta'^2 cos(psi)).
     """
-    rows = _rows(block, motion, trajectory, until_s)
+    pieces = list(_pieces(block, motion, trajectory, until_s))
+    rows = pieces[0] if len(pieces) == 1 else _joined(pieces)
     if rows.time.size == 0:
         return Demand(0.0, None, None)
-    along, normal = rows.forces(rows.theta, rows.omega, rows.push, rows.weight)
-    with np.errstate(divide="ignore"):
-        ratio = np.where(normal > 0.0, np.abs(along) / np.maximum(normal, 1e-300), math.inf)
+    ratio, normal = rows.ratio()
     best = int(np.argmax(ratio))
     if not (rows.mode != REST).any():
         return Demand(float(ratio[best]), float(rows.time[best]), float(rows.time[best]) if ratio[best] == math.inf else None)
-    near = min(LOOKED_AT, ratio.size)
-    chosen = np.concatenate([np.argpartition(-ratio, near - 1)[:near], np.argpartition(normal, near - 1)[:near]])
+    chosen = _chosen(ratio, normal)
     at = np.unique(np.concatenate([chosen, chosen - 1]))
     at = at[(at >= 0) & (at < rows.time.size - 1)]
-    at = at[(rows.mode[at] == rows.mode[at + 1]) & (rows.time[at] < rows.time[at + 1])]
+    at = at[(rows.mode[at] == rows.mode[at + 1]) & (rows.time[at] < rows.time[at + 1]) & (rows.number[at] + 1 == rows.number[at + 1])]
     moments, along, normal = _between(rows, at)
     lost = np.flatnonzero((normal <= 0.0).ravel())
     first = float(rows.time[np.isinf(ratio)].min()) if np.isinf(ratio).any() else math.inf
@@ -120,14 +135,41 @@ def demand(block: Rocker, motion: Motion, trajectory: Trajectory, *, until_s: fl
     return _polished(inside[row], moments[row], column)
 
 
-def _rows(block: Rocker, motion: Motion, trajectory: Trajectory, until_s: float) -> _Rows:
-    """Return the rows up to a time, with what the forces need."""
-    time, states, modes = trajectory.table()
+def _chosen(ratio: FloatArray, normal: FloatArray) -> IntArray:
+    """Return the rows of the largest demand and those of the least normal force."""
+    near = min(LOOKED_AT, ratio.size)
+    return np.concatenate([np.argpartition(-ratio, near - 1)[:near], np.argpartition(normal, near - 1)[:near]])
+
+
+def _pieces(block: Rocker, motion: Motion, trajectory: Trajectory, until_s: float) -> Iterator[_Rows]:
+    """Yield the rows up to a time; of a path in several pieces those that may matter, so that no more than a piece is held."""
+    held: _Rows | None = None
+    count = 0
+    for path in trajectory.walk():
+        if held is not None:
+            yield held.extremes()
+        held = _rows(block, motion, path, until_s, count)
+        count += held.time.size
+    if held is not None:
+        yield held if count == held.time.size else held.extremes()
+
+
+def _joined(pieces: Sequence[_Rows]) -> _Rows:
+    """Return the rows of some pieces that follow each other."""
+    names = [key for key, values in vars(pieces[0]).items() if isinstance(values, np.ndarray)]
+    arrays: dict[str, Any] = {key: np.concatenate([getattr(piece, key) for piece in pieces]) for key in names}
+    return replace(pieces[0], **arrays)
+
+
+def _rows(block: Rocker, motion: Motion, path: Path, until_s: float, before: int) -> _Rows:
+    """Return the rows of a path up to a time, after so many, with what the forces need."""
+    time, states, modes = path.table()
     n = int(np.searchsorted(time, until_s, side="right")) if math.isfinite(until_s) else time.size
-    push = trajectory.sampled(motion.horizontal)
-    weight = block.gravity + (trajectory.sampled(motion.vertical) * block.vertical if block.vertical != 0.0 else np.zeros(time.size))
+    push = path.sampled(motion.horizontal)
+    weight = block.gravity + (path.sampled(motion.vertical) * block.vertical if block.vertical != 0.0 else np.zeros(time.size))
     left = (modes[:n] == TO_LEFT) | (modes[:n] == BEYOND_LEFT)
     return _Rows(
+        before + np.arange(n),
         time[:n],
         states[:n, 0],
         states[:n, 1],
@@ -143,7 +185,7 @@ def _rows(block: Rocker, motion: Motion, trajectory: Trajectory, until_s: float)
 
 def _between(rows: _Rows, at: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return times, H/m and N/m at the inner points of some intervals, (k, 9) each."""
-    first, last = rows.pick(at), rows.pick(at + 1)
+    first, last = rows.pick((at, None)), rows.pick((at + 1, None))
     step = last.time - first.time
     u = INNER[None, :]
     start, end = ((row.theta, row.omega * step, row.angular(row.theta, row.push, row.weight) * step**2) for row in (first, last))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache, partial
 
 from seisblock.bodies.block import Block, Restitution
 from seisblock.dynamics import Trajectory, follow
@@ -10,7 +11,7 @@ from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.records.given import Factor
 from seisblock.references import papers
-from seisblock.results import Channel, Event, Response, Status
+from seisblock.results import Channel, Curves, Event, Response, Status
 from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate, fate, sides
 from seisblock.solvers.rock.outcome import RockOutcome, event_name, gather, phases, warnings
@@ -79,20 +80,12 @@ def solve_rock(
     p = model.parameters(one, motion.dt)
     trajectory = follow(model.ROCKING, motion, p, initial, start_mode(one, initial), gains=one.gains())
     outcome = gather(one, motion, trajectory, afterwards(trajectory, one))
-    time, states, _ = trajectory.table()
-    channels = (
-        Channel("rotation", "rad", states[:, model.THETA], "θ"),
-        Channel("angular_velocity", "rad/s", states[:, model.OMEGA], "θ'"),
-        Channel("ground_acceleration", "m/s^2", trajectory.sampled(motion.horizontal), "a"),
-        Channel("vertical_acceleration", "m/s^2", one.vertical * trajectory.sampled(motion.vertical), "a_v"),
-    )
     return Response(
         "rock",
         outcome,
         motion,
         block,
-        motion.start_s + time,
-        channels,
+        cache(partial(_curves, one, motion, trajectory)),
         phases(trajectory, motion.start_s),
         tuple(Event(event_name(c), motion.start_s + c.time, c.before, c.after) for c in trajectory.changes),
         {"restitution": restitution, "linear": linear, "vertical": one.vertical, "gravity_m_s2": gravity},
@@ -100,6 +93,18 @@ def solve_rock(
         warnings(one, outcome),
         papers("rocking"),
     )
+
+
+def _curves(block: Rocker, motion: Motion, trajectory: Trajectory) -> Curves:
+    """Return what the block and the ground did, on the trajectory's own time axis, both limits at each event."""
+    time, states, _ = trajectory.table()
+    channels = (
+        Channel("rotation", "rad", states[:, model.THETA], "θ"),
+        Channel("angular_velocity", "rad/s", states[:, model.OMEGA], "θ'"),
+        Channel("ground_acceleration", "m/s^2", trajectory.sampled(motion.horizontal), "a"),
+        Channel("vertical_acceleration", "m/s^2", block.vertical * trajectory.sampled(motion.vertical), "a_v"),
+    )
+    return Curves(motion.start_s + time, channels)
 
 
 def start_mode(block: Rocker, initial: tuple[float, float]) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache, partial
 from typing import NoReturn
 
 import numpy as np
@@ -15,10 +16,9 @@ from seisblock.errors import ParameterError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import UP, Motion
 from seisblock.references import papers
-from seisblock.results import Channel, Event, Phase, Response, Status
+from seisblock.results import Channel, Curves, Event, Phase, Response, Status
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
-from seisblock.typing import FloatArray, IntArray
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import Said, noted, said
 
@@ -128,8 +128,7 @@ def solve_slide(
     trajectory = follow(SLIDE, motion, p, np.zeros(4), STICK, gains=gains)
     if trajectory.final_mode == UNDEFINED:
         refuse_lift_off(motion, trajectory.end_time)
-    time, states, modes = trajectory.table()
-    outcome = _outcome(trajectory, motion, states, p)
+    outcome = _outcome(trajectory, motion, p)
     options = {
         "mu": base.mu,
         "mu_kinetic": base.kinetic,
@@ -145,8 +144,7 @@ def solve_slide(
         outcome,
         motion,
         base,
-        motion.start_s + time,
-        _channels(motion, base, gains[UP], gravity, time, states, modes),
+        cache(partial(_curves, motion, base, gains[UP], gravity, trajectory)),
         _phases(trajectory, motion),
         _events(trajectory.changes, motion.start_s),
         options,
@@ -172,7 +170,7 @@ def refuse_lift_off(motion: Motion, time: float) -> NoReturn:
     )
 
 
-def _outcome(trajectory: Trajectory, motion: Motion, states: FloatArray, p: tuple[float, ...]) -> SlideOutcome:
+def _outcome(trajectory: Trajectory, motion: Motion, p: tuple[float, ...]) -> SlideOutcome:
     """Return the numbers of a trajectory."""
     changes = trajectory.changes
     highest, highest_time, lowest, lowest_time = (float(value) for value in trajectory.extrema[0])
@@ -190,11 +188,21 @@ def _outcome(trajectory: Trajectory, motion: Motion, states: FloatArray, p: tupl
         final_slip_m=rest if math.isfinite(rest) else None,
         slip_count=len(begins),
         reversals=sum(_slides(c.source) for c in begins),
-        path_m=float(np.abs(np.diff(states[:, SLIP])).sum()),
+        path_m=_length(trajectory),
         fell_off_slope=any(_left_slope(c) for c in changes),
         lifted_off=any(c.target % LEVEL == FLIGHT for c in changes),
         slides_at_end=moving,
     )
+
+
+def _length(trajectory: Trajectory) -> float:
+    """Return the length of the path slid, m: between samples and events the slip does not turn."""
+    total, reached = 0.0, np.empty(0)
+    for path in trajectory.walk():
+        slip = np.concatenate([reached, path.table()[1][:, SLIP]])
+        total += float(np.abs(np.diff(slip)).sum())
+        reached = slip[-1:]
+    return total
 
 
 def _slides(mode: int) -> bool:
@@ -259,10 +267,9 @@ def _event_name(change: Change) -> str:
     return "stop" if after == STICK else "reversal"
 
 
-def _channels(
-    motion: Motion, base: SlidingBase, gain: float, gravity: float, time: FloatArray, states: FloatArray, modes: IntArray
-) -> tuple[Channel, ...]:
+def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, trajectory: Trajectory) -> Curves:
     """Return the curves on the trajectory's own time axis, both limits at each event."""
+    time, states, modes = trajectory.table()
     level = modes >= LEVEL
     sine = np.where(level, 0.0, math.sin(base.angle))
     cosine = np.where(level, 1.0, math.cos(base.angle))
@@ -277,7 +284,7 @@ def _channels(
     acceleration = np.where(phase == STICK, 0.0, pull - along + friction)
     velocity = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(time) * (along[1:] + along[:-1]))])
     unit, speed = "m/s^2", "m/s"
-    return (
+    channels = (
         Channel("ground_acceleration", unit, along, "z''"),
         Channel("lower_limit", unit, pull - base.mu * normal, ""),
         Channel("upper_limit", unit, pull + base.mu * normal, ""),
@@ -286,3 +293,4 @@ def _channels(
         Channel("displacement", "m", states[:, SLIP], "x - z"),
         Channel("ground_velocity", speed, velocity, "z'"),
     )
+    return Curves(motion.start_s + time, channels)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
-from seisblock.dynamics.model import Trajectory
+from seisblock.dynamics import Trajectory
 from seisblock.records.motion import Motion
 from seisblock.results import Phase
-from seisblock.solvers.uplift.model import WHOLE_BASE, F, U, contact_name
+from seisblock.solvers.uplift.model import WHOLE_BASE, F, U, contact_name, rotations
 from seisblock.solvers.uplift.modes import natural_modes
 from seisblock.typing import BoolArray, FloatArray
 from seisblock.words import Said, said
@@ -111,6 +111,17 @@ class UpliftOutcome:
 def highest(trajectory: Trajectory) -> float:
     """Return the highest position of any corner, m."""
     return float(trajectory.extrema[U : U + 4, 0].max())
+
+
+def largest_rotations(trajectory: Trajectory, body: SpringBlock) -> tuple[float, float]:
+    """Return the largest rotations about x and about y, rad, at samples and at both limits of every event."""
+    largest = (0.0, 0.0)
+    for path in trajectory.walk():
+        _, states, _ = path.table()
+        if states.size:
+            about = rotations(states, body)
+            largest = (max(largest[0], float(np.abs(about[0]).max())), max(largest[1], float(np.abs(about[1]).max())))
+    return largest
 
 
 def _contacts(trajectory: Trajectory) -> tuple[FloatArray, BoolArray]:

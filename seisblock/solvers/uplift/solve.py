@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import numpy as np
+from functools import cache, partial
 
 from seisblock import checks
 from seisblock.bodies.spring_block import SpringBlock
-from seisblock.dynamics.model import follow
+from seisblock.dynamics import Trajectory, follow
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
-from seisblock.results import Channel, Event, Response, Status
+from seisblock.results import Channel, Curves, Event, Response, Status
 from seisblock.solvers.uplift.model import GLUED, UPLIFT, UPLIFT_AGAIN, WHOLE_BASE, F, U, X, Y, at_rest, parameters, rotations
-from seisblock.solvers.uplift.outcome import UpliftOutcome, gather, highest, phases, warnings
+from seisblock.solvers.uplift.outcome import UpliftOutcome, gather, highest, largest_rotations, phases, warnings
 from seisblock.units import STANDARD_GRAVITY
 
 ROUND_OFF = 1e-12
@@ -63,27 +63,17 @@ def solve_uplift(
     trajectory = follow(UPLIFT, motion, p, start, WHOLE_BASE, gains=gains)
     linear = follow(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)
     again = follow(UPLIFT_AGAIN, motion, p, start, WHOLE_BASE, gains=gains, keep_path=False, keep_events=False)
-    time, states, _ = trajectory.table()
-    theta_x, theta_y = rotations(states, body)
-    lean = float(max(body.height / body.depth * np.abs(theta_x).max(), body.height / body.width * np.abs(theta_y).max()))
+    about_x, about_y = largest_rotations(trajectory, body)
+    lean = max(body.height / body.depth * about_x, body.height / body.width * about_y)
     settlement = body.static_settlement(gravity)
     risen = highest(linear) + settlement
-    rotation = float(max(np.abs(theta_x).max(), np.abs(theta_y).max()))
+    rotation = max(about_x, about_y)
     return Response(
         model="uplift",
         outcome=gather(body, motion, trajectory, gravity, settlement / risen if risen > ROUND_OFF * settlement else None, rotation, lean),
         motion=motion,
         body=body,
-        time=motion.start_s + time,
-        channels=(
-            *(Channel(f"uplift_{i + 1}", "m", states[:, U + i], f"u_{i + 1}") for i in range(4)),
-            *(Channel(f"contact_force_{i + 1}", "N", body.mass * states[:, F + i], f"N_{i + 1}") for i in range(4)),
-            Channel("displacement", "m", states[:, X], "x"),
-            Channel("displacement_across", "m", states[:, Y], "y"),
-            Channel("displacement_up", "m", states[:, U : U + 4].mean(axis=1), "z"),
-            Channel("rotation", "rad", theta_y, "theta_y"),
-            Channel("rotation_across", "rad", -theta_x, "-theta_x"),
-        ),
+        make_curves=cache(partial(_curves, body, motion, trajectory)),
         phases=phases(motion, trajectory),
         events=tuple(
             Event(f"corner {i + 1} {'lands' if c.target >> i & 1 else 'lifts'}", motion.start_s + c.time, c.before, c.after)
@@ -96,3 +86,19 @@ def solve_uplift(
         warnings=warnings(motion, lean, highest(trajectory), highest(again)),
         citations=papers("uplift"),
     )
+
+
+def _curves(body: SpringBlock, motion: Motion, trajectory: Trajectory) -> Curves:
+    """Return what corners and centre did, on the trajectory's own time axis, both limits at each event."""
+    time, states, _ = trajectory.table()
+    theta_x, theta_y = rotations(states, body)
+    channels = (
+        *(Channel(f"uplift_{i + 1}", "m", states[:, U + i], f"u_{i + 1}") for i in range(4)),
+        *(Channel(f"contact_force_{i + 1}", "N", body.mass * states[:, F + i], f"N_{i + 1}") for i in range(4)),
+        Channel("displacement", "m", states[:, X], "x"),
+        Channel("displacement_across", "m", states[:, Y], "y"),
+        Channel("displacement_up", "m", states[:, U : U + 4].mean(axis=1), "z"),
+        Channel("rotation", "rad", theta_y, "theta_y"),
+        Channel("rotation_across", "rad", -theta_x, "-theta_x"),
+    )
+    return Curves(motion.start_s + time, channels)

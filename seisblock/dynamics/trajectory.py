@@ -1,0 +1,162 @@
+"""What the engine found: the end, the changes on the way, and the path, which a long trajectory follows again when it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from seisblock.typing import FloatArray, IntArray
+
+if TYPE_CHECKING:
+    from seisblock.dynamics.model import Model
+
+
+@dataclass(frozen=True)
+class Instant:
+    """A time of a sampled motion, exact to the sample: `tau` seconds after sample number `sample`."""
+
+    sample: int = 0
+    tau: float = 0.0
+
+
+BEGINNING = Instant()
+"""The first sample."""
+
+
+@dataclass(frozen=True, eq=False)
+class Change:
+    """An event as the engine logs it; times in s after sample 0 of the motion."""
+
+    at: Instant
+    time: float
+    guard: int
+    source: int
+    target: int
+    before: FloatArray
+    after: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """Where a trajectory is at samples that follow each other, and what happens before each of them.
+
+    Parameters
+    ----------
+    dt : float, s
+    first : int
+        Number of the first sample.
+    states, modes : (n, n_states), (n,) arrays
+        State and mode at each sample.
+    changes : tuple of Change
+        Since the sample before the first; and those after the last one where the trajectory ends there.
+    """
+
+    dt: float
+    first: int
+    states: FloatArray
+    modes: IntArray
+    changes: tuple[Change, ...] = ()
+
+    def table(self) -> tuple[FloatArray, FloatArray, IntArray]:
+        """Return times, states and modes at the samples and at both limits of every event, in order.
+
+        Returns
+        -------
+        time : (m,) array, s after sample 0
+        states : (m, n_states) array
+        modes : (m,) array
+        """
+        time = self.dt * np.arange(self.first, self.first + self.modes.size, dtype=np.float64)
+        if not self.changes:
+            return time, self.states, self.modes
+        both = np.array([limit for change in self.changes for limit in (change.before, change.after)])
+        kinds = np.array([mode for change in self.changes for mode in (change.source, change.target)])
+        times, where = np.repeat([change.time for change in self.changes], 2), self._places()
+        return np.insert(time, where, times), np.insert(self.states, where, both, axis=0), np.insert(self.modes, where, kinds)
+
+    def sampled(self, values: FloatArray) -> FloatArray:
+        """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
+        part = values[self.first : self.first + self.modes.size]
+        if not self.changes:
+            return part
+        at = np.array([change.at.sample for change in self.changes])
+        share = np.array([change.at.tau for change in self.changes]) / self.dt
+        there = values[at] + share * (values[np.minimum(at + 1, values.size - 1)] - values[at])
+        return np.insert(part, self._places(), np.repeat(there, 2))
+
+    def _places(self) -> IntArray:
+        """Return before which sample of the path each limit of each event stands."""
+        at = np.array([change.at.sample for change in self.changes]) + 1 - self.first
+        return np.clip(np.repeat(at, 2), 0, self.modes.size)
+
+
+def joined(paths: Iterable[Path]) -> Path:
+    """Return one path from some that follow each other."""
+    parts = list(paths)
+    if len(parts) == 1:
+        return parts[0]
+    states = np.concatenate([part.states for part in parts])
+    modes = np.concatenate([part.modes for part in parts])
+    return Path(parts[0].dt, parts[0].first, states, modes, tuple(change for part in parts for change in part.changes))
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """What the engine found.
+
+    Parameters
+    ----------
+    model, dt, status : Model, float, int
+    changes : tuple of Change
+    n_changes : int
+        How many there were, kept or not.
+    extrema : (n_tracked, 4) array
+        Highest value, its time, lowest value, its time; s after sample 0.
+    end : Instant
+    final, final_mode : (n_states,) array, int
+    walk : callable
+        Yields the path piece by piece: all of it where it was kept, else as it is followed again, to the same bits.
+    """
+
+    model: Model
+    dt: float
+    status: int
+    changes: tuple[Change, ...]
+    n_changes: int
+    extrema: FloatArray
+    end: Instant
+    final: FloatArray
+    final_mode: int
+    walk: Callable[[], Iterator[Path]]
+
+    @cached_property
+    def path(self) -> Path:
+        """All of the path."""
+        return joined(self.walk())
+
+    @property
+    def states(self) -> FloatArray:
+        """States at the samples reached, (n, n_states), from the first one on."""
+        return self.path.states
+
+    @property
+    def modes(self) -> IntArray:
+        """Modes at the samples reached, (n,)."""
+        return self.path.modes
+
+    @property
+    def end_time(self) -> float:
+        """Time at which the integration ended, s after sample 0."""
+        return self.end.sample * self.dt + self.end.tau
+
+    def table(self) -> tuple[FloatArray, FloatArray, IntArray]:
+        """Return times, states and modes of all of the path, see :meth:`Path.table`."""
+        return self.path.table()
+
+    def sampled(self, values: FloatArray) -> FloatArray:
+        """Return a sampled input at the times of :meth:`table`, (m,)."""
+        return self.path.sampled(values)

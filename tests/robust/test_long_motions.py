@@ -1,0 +1,105 @@
+"""A motion of a day is followed stretch by stretch and nothing keeps its path; the answers are those of a motion that is held whole."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import seisblock
+from seisblock import Block, Motion, SpringBlock, motion_of, read, scale_to_pga
+from seisblock.dynamics import follow_many
+from seisblock.solvers.rock import model as rocking
+from seisblock.solvers.rock.rocker import rocker
+
+RECORD = scale_to_pga(read("synthetic_jma.csv"), 9.0)
+BLOCK = Block(0.24, 0.9)
+SPRINGS = SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.707)
+CHOZUSHA = seisblock.load_two_layer("chozusha")
+
+SOLVES = {
+    "slide": lambda motion: seisblock.solve_slide(0.1, motion, vertical=True),
+    "rock": lambda motion: seisblock.solve_rock(BLOCK, motion, vertical=True),
+    "a block that stands": lambda motion: seisblock.solve_rock(Block(3.0, 1.0), motion),
+    "a block that falls": lambda motion: seisblock.solve_rock(Block(0.1, 0.9), motion),
+    "respond": lambda motion: seisblock.solve_respond(BLOCK, motion, mu=0.5),
+    "uplift": lambda motion: seisblock.solve_uplift(SPRINGS, motion),
+    "jump": lambda motion: seisblock.solve_jump(CHOZUSHA, motion, contact=seisblock.load_contact("chozusha")),
+    "jump by friction": lambda motion: seisblock.solve_jump(
+        CHOZUSHA, motion, contact=seisblock.load_contact("chozusha"), landing="friction"
+    ),
+}
+
+SUMS = {"path_m"}
+"""Sums over all samples, which have another last digit when they are taken in pieces."""
+
+
+@pytest.fixture
+def in_stretches(monkeypatch):
+    """Let every motion count as long."""
+
+    def cut():
+        monkeypatch.setattr("seisblock.records.motion.LONG", 100)
+        monkeypatch.setattr("seisblock.records.motion.STRETCH", 700)
+
+    return cut
+
+
+@pytest.mark.parametrize("solve", SOLVES.values(), ids=SOLVES)
+def test_no_bit_of_an_answer_depends_on_stretches(solve, in_stretches):
+    """Outcome, phases, events, time and channels, of a motion whose rows are the record's own."""
+    whole = solve(motion_of(RECORD, "NS"))
+    assert whole.channels
+    in_stretches()
+    motion = motion_of(RECORD, "NS")
+    assert motion.is_long and np.shares_memory(motion.horizontal, RECORD.component("NS").acceleration)
+    parts = solve(motion)
+    for field in fields(whole.outcome):
+        one, other = getattr(whole.outcome, field.name), getattr(parts.outcome, field.name)
+        assert other == (pytest.approx(one, rel=1e-14) if field.name in SUMS else one), field.name
+    assert (parts.phases, parts.status, parts.warnings) == (whole.phases, whole.status, whole.warnings)
+    assert [(event.name, event.time_s) for event in parts.events] == [(event.name, event.time_s) for event in whole.events]
+    np.testing.assert_array_equal(parts.time, whole.time)
+    for one, other in zip(whole.channels, parts.channels, strict=True):
+        np.testing.assert_array_equal(other.values, one.values, err_msg=one.name)
+
+
+def test_rows_of_a_long_motion_are_those_of_a_short_one(in_stretches):
+    """Along, across and up of a turned direction, at once and stretch by stretch; a row that does not act is not looked at."""
+    whole = motion_of(RECORD, "37")
+    in_stretches()
+    parts = motion_of(RECORD, "37")
+    np.testing.assert_array_equal(parts.acceleration, whole.acceleration)
+    stretches = list(parts.stretches((True, False, True)))
+    joined = np.concatenate([stretches[0].acceleration, *(each.acceleration[:, 1:] for each in stretches[1:])], axis=1)
+    np.testing.assert_array_equal(joined, whole.acceleration * [[1.0], [0.0], [1.0]])
+    assert stretches[-1].beyond == 0 and [each.first for each in stretches[1:]] == [700 * k for k in range(1, len(stretches))]
+
+
+def test_many_blocks_turned_in_a_long_motion(in_stretches):
+    """Runs of a study share the stretches: extrema and ends are those in the whole motion."""
+    motion = motion_of(RECORD, "EW")
+    p = np.array([rocking.parameters(rocker(Block(width, 0.9), motion), motion.dt) for width in (0.1, 0.2, 0.3)])
+    gains = np.array([[1.0, 0.0, 0.0], [0.9, -0.3, 1.0], [1.2, 0.0, 0.5]])
+    whole = follow_many(rocking.ROCKING, motion, p, np.zeros(2), rocking.REST, gains=gains)
+    in_stretches()
+    parts = follow_many(rocking.ROCKING, motion_of(RECORD, "EW"), p, np.zeros(2), rocking.REST, gains=gains)
+    for field in ("final", "final_mode", "end_time", "extrema", "stays"):
+        np.testing.assert_array_equal(getattr(parts, field), getattr(whole, field))
+
+
+def test_curves_are_made_when_they_are_asked_for(monkeypatch):
+    """A verdict follows its path once more for nobody."""
+    made = SimpleNamespace(count=0)
+    original = seisblock.solvers.slide.solve._curves
+
+    def counted(*args):
+        made.count += 1
+        return original(*args)
+
+    monkeypatch.setattr("seisblock.solvers.slide.solve._curves", counted)
+    response = seisblock.solve_slide(0.1, Motion.from_arrays(np.sin(np.arange(300.0)), 0.01))
+    assert response.outcome.slips and made.count == 0
+    assert response.time.size == response["displacement"].size and made.count == 1
