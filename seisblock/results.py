@@ -74,7 +74,7 @@ class Channel:
 
 
 @dataclass(frozen=True, eq=False)
-class Curves:
+class Histories:
     """Quantities on one time axis.
 
     Parameters
@@ -88,9 +88,9 @@ class Curves:
     channels: tuple[Channel, ...] = ()
 
 
-def no_curves() -> Curves:
+def no_histories() -> Histories:
     """Return the curves of an answer that has none."""
-    return Curves(np.empty(0))
+    return Histories(np.empty(0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +105,7 @@ class Response(Drawn, Generic[Outcome]):
         The numbers a user asks for; its fields are the keys of the JSON document.
     motion, body : Motion, object
         What shook, and what stood there.
-    make_curves : callable
+    make_histories : callable
         Makes :attr:`time` and :attr:`channels`, which are made when one of them is first asked for: a verdict needs neither.
     phases, events : tuple
         In the order of time.
@@ -123,7 +123,7 @@ class Response(Drawn, Generic[Outcome]):
     outcome: Outcome
     motion: Motion
     body: Any
-    make_curves: Callable[[], Curves] = no_curves
+    make_histories: Callable[[], Histories] = no_histories
     phases: tuple[Phase, ...] = ()
     events: tuple[Event, ...] = ()
     options: Mapping[str, Any] = field(default_factory=dict)
@@ -132,19 +132,19 @@ class Response(Drawn, Generic[Outcome]):
     citations: tuple[str, ...] = ()
 
     @cached_property
-    def curves(self) -> Curves:
+    def histories(self) -> Histories:
         """The time axis and the quantities on it."""
-        return self.make_curves()
+        return self.make_histories()
 
     @property
     def time(self) -> FloatArray:
         """Times from the record's first sample, (n,), s: the samples, and both sides of each event where the model logs them."""
-        return self.curves.time
+        return self.histories.time
 
     @property
     def channels(self) -> tuple[Channel, ...]:
         """Quantities on that axis; displacements are relative to the ground unless the name says otherwise."""
-        return self.curves.channels
+        return self.histories.channels
 
     def __getitem__(self, name: str) -> FloatArray:
         """Return the values of a channel by name."""
@@ -185,4 +185,4 @@ class Response(Drawn, Generic[Outcome]):
         return pd.DataFrame(self.to_columns())
 
 
-__all__ = ["Channel", "Curves", "Event", "Phase", "Response", "Status"]
+__all__ = ["Channel", "Histories", "Event", "Phase", "Response", "Status"]

@@ -1,5 +1,6 @@
 from .ensemble import Ensemble, follow_many
-from .model import Model, follow
+from .following import follow
+from .model import Model
 from .status import Status
 from .trajectory import Change, Instant, Path, Trajectory, joined
 

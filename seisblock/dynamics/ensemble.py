@@ -13,9 +13,10 @@ import numpy as np
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arguments import BASE, BEYOND, FIRST_EVENT, FOUND, MODE, SAMPLE, SHAPE, STEPS_LEFT, TAU, Cursor, Ground, Kept
 from seisblock.dynamics.arrays import BLOCK, INTEGER_BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX
+from seisblock.dynamics.following import SLICE, cursor_at
 from seisblock.dynamics.halt import heed
 from seisblock.dynamics.hybrid import POINTERS, go_on, room
-from seisblock.dynamics.model import SLICE, Model, cursor_at
+from seisblock.dynamics.model import Model
 from seisblock.dynamics.status import FAILURES, PAUSED
 from seisblock.dynamics.trajectory import Instant
 from seisblock.errors import ParameterError, SolverError

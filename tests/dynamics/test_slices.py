@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from seisblock._jit import ENABLED
-from seisblock.dynamics import Instant, follow, follow_many
-from seisblock.dynamics import model as following
+from seisblock.dynamics import Instant, follow, follow_many, following
 from seisblock.errors import SolverError
 from seisblock.records import Motion
 from tests.dynamics.toy_models import BALL, SLED

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.spring_block import SpringBlock
-from seisblock.dynamics.model import follow
+from seisblock.dynamics import follow
 from seisblock.records.motion import Motion, motion_of
 from seisblock.records.record import Component, Record
 from seisblock.solvers.uplift.harmonic import uplift_thresholds

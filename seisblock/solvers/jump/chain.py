@@ -290,12 +290,11 @@ def curves(followed: Followed) -> tuple[FloatArray, FloatArray, FloatArray, Floa
 def end_of_curves(followed: Followed) -> tuple[float, float, float]:
     """Return the last of each of :func:`curves`, but the tilt: time (s), displacement and rise of the centroid (m)."""
     block, last = followed.block, followed.flown or followed.rocked
-    ended = last.final_mode < 0
-    time = followed.motion.start_s + (last.changes[-1].time if ended else last.end_time)
+    time = followed.motion.start_s + (last.changes[-1].time if last.final_mode < 0 else last.end_time)
     if followed.flown is None:
         lean = block.slenderness - last.final[rocking.THETA]
         x, rise = block.radius * np.sin(lean) - block.width / 2, block.radius * np.cos(lean) - block.centroid_height
     else:
-        mode = last.changes[-1].source if ended else last.final_mode
+        mode = last.changes[-1].source if last.final_mode < 0 else last.final_mode
         (x,), (rise,) = flying.centroid(block, followed.drop, np.array([mode]), last.final[np.newaxis])
     return time, followed.sign * float(x), float(rise)

@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.records import Motion
-from seisblock.results import Channel, Curves, Event, Phase
+from seisblock.results import Channel, Event, Histories, Phase
 from seisblock.solvers.jump.chain import (
     ENDED_FLYING,
     ENDED_LANDED,
@@ -133,7 +133,7 @@ def phases_and_events_of(motion: Motion, parts: Sequence[Part]) -> tuple[tuple[P
     return tuple(phases), tuple(events)
 
 
-def curves_of(motion: Motion, block: TwoLayerBlock, parts: Sequence[Part]) -> Curves:
+def curves_of(motion: Motion, block: TwoLayerBlock, parts: Sequence[Part]) -> Histories:
     """Return the curves over the whole motion: the chains and the rest between them."""
     clock = motion.time
     columns: list[tuple[np.ndarray, ...]] = []
@@ -151,4 +151,4 @@ def curves_of(motion: Motion, block: TwoLayerBlock, parts: Sequence[Part]) -> Cu
         Channel("height", "m", block.centroid_height + rise, "y_G"),
         Channel("ground_acceleration", "m/s^2", np.interp(time, clock, motion.horizontal, right=0.0), "z''"),
     )
-    return Curves(time, channels)
+    return Histories(time, channels)

@@ -10,7 +10,7 @@ from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_call
 from seisblock.references import papers
-from seisblock.results import Channel, Curves, Response
+from seisblock.results import Channel, Histories, Response
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.curves import curves
 from seisblock.solvers.respond.outcome import RespondOutcome, gather, motion_modes, phases, status
@@ -206,7 +206,7 @@ def is_sensitive(
     return False
 
 
-def _curves(found: Run, setting: Setting, motion: Motion, factors: tuple[float, float, float]) -> Curves:
+def _curves(found: Run, setting: Setting, motion: Motion, factors: tuple[float, float, float]) -> Histories:
     """Return the curves on the run's own time axis, both limits at each event."""
     time, states, modes = found.table()
     of = curves(setting.stand, states, motion_modes(found, modes))
@@ -223,4 +223,4 @@ def _curves(found: Run, setting: Setting, motion: Motion, factors: tuple[float, 
         Channel("ground_acceleration", acceleration, found.sampled(motion.horizontal), "a"),
         Channel("vertical_acceleration", acceleration, factors[2] * found.sampled(motion.vertical), "a_v"),
     )
-    return Curves(motion.start_s + time, channels)
+    return Histories(motion.start_s + time, channels)

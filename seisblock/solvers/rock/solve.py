@@ -11,7 +11,7 @@ from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.records.given import Factor
 from seisblock.references import papers
-from seisblock.results import Channel, Curves, Event, Response, Status
+from seisblock.results import Channel, Event, Histories, Response, Status
 from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate, fate, sides
 from seisblock.solvers.rock.outcome import RockOutcome, event_name, gather, phases, warnings
@@ -95,7 +95,7 @@ def solve_rock(
     )
 
 
-def _curves(block: Rocker, motion: Motion, trajectory: Trajectory) -> Curves:
+def _curves(block: Rocker, motion: Motion, trajectory: Trajectory) -> Histories:
     """Return what the block and the ground did, on the trajectory's own time axis, both limits at each event."""
     time, states, _ = trajectory.table()
     channels = (
@@ -104,7 +104,7 @@ def _curves(block: Rocker, motion: Motion, trajectory: Trajectory) -> Curves:
         Channel("ground_acceleration", "m/s^2", trajectory.sampled(motion.horizontal), "a"),
         Channel("vertical_acceleration", "m/s^2", block.vertical * trajectory.sampled(motion.vertical), "a_v"),
     )
-    return Curves(motion.start_s + time, channels)
+    return Histories(motion.start_s + time, channels)
 
 
 def start_mode(block: Rocker, initial: tuple[float, float]) -> int:

@@ -16,7 +16,7 @@ from seisblock.errors import ParameterError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import UP, Motion
 from seisblock.references import papers
-from seisblock.results import Channel, Curves, Event, Phase, Response, Status
+from seisblock.results import Channel, Event, Histories, Phase, Response, Status
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
 from seisblock.units import STANDARD_GRAVITY
@@ -267,7 +267,7 @@ def _event_name(change: Change) -> str:
     return "stop" if after == STICK else "reversal"
 
 
-def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, trajectory: Trajectory) -> Curves:
+def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, trajectory: Trajectory) -> Histories:
     """Return the curves on the trajectory's own time axis, both limits at each event."""
     time, states, modes = trajectory.table()
     level = modes >= LEVEL
@@ -293,4 +293,4 @@ def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, traj
         Channel("displacement", "m", states[:, SLIP], "x - z"),
         Channel("ground_velocity", speed, velocity, "z'"),
     )
-    return Curves(motion.start_s + time, channels)
+    return Histories(motion.start_s + time, channels)

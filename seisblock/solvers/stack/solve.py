@@ -17,7 +17,7 @@ from seisblock.errors import ParameterError, SolverError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import ACROSS, UP, Motion
 from seisblock.references import papers
-from seisblock.results import Curves, Event, Phase, Response, Status
+from seisblock.results import Event, Histories, Phase, Response, Status
 from seisblock.solvers.stack.arguments import KEPT_ROWS, PLACE, SAMPLE, STEPS_LEFT, PileCursor, PileKept, PileMemory, PileSettings
 from seisblock.solvers.stack.arrays import PileArrays, pile_arrays
 from seisblock.solvers.stack.frames import Q, X, orient
@@ -131,7 +131,7 @@ def solve_stack(
         outcome=outcome,
         motion=motion,
         body=body,
-        make_curves=cache(lambda: Curves(motion.start_s + track.time, channels(pile, track))),
+        make_histories=cache(lambda: Histories(motion.start_s + track.time, channels(pile, track))),
         phases=_phases(outcome, motion.start_s, motion.start_s + ended),
         events=_events(outcome),
         options={

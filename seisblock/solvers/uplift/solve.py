@@ -10,7 +10,7 @@ from seisblock.dynamics import Trajectory, follow
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
-from seisblock.results import Channel, Curves, Event, Response, Status
+from seisblock.results import Channel, Event, Histories, Response, Status
 from seisblock.solvers.uplift.model import GLUED, UPLIFT, UPLIFT_AGAIN, WHOLE_BASE, F, U, X, Y, at_rest, parameters, rotations
 from seisblock.solvers.uplift.outcome import UpliftOutcome, gather, highest, largest_rotations, phases, warnings
 from seisblock.units import STANDARD_GRAVITY
@@ -73,7 +73,7 @@ def solve_uplift(
         outcome=gather(body, motion, trajectory, gravity, settlement / risen if risen > ROUND_OFF * settlement else None, rotation, lean),
         motion=motion,
         body=body,
-        make_curves=cache(partial(_curves, body, motion, trajectory)),
+        make_histories=cache(partial(_curves, body, motion, trajectory)),
         phases=phases(motion, trajectory),
         events=tuple(
             Event(f"corner {i + 1} {'lands' if c.target >> i & 1 else 'lifts'}", motion.start_s + c.time, c.before, c.after)
@@ -88,7 +88,7 @@ def solve_uplift(
     )
 
 
-def _curves(body: SpringBlock, motion: Motion, trajectory: Trajectory) -> Curves:
+def _curves(body: SpringBlock, motion: Motion, trajectory: Trajectory) -> Histories:
     """Return what corners and centre did, on the trajectory's own time axis, both limits at each event."""
     time, states, _ = trajectory.table()
     theta_x, theta_y = rotations(states, body)
@@ -101,4 +101,4 @@ def _curves(body: SpringBlock, motion: Motion, trajectory: Trajectory) -> Curves
         Channel("rotation", "rad", theta_y, "theta_y"),
         Channel("rotation_across", "rad", -theta_x, "-theta_x"),
     )
-    return Curves(motion.start_s + time, channels)
+    return Histories(motion.start_s + time, channels)
