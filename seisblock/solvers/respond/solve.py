@@ -67,7 +67,8 @@ def solve_respond(
     settle_s : float, s
         How long the body is followed after the record.
     tenon : float, m
-        Depth to which tenons hold the feet against sliding, until in flight the lower one has risen by as much; 0: none. Ours.
+        Depth to which tenons hold the feet against sliding, until in flight the lower one has risen by as much; 0: none. Ours. A tenon
+        pressed aside binds: it keeps a foot down that the ground no longer presses, as long as that would not rise by itself.
     further_points : sequence of (float, float), m
         Points of the body, to +x of the centre of gravity and above it, that end the motion when they meet the ground.
     sensitivity : bool
