@@ -217,3 +217,13 @@ def test_one_version_falls_and_two_fall(fallen, begins):
     """The number of versions and its verb agree."""
     found = Probability(20, fallen / 20, 0.5, (0.0, 0.3), 0.01, {"q05": 0.0, "q95": 0.0}, Versions(), 0)
     assert share(found).startswith(begins)
+
+
+@pytest.mark.parametrize(
+    ("q05", "q95", "ends"),
+    [(-0.0004, 0.0002, "nine in ten of those that stand end where they stood."), (-0.02, 0.0002, "end between -2.0 cm and 0.")],
+)
+def test_versions_that_come_back_end_where_they_stood(q05, q95, ends):
+    """Quantiles of less than half a millimetre are no interval to tell."""
+    found = Probability(40, 0.1, 0.5, (0.0, 0.3), 0.01, {"q05": q05, "q95": q95}, Versions(), 0)
+    assert share(found).endswith(ends)

@@ -129,8 +129,11 @@ def share(found: Probability) -> str:
         moves = tell("{share} move more than {far}", share=percent(found.moved), far=far)
     middle = ""
     if found.moved > 0.0 and found.runs - fallen >= FEWEST:
-        ends = found.final_displacement_m
-        middle = tell("; nine in ten of those that stand end between {low} and {high}", low=signed(ends["q05"]), high=signed(ends["q95"]))
+        low, high = (signed(found.final_displacement_m[name]) for name in ("q05", "q95"))
+        if low == high == signed(0.0):
+            middle = tell("; nine in ten of those that stand end where they stood")
+        else:
+            middle = tell("; nine in ten of those that stand end between {low} and {high}", low=low, high=high)
     return tell("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
 
 
