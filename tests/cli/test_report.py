@@ -1,18 +1,24 @@
 """``seisblock report``: one page with everything about a record and some bodies, in two languages, that fetches nothing."""
 
 import re
+import shutil
+import subprocess
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from seisblock.bodies.library import load_block
 from seisblock.bodies.subjects import subject
 from seisblock.cli import main
+from seisblock.measures import measure
+from seisblock.present.figures.embed import MOST_POINTS, picture
+from seisblock.present.figures.measure import measure_figure
 from seisblock.present.pages.report import report
 from seisblock.present.pages.report_words import verdict
 from seisblock.readers import read, sample_path
-from seisblock.records import motion_of
+from seisblock.records import Preparation, motion_of
 from seisblock.records.process import crop
 from seisblock.solvers.jump.chain import JUMPED
 from seisblock.solvers.respond import solve_respond
@@ -20,6 +26,8 @@ from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.assessment import assess
 from seisblock.words import speaking
 from tests.language.english import english_in, seen_in
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 
 
 @pytest.fixture(scope="module")
@@ -43,9 +51,74 @@ def test_the_page_opens_without_network(pages):
     """Every picture is data, and no style or script comes from elsewhere."""
     for page in pages.values():
         sources = re.findall(r'src="([^"]{0,30})', page)
-        assert len(sources) == 7 and all(source.startswith("data:image/") for source in sources)
+        assert len(sources) == 7 and all(source.startswith("data:image/svg+xml") for source in sources)
         assert not re.search(r"<link|<script|@import|url\(", page)
         assert len(page) < 4_000_000
+
+
+def test_contents_lead_to_every_section(pages):
+    """Each entry of the list names a heading of the page, and each heading of the first order is in it."""
+    for page in pages.values():
+        entries = re.findall(r'<li><a href="#([\w-]+)">(.*?)</a></li>', page)
+        assert entries == re.findall(r'<h2 id="([\w-]+)">(.*?)</h2>', page) and len(entries) == 4
+
+
+def test_what_was_done_to_the_record_stands_above_the_verdicts():
+    """F4: a page of a scaled record says so before it says anything else, in either language; one of a record as read does not."""
+    record = crop(read("synthetic_jma.csv"), 22, 29)
+    for lang, told in (("en", "What was done to the record: "), ("ja", "記録に施した処理：")):
+        with speaking(lang):
+            page = report(assess(Preparation(scale=0.5).apply(record), [subject("1x1")], components=["EW"]))
+        (line,) = re.findall(rf'<p class="processed">{told}(.*?)</p>', page)
+        assert "0.5" in line and page.index(line) < page.index('<div class="verdicts">')
+    assert 'class="processed"' not in report(assess(read("elcentro_1940_ns.csv"), [subject("1x1")]))
+
+
+def test_provenance_is_true_from_python(monkeypatch):
+    """F4: how the process was started has no say: the page names the command it is told, or that there was none, twice the same."""
+    monkeypatch.setattr("sys.argv", ["/home/somebody/notebook.py", "--secret"])
+    found = assess(crop(read("synthetic_jma.csv"), 22, 29), [subject("1x1")], components=["EW"])
+    page = report(found)
+    assert "notebook.py" not in page and "<dd>none, made in Python</dd>" in page
+    assert page == report(found)
+    assert "<dd>seisblock report here.csv</dd>" in report(found, command="seisblock report here.csv")
+
+
+def test_a_drawing_loses_no_peak():
+    """A curve of 30 000 points in a page holds few of them, the extremes among them."""
+    record = read("synthetic_jma.csv")
+    figure = measure_figure(record, measure(record))
+    lines = [line for axis in figure.axes for line in axis.lines]
+    for line in lines:
+        line.axes.set_xlim(auto=True)
+    before = [(np.nanmin(line.get_ydata()), np.nanmax(line.get_ydata())) for line in lines]
+    assert max(len(line.get_xdata()) for line in lines) > MOST_POINTS
+    drawn = picture(figure, "the record").source
+    assert drawn.startswith("data:image/svg+xml") and len(drawn) < 900_000
+    assert [(np.nanmin(line.get_ydata()), np.nanmax(line.get_ydata())) for line in lines] == before
+    assert max(len(line.get_xdata()) for line in lines) <= MOST_POINTS + 4
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
+@pytest.mark.parametrize("lang", ["en", "ja"])
+def test_nothing_runs_off_a_phone(pages, lang, tmp_path):
+    """F4: in a frame 390 px wide the page is no wider than that, nor is anything that cannot be moved in its own box."""
+    path, frame = tmp_path / "report.html", tmp_path / "frame.html"
+    probe = """<script>onload = () => {
+      const { clientWidth, scrollWidth } = document.documentElement, all = [...document.querySelectorAll("body *")];
+      const wider = all.filter(e => e.getBoundingClientRect().right > clientWidth + 1 && !e.closest(".wide"));
+      parent.postMessage([innerWidth, scrollWidth <= clientWidth, wider.length].join(), "*");
+    }</script>"""
+    path.write_text(pages[lang] + probe, encoding="utf-8")
+    frame.write_text(
+        "<script>onmessage = event => { document.title = event.data }</script>"
+        '<iframe src="report.html" style="width: 390px; height: 844px; border: 0"></iframe>',
+        encoding="utf-8",
+    )
+    options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", "--virtual-time-budget=4000"]
+    command = [CHROMIUM, *options, f"--user-data-dir={tmp_path}/profile", "--dump-dom", frame.as_uri()]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=90)
+    assert "<title>390,true,0</title>" in done.stdout
 
 
 def test_it_is_readable_on_a_phone_and_on_paper(pages):
@@ -69,8 +142,8 @@ def test_it_holds_every_section(pages):
         "Uplift from corner springs",
         "Where this comes from",
     ):
-        assert re.search(rf"<h[23]>{re.escape(heading)}</h[23]>", pages["en"]), heading
-        assert re.search(rf"<h[23]>{re.escape(heading)}</h[23]>", pages["ja"]) is None
+        assert re.search(rf"<h[23][^>]*>{re.escape(heading)}</h[23]>", pages["en"]), heading
+        assert re.search(rf"<h[23][^>]*>{re.escape(heading)}</h[23]>", pages["ja"]) is None
 
 
 def test_it_tells_where_it_comes_from(pages):

@@ -1,6 +1,7 @@
 """``seisblock validate``: the evidence runs on the user's machine, what differs comes first, a failure is an exit code."""
 
 import json
+import re
 import subprocess
 import sys
 from html.parser import HTMLParser
@@ -144,6 +145,22 @@ def test_the_gallery_holds_every_statement_and_fetches_nothing(some_papers, tmp_
     assert text.count("<svg") > len(some_papers)
     assert "input rebuilt" in text and "the print checked against itself" in text
     assert "Largest difference" in text and "rocking-sliding lasts 1.5 to 1.7 times" in text
+
+
+def test_the_gallery_can_be_linked_to(some_papers, tmp_path):
+    """Its first sentence counts; each paper, equation, table and figure has an address of its own; drawings have captions."""
+    page = tmp_path / "gallery.html"
+    assert run("--html", str(page)).exit_code == 0
+    text = page.read_text(encoding="utf-8")
+    differ = sum(case.status == "differs" for case in some_papers)
+    papers = dict.fromkeys(case.paper for case in some_papers)
+    lead = f"{len(some_papers)} statements of {len(papers)} papers: {len(some_papers) - differ} hold, {differ} differ as explained, 0 fail."
+    assert f'<p class="lead">{lead}' in text
+    places = re.findall(r' id="([^"]+)"', text)
+    assert len(places) == len(set(places)) and set(re.findall(r'href="#([^"]+)"', text)) == set(places)
+    assert len(places) == 1 + len(papers) + len({(case.paper, case.place) for case in some_papers})
+    figures = re.findall(r"<figure>.*?</figure>", text, re.DOTALL)
+    assert figures and all(re.search(r"<figcaption>[^<]{20,}</figcaption>", figure) for figure in figures)
 
 
 def test_the_gallery_is_told_in_japanese(some_papers, tmp_path):

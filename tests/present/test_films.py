@@ -191,6 +191,22 @@ def test_the_viewer_sees_at_most_three_faces_of_a_stone_and_the_nearest_last():
     assert len(faces) == 3 * len(scene.solids) and depths == sorted(depths)
 
 
+def test_the_path_of_a_foot_is_that_of_the_answer_however_few_the_pictures():
+    """F1: the path behind the foot runs through every point of the response, and ends where the foot is in the picture."""
+    found, shown = response("jump"), film("jump", 40)
+    scene, body = shown.scene, shown.scene.bodies[0]
+    corner = np.array([body.pieces[0].corners[:, 0].max(), body.pieces[0].corners[:, 1].min()])
+    stage = set_up(shown)
+    stage.show(30, "")
+    (drawn,) = [line for trail, line in stage.actors[0].trails if trail is scene.trails[1]]
+    past = found.time <= shown.time[30]
+    x, z = drawn.get_data()
+    np.testing.assert_array_equal(x[:-1] - scene.shift[30], scene.trails[1].x[past])
+    turn = found["rotation"][past]
+    np.testing.assert_allclose(z[:-1], found["height"][past] + corner[1] * np.cos(turn) - corner[0] * np.sin(turn), atol=1e-12)
+    np.testing.assert_allclose([x[-1], z[-1]], body.placed(corner[None], 30)[0] + [scene.shift[30], 0.0], atol=1e-4)
+
+
 def test_a_fallen_stone_is_marked_from_its_fall_on():
     """Its edges change colour at the time of the answer."""
     found = response("stack")

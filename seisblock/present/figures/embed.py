@@ -1,22 +1,35 @@
-"""A figure inside a page, as data: sharp on paper, small on a phone."""
+"""A figure inside a page, as a drawing: sharp on paper and at any size, small enough for a phone."""
 
 from __future__ import annotations
 
 import base64
 import io
+import re
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-LARGEST_DRAWING = 200_000
-"""A drawing of more bytes is put in as a picture."""
+from seisblock.present.figures.curves import thin
 
-MOST_POINTS = 6000
-"""A figure whose curves have more points than this would be a larger drawing: it is not tried."""
+MOST_POINTS = 1600
+"""What a page shows of a curve: two a dot on a screen of its widest."""
+
+LARGEST_DRAWING = 600_000
+"""A drawing of more bytes, which is one of thousands of marks, is put in as a picture."""
 
 PICTURE_DPI = 170
+
+CLIP = re.compile(r"\bp[0-9a-f]{10}\b")
+"""The name of a clipping path, which matplotlib makes of an address in memory."""
+
+PATH = re.compile(r' d="[^"]*"')
+LONG_NUMBER = re.compile(r"(\d\.\d\d)\d+")
+"""A coordinate with more decimals than hundredths of a point."""
 
 
 class Picture(NamedTuple):
@@ -27,7 +40,7 @@ class Picture(NamedTuple):
 
 
 def picture(figure: Figure, caption: str, *, width: float = 6.0) -> Picture:
-    """Return a figure as a page holds it.
+    """Return a figure as a page holds it: the same figure is the same page, byte by byte.
 
     Parameters
     ----------
@@ -42,14 +55,32 @@ def picture(figure: Figure, caption: str, *, width: float = 6.0) -> Picture:
         figure.set_size_inches(width, height * (0.75 + 0.25 * width / have))
     for axis in figure.axes:
         _part(axis)
-    held = io.BytesIO()
-    kind = "svg+xml"
-    if sum(np.size(curve.get_xdata()) for axis in figure.axes for curve in axis.lines) <= MOST_POINTS:
-        figure.savefig(held, format="svg")
-    if not 0 < held.tell() <= LARGEST_DRAWING:
+        for line in axis.lines:
+            _lighten(line)
+    drawing, kind = _drawing(figure), "svg+xml"
+    if len(drawing) > LARGEST_DRAWING:
         held, kind = io.BytesIO(), "png"
         figure.savefig(held, format="png", dpi=PICTURE_DPI)
-    return Picture(f"data:image/{kind};base64,{base64.b64encode(held.getvalue()).decode('ascii')}", caption)
+        drawing = held.getvalue()
+    return Picture(f"data:image/{kind};base64,{base64.b64encode(drawing).decode('ascii')}", caption)
+
+
+def _drawing(figure: Figure) -> bytes:
+    """Return a figure as .svg, its coordinates to hundredths of a point."""
+    held = io.StringIO()
+    with rc_context({"svg.hashsalt": "seisblock"}):
+        # the canvas itself: savefig would draw everything twice, the first time for nothing
+        FigureCanvasSVG(figure).print_svg(held, metadata={"Date": None})
+    clips: dict[str, str] = {}
+    named = CLIP.sub(lambda name: clips.setdefault(name[0], f"clip{len(clips)}"), held.getvalue())
+    return PATH.sub(lambda path: LONG_NUMBER.sub(r"\1", path[0]), named).encode()
+
+
+def _lighten(line: Line2D) -> None:
+    """Thin a curve against something that grows to what a page shows of it."""
+    x, y = (np.asarray(values, dtype=float) for values in (line.get_xdata(), line.get_ydata()))
+    if x.size > MOST_POINTS and np.all(np.diff(x) >= 0.0):
+        line.set_data(*thin(x, y, MOST_POINTS))
 
 
 def _part(axis: Axes) -> None:

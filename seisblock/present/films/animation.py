@@ -75,11 +75,13 @@ def stage(figure: Figure, moving: Sequence[Any], draw: Callable[[int], None], co
         yield Image.frombuffer("RGBA", canvas.get_width_height(), bytes(canvas.buffer_rgba())).convert("RGB")
 
 
-def frame_times(first: float, last: float, fps: int = FRAMES_PER_SECOND, *, slow: float = 1.0) -> tuple[list[float], float]:
+def frame_times(
+    first: float, last: float, fps: int = FRAMES_PER_SECOND, *, slow: float = 1.0, most: int = MOST_FRAMES
+) -> tuple[list[float], float]:
     """Return the times of the pictures of a stretch, s, and how many times faster than life it plays (0.25: four times slower)."""
     speed = 1.0 / slow
     count = max(round((last - first) * fps / speed) + 1, 2)
-    while count > MOST_FRAMES:
+    while count > most:
         speed *= 2
         count = max(round((last - first) * fps / speed) + 1, 2)
     return [first + (last - first) * i / (count - 1) for i in range(count)], speed

@@ -40,7 +40,7 @@ class Stage:
         now = float(self.film.time[index])
         for actor in self.actors:
             actor.place(index, now)
-        self.clock.set_text(f"{now:.3f} s   {tell(self.film.phase_at(now))}\n{told}")
+        self.clock.set_text(f"{now:.3f} s   {told}   {tell(self.film.phase_at(now))}")
         for cursor in self.cursors:
             cursor.set_xdata([now, now])
 
@@ -77,7 +77,7 @@ def set_up(film: Film) -> Stage:
     grid = sheet.add_gridspec(1 + len(strips), 2, height_ratios=heights, width_ratios=(1.35, 1.0))
     beside = isinstance(scene, Plane) and scene.close is not None
     above = sheet.add_subplot(grid[0, 0] if beside else grid[0, :])
-    canvas.panel_title(above, film.title)
+    above.set_title(film.title, fontsize=9, loc="left", pad=20, parse_math=False)
     actors: list[Actor] = [PlaneActor(above, scene, moving=True) if isinstance(scene, Plane) else SpaceActor(above, scene)]
     if isinstance(scene, Plane) and beside:
         actors.append(PlaneActor(sheet.add_subplot(grid[0, 1]), scene, moving=False))
@@ -86,8 +86,8 @@ def set_up(film: Film) -> Stage:
         panels.append(sheet.add_subplot(grid[1 + index, :], sharex=panels[0] if panels else None))
         _strip(panels[-1], film, index)
     if film.note:
-        above.text(0.01, 0.0, film.note, transform=above.transAxes, va="bottom", fontsize=8, color="0.35")
-    clock = above.text(0.01, 0.985, " ", transform=above.transAxes, va="top", fontsize=9)
+        above.annotate(film.note, (0.0, 0.0), (0.0, -4.0), "axes fraction", "offset points", va="top", fontsize=8, color="0.35")
+    clock = above.annotate(" ", (0.0, 1.0), (0.0, 5.0), "axes fraction", "offset points", va="bottom", fontsize=9)
     cursors = [panel.axvline(film.time[0], color="0.1", linewidth=1.0) for panel in panels]
     return Stage(film, sheet, actors, panels, clock, cursors)
 

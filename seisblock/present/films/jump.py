@@ -35,9 +35,11 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
     x, z, turn = (at(times, response.time, response[name]) for name in ("displacement", "height", "rotation"))
     body = Body(_pieces(block), x, z, turn)
     half, below = block.width / 2, -block.centroid_height
-    feet = [body.path(np.array([side * half, below])) for side in (-1.0, 1.0)]
+    exact = Body((), response["displacement"], response["height"], response["rotation"])
+    feet = [exact.path(np.array([side * half, below])) for side in (-1.0, 1.0)]
     trails = tuple(
-        Trail(name, *foot, colour) for name, foot, colour in zip(map(tell, ("left foot", "right foot")), feet, FEET, strict=True)
+        Trail(name, response.time, *foot, colour)
+        for name, foot, colour in zip(map(tell, ("left foot", "right foot")), feet, FEET, strict=True)
     )
     rise = (response["height"] - block.centroid_height) * 1e3
     level = response.outcome.rocking_threshold_m_s2

@@ -11,7 +11,7 @@ from seisblock.present.figures.curves import in_view, thin
 from seisblock.present.figures.heading import BETWEEN
 from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Film, Strip
-from seisblock.present.films.plane import Plane
+from seisblock.present.films.plane import Plane, Trail
 from seisblock.present.films.space import AZIMUTH, ELEVATION, LIGHT, STONE, Solid, Space, Spring
 from seisblock.present.page import page
 from seisblock.typing import FloatArray
@@ -24,7 +24,8 @@ METRES, RADIANS, SECONDS = 5, 6, 4
 IN_SPACE = 4
 """Decimals of metres and quaternions in a scene in three dimensions: 0.1 mm."""
 
-MOST_POINTS = 3000
+MOST_POINTS, MOST_ON_PATH = 3000, 8000
+"""Of a curve against time, and of the path of a point."""
 
 
 def film_page(film: Film, filming: Filming) -> str:
@@ -76,7 +77,7 @@ def _data(film: Film, filming: Filming) -> dict[str, Any]:
         "last": float(film.time[-1]),
         "count": int(film.time.size),
         "pace": 1.0 / filming.slow,
-        "scene": _plane(film.scene) if isinstance(film.scene, Plane) else _space(film.scene),
+        "scene": _plane(film.scene, float(film.time[0]), float(film.time[-1])) if isinstance(film.scene, Plane) else _space(film.scene),
         "strips": [_strip(film, strip) for strip in film.panels],
         "phases": [[phase.start_s, phase.end_s, film.colours[phase.name]] for phase in film.seen if phase.name in film.colours],
         "names": [[phase.start_s, phase.end_s, tell(phase.name)] for phase in film.seen],
@@ -84,7 +85,7 @@ def _data(film: Film, filming: Filming) -> dict[str, Any]:
     }
 
 
-def _plane(scene: Plane) -> dict[str, Any]:
+def _plane(scene: Plane, first: float, last: float) -> dict[str, Any]:
     """Return a scene from the side."""
     return {
         "extent": scene.extent,
@@ -100,8 +101,16 @@ def _plane(scene: Plane) -> dict[str, Any]:
             }
             for body in scene.bodies
         ],
-        "trails": [{"x": _numbers(t.x, METRES), "z": _numbers(t.z, METRES), "colour": t.colour} for t in scene.trails],
+        "trails": [_trail(trail, first, last) for trail in scene.trails],
     }
+
+
+def _trail(trail: Trail, first: float, last: float) -> dict[str, Any]:
+    """Return the path of a point between two times; of too many points every so manieth."""
+    inside = np.flatnonzero((trail.time >= first) & (trail.time <= last))
+    kept = inside[:: -(-inside.size // MOST_ON_PATH) or 1]
+    time, x, z = (_numbers(values[kept], digits) for values, digits in ((trail.time, SECONDS), (trail.x, METRES), (trail.z, METRES)))
+    return {"time": time, "x": x, "z": z, "colour": trail.colour}
 
 
 def _space(scene: Space) -> dict[str, Any]:

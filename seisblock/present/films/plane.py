@@ -51,12 +51,20 @@ class Body:
 
 @dataclass(frozen=True, eq=False)
 class Trail:
-    """The path of a point relative to the ground, drawn behind it: x and z, (n,), m."""
+    """The path of a point relative to the ground, drawn behind it as far as it has come, on times of its own: s, x and z, (m,), m."""
 
     name: str
+    time: FloatArray
     x: FloatArray
     z: FloatArray
     colour: str = "#c0392b"
+
+    def until(self, now: float) -> tuple[FloatArray, FloatArray]:
+        """Return the path up to a time, x and z, where the point then is being its end."""
+        past = self.time <= now
+        end = (np.interp(now, self.time, values) for values in (self.x, self.z))
+        x, z = (np.append(values[past], last) for values, last in zip((self.x, self.z), end, strict=True))
+        return x, z
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,9 @@ from seisblock.present.films.film import Build
 from seisblock.present.films.frames import film_frames
 from seisblock.present.films.page import film_page
 
+MOST_IN_GIF = 600
+"""Pictures of a .gif, which holds each of them: at most some 8 MB."""
+
 PAGE_RATE, MOST_MOMENTS = 250.0, 12000
 """Moments a second that a page holds, so that slow motion stays smooth, and at most how many."""
 
@@ -46,6 +49,7 @@ def animate_film(build: Build, span: tuple[float, float], path: Path | str, film
         count = int(min(max((span[1] - span[0]) * rate, 2), MOST_MOMENTS)) + 1
         write_text(target, film_page(build(np.linspace(*span, count)), filming))
         return
-    times, speed = animation.frame_times(*span, slow=filming.slow)
+    most = MOST_IN_GIF if target.suffix.lower() == ".gif" else animation.MOST_FRAMES
+    times, speed = animation.frame_times(*span, slow=filming.slow, most=most)
     film = build(np.asarray(times))
     animation.animate(film_frames(film, speed, filming), target)

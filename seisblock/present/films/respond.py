@@ -44,7 +44,7 @@ def respond_film(response: Response[RespondOutcome], times: FloatArray, *, gal: 
             shift=ground_shift(motion, times),
             bodies=(Body((Piece(outline),), block.centroid_offset + x, z, lean),),
             floors=(rectangle(-wide, wide, -block.height, 0.0),),
-            trails=(Trail(tell("centre of gravity"), block.centroid_offset + x, z),),
+            trails=(Trail(tell("centre of gravity"), response.time, block.centroid_offset + response["displacement"], response["height"]),),
         ),
         strips=(
             ground_strip(motion, (-level, level), gal=gal),

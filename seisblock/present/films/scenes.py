@@ -43,7 +43,7 @@ class PlaneActor:
         axis.set_xlim(left, right)
         axis.set_ylim(bottom, top)
         if moving:
-            axis.axis("off")
+            _bare(axis)
         else:
             canvas.dress(axis)
             canvas.label(axis, "x (m)", "z (m)")
@@ -60,16 +60,17 @@ class PlaneActor:
         for shape in (*self.floors, *(shape for _, _, shape in self.pieces)):
             axis.add_patch(shape)
         self.trails = [(trail, axis.plot([], [], color=trail.colour, linewidth=1.2)[0]) for trail in scene.trails]
+        self.key: list[Any] = []
         if not moving and scene.trails:
             for trail, line in self.trails:
                 line.set_label(trail.name)
-            axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", loc="upper right")
+            self.key = [axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", loc="upper right")]
 
     @property
     def artists(self) -> Sequence[Any]:
         """What is drawn anew in each picture."""
         ticks = [self.ticks] if self.ticks is not None else []
-        return [*self.floors, *ticks, *(patch for _, _, patch in self.pieces), *(line for _, line in self.trails)]
+        return [*self.floors, *ticks, *(patch for _, _, patch in self.pieces), *(line for _, line in self.trails), *self.key]
 
     def place(self, index: int, time: float) -> None:
         """Put everything where it is in a picture."""
@@ -81,7 +82,8 @@ class PlaneActor:
         for body, piece, patch in self.pieces:
             patch.set_xy(body.placed(piece.corners, index) + shift)
         for trail, line in self.trails:
-            line.set_data(trail.x[: index + 1] + shift[0], trail.z[: index + 1])
+            x, z = trail.until(time)
+            line.set_data(x + shift[0], z)
 
 
 class SpaceActor:
@@ -91,7 +93,7 @@ class SpaceActor:
         self.scene = scene
         left, right, bottom, top = scene.extent()
         axis.set_aspect("equal")
-        axis.axis("off")
+        _bare(axis)
         axis.set_xlim(left, right)
         axis.set_ylim(bottom, top)
         self.floor = PolyCollection([], facecolors="0.90", edgecolors="0.75", linewidths=0.8)
@@ -121,6 +123,12 @@ class SpaceActor:
         for dots, springs in ((self.hidden, [behind] if behind else []), (self.corners, before)):
             dots.set_offsets(np.array([on_picture(spring.top[index] + moved) for spring in springs]).reshape(-1, 2))
             dots.set_facecolor([canvas.ACCENT if spring.lifted[index] else "0.25" for spring in springs])
+
+
+def _bare(axis: Axes) -> None:
+    """Take everything off a panel but what is put into it."""
+    axis.axis("off")
+    axis.set(xticks=[], yticks=[])
 
 
 def _coil(foot: FloatArray, height: float, free: float) -> FloatArray:

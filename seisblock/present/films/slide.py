@@ -36,6 +36,7 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray, *, gal: bool
     motion = response.motion
     slip = at(times, response.time, response["displacement"])
     x, z, turn = place(base, slip)
+    path = place(base, response["displacement"])[:2]
     size = max(0.5 * float(np.ptp(slip)), SMALLEST)
     block = Piece(rectangle(-size, size, 0.0, 1.2 * size), "#b5a58a")
     limit = base.mu * float(response.options["gravity_m_s2"])
@@ -48,7 +49,7 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray, *, gal: bool
             shift=ground_shift(motion, times),
             bodies=(Body((block,), x, z, turn),),
             floors=(_floor(base, float(np.abs(slip).max()) + 4.0 * size),),
-            trails=(Trail(tell("object"), x, z),),
+            trails=(Trail(tell("object"), response.time, *path),),
         ),
         strips=(
             ground_strip(motion, (-limit, limit) if level else (), gal=gal),

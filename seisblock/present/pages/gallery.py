@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -33,13 +34,14 @@ class Mark:
 
 @dataclass(frozen=True)
 class Overlay:
-    """Computed against expected: points with whether they agree, the ends of both axes, what stands below and beside."""
+    """Computed against expected: points with whether they agree, the ends of both axes, what stands below, beside and under all."""
 
     points: tuple[tuple[float, float, bool], ...]
     first: str
     last: str
     below: str
     beside: str
+    caption: str
     side: float = SIDE
     margin: float = MARGIN
     span: float = SIDE - MARGIN - 8.0
@@ -60,12 +62,36 @@ def gallery(results: Sequence[CaseResult]) -> str:
         subtitles=[
             tell("Computed on this machine by seisblock validate; a tolerance is half the last printed digit, round-off, or stated.")
         ],
+        lead=_lead(results),
         columns=[tell(name) for name in COLUMNS],
         tiles=[_tile(paper, mine) for paper, mine in _by_paper(results)],
         kinds=_kinds(results),
         differing=list(_rows(differing, place=True)),
         papers=[_paper(paper, mine) for paper, mine in _by_paper(results)],
     )
+
+
+def _lead(results: Sequence[CaseResult]) -> str:
+    """Return what the page comes to, in a sentence."""
+    counted = counts(results)
+    papers = len(list(_by_paper(results)))
+    text = noted("{all} statements of {papers} papers: {holds} hold, {differs} differ as explained, {fails} fail.")
+    return tell(text, all=len(results), papers=papers, **counted)
+
+
+def anchor(paper: str, place: str) -> str:
+    """Return by which name a place of a paper is linked to.
+
+    Parameters
+    ----------
+    paper, place : str
+
+    Examples
+    --------
+    >>> anchor("Fujino1978", "eq. (1) against (5)")
+    'Fujino1978-eq-1-against-5'
+    """
+    return "-".join((paper, *re.findall(r"\w+", place)))
 
 
 def _by_paper(results: Sequence[CaseResult]) -> Iterator[tuple[str, list[CaseResult]]]:
@@ -96,6 +122,7 @@ def _paper(paper: str, results: Sequence[CaseResult]) -> dict[str, Any]:
     return {
         "key": paper,
         "reference": REFERENCES[paper].text() if paper in REFERENCES else "",
+        "contents": [(anchor(paper, place), place) for place in places],
         "places": [_place(place, [result for result in results if result.case.place == place]) for place in places],
     }
 
@@ -105,6 +132,7 @@ def _place(place: str, results: Sequence[CaseResult]) -> dict[str, Any]:
     overlays = [_overlay(unit, results) for unit in dict.fromkeys(result.case.unit for result in results)]
     return {
         "name": place,
+        "anchor": anchor(results[0].case.paper, place),
         "picture": _field_test() if any(result.case.key.startswith(FIELD_TEST) for result in results) else None,
         "overlays": [overlay for overlay in overlays if overlay is not None],
         "rows": list(_rows(results)),
@@ -123,14 +151,16 @@ def _field_test() -> Picture:
 
 
 def _largest(results: Sequence[CaseResult]) -> str:
-    """Return the largest difference in words."""
+    """Return the largest difference of several in words."""
     worst = max(results, key=_tolerances)
+    if len(results) == 1:
+        return ""
     if not worst.error:
         return tell("Largest difference: none.")
     size = f"{short(worst.error, 3)} {worst.case.unit if worst.case.unit != '1' else ''}".strip()
     if math.isfinite(_tolerances(worst)):
         size = tell("{size}, {share:.2g} of its tolerance", size=size, share=_tolerances(worst))
-    return tell("Largest difference: {size}.", size=f"{size} ({tell(worst.case.quantity)})" if len(results) > 1 else size)
+    return tell("Largest difference: {size}.", size=f"{size} ({tell(worst.case.quantity)})")
 
 
 def _tolerances(result: CaseResult) -> float:
@@ -181,6 +211,7 @@ def _overlay(unit: str, results: Sequence[CaseResult]) -> Overlay | None:
         tuple((MARGIN + at(x), 8 + Overlay.span - at(y), verdict != "differs") for x, y, verdict in points),
         short(min(values), 3),
         short(max(values), 3),
-        tell("expected{unit}; hollow: differs", unit=named),
+        tell("expected{unit}", unit=named),
         tell("computed{unit}", unit=named),
+        tell("{count} values of one kind: on the line computed and expected are the same; hollow ones differ.", count=len(points)),
     )

@@ -40,12 +40,14 @@ def report(found: Assessment, *, command: str = "") -> str:
         The command line that made it, for the provenance.
     """
     record = found.record
-    about = "  ".join(part for part in (told_time(record, record.start), f"{record.samples} × {record.dt:g} s", record.format) if part)
+    about = " · ".join(part for part in (told_time(record, record.start), f"{record.samples} × {record.dt:g} s", record.format) if part)
     return page(
         "report.html",
         tell("What {name} does to what stands there", name=site_of(record).label or record.source or tell("record")),
-        subtitles=[about, history(record) if record.history else ""],
+        subtitles=[about],
+        processed=history(record) if record.history else "",
         foot=", ".join(found.citations),
+        contents=_contents(found),
         doubts=[tell(doubt) for doubt in doubts([record])],
         verdicts=[_tile(body) for body in found.bodies],
         record=_record(found),
@@ -54,6 +56,12 @@ def report(found: Assessment, *, command: str = "") -> str:
         references=[REFERENCES[key].text() for key in found.citations],
         limits=tell(words.LIMITS),
     )
+
+
+def _contents(found: Assessment) -> list[tuple[str, str]]:
+    """Return the sections of the page: where each is, and its name."""
+    bodies = [(f"body-{number}", tell(body.subject.name)) for number, body in enumerate(found.bodies, start=1)]
+    return [("record", tell("The record")), *bodies, ("origin", tell("Where this comes from"))]
 
 
 def _of(body: BodyAssessment, kind: str) -> list[Effect]:
@@ -132,21 +140,21 @@ def _models(body: BodyAssessment) -> list[list[str]]:
 def _section(found: Assessment, body: BodyAssessment, kind: str) -> dict[str, Any]:
     """Return one kind of motion: in words, then in pictures."""
     effects = _of(body, kind)
-    # uplift has a panel per corner: the worst component is enough to see
-    shown = [max(effects, key=words.severity)] if kind == "uplift" else effects
+    worst = max(effects, key=words.severity)
     return {
         "name": tell(words.SECTIONS[kind]),
         "effects": [
             {"told": strung(words.sentences(effect)), "warnings": [tell(text) for text in effect.response.warnings]} for effect in effects
         ],
-        "pictures": [_picture(effect) for effect in shown if kind in DRAWN],
+        "picture": _picture(worst, of=len(effects)) if kind in DRAWN else None,
         "criteria": _criteria(found, body, effects) if kind == "rock" else None,
     }
 
 
-def _picture(effect: Effect) -> Picture:
-    """Return the figure of one effect."""
-    caption = tell("{name}: {what}", name=effect.response.motion.name, what=tell(words.SECTIONS[effect.kind]))
+def _picture(effect: Effect, *, of: int) -> Picture:
+    """Return the figure of the worst of several effects."""
+    text = noted("{name}: {what}") if of == 1 else noted("{name}, in which it does most: {what}")
+    caption = tell(text, name=effect.response.motion.name, what=tell(words.SECTIONS[effect.kind]))
     return picture(drawn(lambda: figure_of([effect.response])), caption)
 
 
@@ -179,5 +187,5 @@ def _provenance(found: Assessment, command: str) -> list[tuple[str, str]]:
         (tell("processing"), history(record)),
         (tell("gravity"), f"{found.gravity:g} m/s²"),
         (tell("velocity"), tell("high-pass {corner:g} Hz", corner=corner) if corner else NOTHING),
-        (tell("command"), command),
+        (tell("command"), command or tell("none, made in Python")),
     ]

@@ -28,9 +28,11 @@ function view(id, height, box, moving, place) {
   });
   scene.trails.forEach(trail => {
     pen.strokeStyle = trail.colour; pen.lineWidth = 1.6; pen.beginPath();
-    const end = Math.min(Math.ceil(place), film.count - 1), skip = Math.max(1, Math.floor(film.count / 3000));
-    for (let i = 0; i <= end; i += skip) { const [x, y] = put([trail.x[i], trail.z[i]]); i ? pen.lineTo(x, y) : pen.moveTo(x, y); }
-    const [x, y] = put([sample(trail.x, place), sample(trail.z, place)]);
+    let i = 0;
+    for (; i < trail.time.length && trail.time[i] <= now; i++) { const [x, y] = put([trail.x[i], trail.z[i]]); i ? pen.lineTo(x, y) : pen.moveTo(x, y); }
+    const before = Math.max(i - 1, 0), after = Math.min(i, trail.time.length - 1), span = trail.time[after] - trail.time[before];
+    const share = span > 0 ? (now - trail.time[before]) / span : 0, between = values => values[before] + share * (values[after] - values[before]);
+    const [x, y] = put([between(trail.x), between(trail.z)]);
     pen.lineTo(x, y); pen.stroke();
     pen.fillStyle = trail.colour; pen.beginPath(); pen.arc(x, y, 3, 0, 7); pen.fill();
   });
