@@ -169,9 +169,8 @@ def _stones(output: Output, cemetery: tuple[str, ...], rate: str | None, asked: 
     def figure() -> Any:
         from seisblock.present.figures.infer import estimate_figure
 
-        return estimate_figure(
-            surveys[0][0], whole, assumptions, [e for e in estimates if not several or e.stones.startswith(surveys[0][0])]
-        )
+        shown = [each for each in estimates if not several or each.stones.startswith(surveys[0][0])]
+        return estimate_figure(surveys[0][0], whole, assumptions, shown, gal=output.gal)
 
     def csv(path: Path) -> None:
         from seisblock.present.files import write_table

@@ -158,7 +158,7 @@ def overturn_rate(
     def figure() -> Any:
         from seisblock.present.figures.cemetery import overturn_rate_figure
 
-        return overturn_rate_figure(stones, found, curve)
+        return overturn_rate_figure(stones, found, curve, gal=output.gal)
 
     def csv(path: Path) -> None:
         from seisblock.present.files import write_table

@@ -193,12 +193,12 @@ def _study(
         output,
         tables=lambda: shown.tables(study, rigid, scaled, reinforced=reinforced),
         csv=lambda path: shown.write(study, path),
-        figure=lambda: _draw(study, rigid, scaled, reinforced=reinforced),
+        figure=lambda: _draw(study, rigid, scaled, reinforced=reinforced, gal=output.gal),
     )
 
 
-def _draw(*shown: Any, reinforced: bool) -> Any:
+def _draw(*shown: Any, **choice: Any) -> Any:
     """Return the figure of the study; matplotlib is loaded only for it."""
     from seisblock.present.figures.stack_criterion import figure
 
-    return figure(*shown, reinforced=reinforced)
+    return figure(*shown, **choice)

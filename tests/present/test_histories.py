@@ -1,72 +1,17 @@
 """What a figure shows of a long record is what was computed: each point in view, and one line that names the record."""
 
-import functools
-import itertools
 import re
-from datetime import UTC, datetime
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
-from matplotlib.text import Text
 
-from seisblock import (
-    Block,
-    Contact,
-    Pile,
-    PileStone,
-    SlidingBase,
-    SpringBlock,
-    TwoLayerBlock,
-    solve_jump,
-    solve_respond,
-    solve_rock,
-    solve_slide,
-    solve_stack,
-    solve_uplift,
-)
+from seisblock import Block, SlidingBase, solve_rock, solve_slide
 from seisblock.measures import measure
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.curves import MOST_POINTS, thin
 from seisblock.present.figures.measure import measure_figure
-from seisblock.records import Component, Preparation, Record, motion_of
-from seisblock.records.process import scale
-from seisblock.words import speaking
-
-DT, SAMPLES = 0.01, 30_000
-
-
-@functools.cache
-def record():
-    """Return 300 s at 100 Hz, three components, of which some twenty seconds shake."""
-    rng = np.random.default_rng(11)
-    time = DT * np.arange(SAMPLES)
-    envelope = np.where(time < 50.0, 0.0, ((time - 50.0) / 4.0) ** 2 * np.exp(-(time - 50.0) / 3.0)) + 1e-4
-    f = np.fft.rfftfreq(SAMPLES, DT)
-    parts = []
-    for code, peak, middle in (("NS", 4.5, 1.3), ("EW", 3.6, 1.0), ("UD", 1.4, 4.0)):
-        shape = f**2 / ((f**2 - middle**2) ** 2 + (1.2 * middle * f) ** 2 + 1e-9)
-        values = np.fft.irfft(np.fft.rfft(rng.standard_normal(SAMPLES)) * shape, SAMPLES) * envelope
-        parts.append(Component(code, values * peak / np.abs(values).max()))
-    told = {"clock": "JST", "station_name": "小さな町 $a_b$"}
-    return Record(tuple(parts), DT, station="X012", start=datetime(2024, 1, 1, 7, 10, tzinfo=UTC), metadata=told)
-
-
-def motion(component="NS", factor=1.0):
-    return motion_of(scale(record(), factor), component)
-
-
-PAVILION = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
-STONES = Pile("two", (PileStone("base", 0.5, 0.5, 0.2), PileStone("sao", 0.25, 0.25, 0.7, on="base")))
-
-SOLVED = {
-    "respond": lambda c: solve_respond(Block(0.45, 1.8), motion(c), mu=0.3),
-    "rock": lambda c: solve_rock(Block(0.3, 0.9), motion(c)),
-    "slide": lambda c: solve_slide(SlidingBase(0.15), motion(c)),
-    "jump": lambda c: solve_jump(PAVILION, motion(c, 1.6), contact=Contact(mu=0.18)),
-    "uplift": lambda c: solve_uplift(SpringBlock.from_frequency(1.0, 1.0, 2.0, frequency_vertical=6.0, beta=0.7), motion(c)),
-    "stack": lambda c: solve_stack(STONES, motion(c)),
-}
+from seisblock.records import Preparation, motion_of
+from tests.present.long_record import DT, SAMPLES, SOLVED, motion, record, response
 
 DRAWN = {
     "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ/α": r["rotation"] / min(r.body.slendernesses)},
@@ -77,11 +22,6 @@ DRAWN = {
     "stack": lambda r: {"tilt θ (deg)": np.degrees(r["sao_tilt"]), "slip s (mm)": 1e3 * r["sao_slip"]},
 }
 """What each model's figure shows of its response, by the label of the panel's axis."""
-
-
-@functools.cache
-def response(model, component="NS"):
-    return SOLVED[model](component)
 
 
 def deviation(axis, line, time, values):
@@ -163,64 +103,6 @@ def test_thinning_keeps_extremes_and_gaps():
         if not np.isnan(part).all():
             assert np.nanmin(kept) == np.nanmin(part) and np.nanmax(kept) == np.nanmax(part)
     assert np.isnan(y[(x >= 20_000) & (x < 20_400)]).all()
-
-
-def figures():
-    """Yield every figure of a time history, with its name."""
-    for model in SOLVED:
-        yield model, lambda model=model: figure_of([response(model)])
-    yield "respond, two", lambda: figure_of([response("respond", c) for c in ("NS", "EW")])
-    yield "measure", lambda: measure_figure(record(), measure(record()))
-
-
-FIGURES = dict(figures())
-
-
-@pytest.mark.parametrize("lang", ["en", "ja"])
-@pytest.mark.parametrize("name", FIGURES)
-def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
-    """F3: every text that is drawn stands by itself, within the figure."""
-    with speaking(lang):
-        figure = FIGURES[name]()
-        figure.canvas.draw()
-    renderer = figure.canvas.get_renderer()
-    drawn = [text for text in visible_texts(figure) if text.get_text().strip()]
-    boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in drawn]
-    width, height = figure.bbox.width, figure.bbox.height
-    outside = [told for told, box in boxes if box.x0 < -2 or box.y0 < -2 or box.x1 > width + 2 or box.y1 > height + 2]
-    assert not outside
-    overlapping = [(a, b) for (a, one), (b, other) in itertools.combinations(boxes, 2) if shared(one, other) > 0.05]
-    assert not overlapping
-
-
-def visible_texts(figure: Figure):
-    """Yield the texts that a reader sees."""
-    for axis in figure.axes:
-        for text in axis.findobj(Text):
-            low, high = axis.get_xlim()
-            if text in axis.get_xticklabels() and not low <= text.get_position()[0] <= high:
-                continue
-            bottom, top = axis.get_ylim()
-            if text in axis.get_yticklabels() and not min(bottom, top) <= text.get_position()[1] <= max(bottom, top):
-                continue
-            if text.get_visible():
-                yield text
-    yield from figure.texts
-
-
-def shared(one, other):
-    """Return how much of the smaller box lies in the other."""
-    wide, high = min(one.x1, other.x1) - max(one.x0, other.x0), min(one.y1, other.y1) - max(one.y0, other.y0)
-    return max(wide, 0.0) * max(high, 0.0) / min(one.width * one.height, other.width * other.height)
-
-
-@pytest.mark.parametrize("name", FIGURES)
-def test_the_title_says_which_record(name):
-    """F3: station, local time and directions stand above every figure; a name is text, not mathematics (R15)."""
-    figure = FIGURES[name]()
-    figure.canvas.draw()
-    assert figure.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST")
-    assert not figure.heading.get_parse_math()
 
 
 def test_the_title_says_what_was_done():

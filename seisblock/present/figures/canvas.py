@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from matplotlib.transforms import ScaledTranslation
 
 from seisblock.errors import OutputError
 from seisblock.present.figures.fonts import set_letters
@@ -31,11 +32,20 @@ DPI = 200
 SMALLEST_TITLE = 6.5
 """Points; a longer title is cut."""
 
+SMALLEST_LETTERS = 0.72
+"""Of their usual size: 5 points, which a journal still prints, for those that are 7."""
+
 INCH = 0.0254
 """m."""
 
 MOST_PIXELS = 20_000
 """Longest side of a picture."""
+
+TICKS = 8
+"""Size of the letters of an axis, points."""
+
+ABOVE = 0.99
+"""Height at which a legend stands over its panel, of the panel's."""
 
 SUFFIXES = (".png", ".svg", ".pdf")
 
@@ -48,6 +58,7 @@ class Sheet(Figure):
         FigureCanvasAgg(self)
         self.spoken = language()
         self.heading: Text | None = None
+        self.narrowed = False
 
     def entitle(self, text: str) -> None:
         """Put a line above all panels; it is text, never mathematics."""
@@ -59,7 +70,38 @@ class Sheet(Figure):
         """Draw, in fonts that hold the letters."""
         with set_letters(self, self.spoken):
             self._fit_title(renderer)
+            if self.narrowed:
+                self._lift_legends(renderer)
             super().draw(renderer)
+
+    def resize(self, width: float, height: float) -> None:
+        """Take another size, inch; where it is narrower, letters are smaller, and a legend that a title would touch stands above it."""
+        share = max(min(width / self.get_figwidth(), 1.0), SMALLEST_LETTERS)
+        self.set_size_inches(width, height)
+        self.narrowed = self.narrowed or share < 1.0
+        for text in self.findobj(Text):
+            text.set_fontsize(share * float(text.get_fontsize()))
+        for each in self.axes:
+            for ruler in (each.xaxis, each.yaxis):
+                usual = ruler.get_tick_params().get("labelsize", TICKS)
+                ruler.set_tick_params(labelsize=share * float(usual))
+
+    def _lift_legends(self, renderer: Any) -> None:
+        """Put each legend that lies on its panel's title above it."""
+        engine = self.get_layout_engine()
+        if engine is not None:
+            engine.execute(self)
+        for each in self.axes:
+            key = each.get_legend()
+            if key is None:
+                continue
+            box = key.get_window_extent(renderer)
+            titles = [text for text in each.findobj(Text) if text.get_text() and text.get_text() == each.get_title(loc="left")]
+            for title in titles:
+                over = title.get_window_extent(renderer)
+                if box.overlaps(over.expanded(1.0, 0.5)):
+                    up = ScaledTranslation(0.0, (over.y1 - box.y0) / self.dpi, self.dpi_scale_trans)
+                    key.set_bbox_to_anchor((1.0, ABOVE), transform=each.transAxes + up)
 
     def _fit_title(self, renderer: Any) -> None:
         """Make the title as much smaller as it must be, and cut its end off where that is too small to read."""
@@ -100,7 +142,7 @@ def dress(axis: Axes) -> None:
     axis.grid(True, color="0.9", linewidth=0.6)
     axis.set_axisbelow(True)
     axis.spines[["top", "right"]].set_visible(False)
-    axis.tick_params(labelsize=8)
+    axis.tick_params(labelsize=TICKS)
 
 
 def label(axis: Axes, x: str = "", y: str = "") -> None:
@@ -140,7 +182,7 @@ def threshold(axis: Axes, levels: Sequence[float], text: str = "") -> None:
 def legend(axis: Axes, **placement: Any) -> None:
     """Add a small legend above the panel, where it hides nothing, when there is something to name."""
     if axis.get_legend_handles_labels()[0]:
-        where = {"loc": "lower right", "bbox_to_anchor": (1.0, 0.99), "borderaxespad": 0.0, "ncols": 5, **placement}
+        where = {"loc": "lower right", "bbox_to_anchor": (1.0, ABOVE), "borderaxespad": 0.0, "ncols": 5, **placement}
         axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", **where)
 
 
@@ -162,7 +204,11 @@ def fitted(figure: Figure, *, size: tuple[float, float] | None = None, dpi: int 
         If that makes more pixels than a picture can hold.
     """
     if size is not None:
-        figure.set_size_inches(size[0] / INCH, size[1] / INCH)
+        wide, high = (side / INCH for side in size)
+        if isinstance(figure, Sheet):
+            figure.resize(wide, high)
+        else:
+            figure.set_size_inches(wide, high)
     figure.set_dpi(dpi)
     wide, high = figure.get_size_inches() * dpi
     if max(wide, high) > MOST_PIXELS:

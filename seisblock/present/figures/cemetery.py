@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
-from seisblock.present.figures.canvas import ACCENT, INPUT, label, legend, new_figure
+from seisblock.present.figures.canvas import ACCENT, INPUT, acceleration_unit, label, legend, new_figure, panel_title
+from seisblock.present.figures.heading import BETWEEN, called, heading_over
 from seisblock.records import Record
 from seisblock.studies.cemetery.judgement import LARGER, CemeteryRate, Reinforcement
 from seisblock.studies.cemetery.rate import FREQUENCIES, CurvePoint, overturning_rate, rate_curve
@@ -53,17 +54,18 @@ def proportions(axis: Axes, cemetery: Cemetery, threshold: float | None = None) 
     legend(axis, loc="upper right", bbox_to_anchor=(1.0, 1.0), ncols=1)
 
 
-def rates(axis: Axes, curve: Iterable[CurvePoint], *, frequencies: Sequence[float] = FREQUENCIES) -> None:
+def rates(axis: Axes, curve: Iterable[CurvePoint], *, gal: bool = True, frequencies: Sequence[float] = FREQUENCIES) -> None:
     """Draw the rate against PGA for each frequency."""
+    unit, name = acceleration_unit(gal=gal)
     points = list(curve)
     for frequency in dict.fromkeys(point.frequency_hz for point in points):
-        pga = np.array([p.pga_m_s2 for p in points if p.frequency_hz == frequency]) / GAL
+        pga = np.array([p.pga_m_s2 for p in points if p.frequency_hz == frequency]) / unit
         rate = np.array([p.rate for p in points if p.frequency_hz == frequency])
         index = list(frequencies).index(frequency) if frequency in frequencies else len(LINES) - 1
         colour, dashes = LINES[index % len(LINES)]
         axis.plot(pga, rate, label=f"{frequency:.3g} Hz", linewidth=1.1, color=colour, linestyle=dashes)
     axis.set_ylim(-0.02, 1.02)
-    label(axis, x=tell("PGA (gal)"), y=tell("overturning rate"))
+    label(axis, x=tell("PGA ({unit})", unit=name), y=tell("overturning rate"))
 
 
 def _key(axis: Axes) -> None:
@@ -72,7 +74,11 @@ def _key(axis: Axes) -> None:
 
 
 def overturn_rate_figure(
-    cemetery: Cemetery, groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]], curve: Sequence[CurvePoint]
+    cemetery: Cemetery,
+    groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]],
+    curve: Sequence[CurvePoint],
+    *,
+    gal: bool = True,
 ) -> Figure:
     """Return the figure of ``overturn-rate``: the stones, the curves and the points of a record, and the same with dowels.
 
@@ -83,30 +89,33 @@ def overturn_rate_figure(
         Of records' components, or of bare numbers; may be empty.
     curve : sequence of CurvePoint
         Drawn where there is no result.
+    gal : bool
+        Unit of accelerations, else m/s^2.
     """
-    shown = [(_name(record, each, len(groups) > 1), each) for record, results in groups for each in results if each.component != LARGER]
+    records = [record for record, _ in groups]
+    judged = [(record, each) for record, results in groups for each in results if each.component != LARGER]
+    shown = [(_name(record, each, records), each) for record, each in judged]
     governing = max((each for _, each in shown), key=lambda each: each.rate, default=None)
     compared = governing is not None and governing.reinforced is not None
     columns = 3 if compared else 2
-    title = tell("{name}: {stones} stones", name=cemetery.name, stones=cemetery.size)
+    stones = tell("{name}: {stones} stones", name=cemetery.name, stones=cemetery.size)
+    title = BETWEEN.join(part for part in (heading_over(records, [each.component or "" for _, each in judged]), stones) if part)
     figure, axes = new_figure(1, columns=columns, width=4.2 * columns + 1.2, height=3.9, title=title)
     proportions(axes[0], cemetery, governing.threshold_ratio if governing else None)
-    _panel(axes[1], [(name, each, each) for name, each in shown], governing, curve)
+    _panel(axes[1], [(name, each, each) for name, each in shown], governing, curve, gal=gal)
     if governing is not None and governing.reinforced is not None:
         after = [(name, each, each.reinforced) for name, each in shown if each.reinforced is not None]
-        _panel(axes[2], after, governing.reinforced, curve)
-        axes[1].set_title(tell("as surveyed"), fontsize=9, loc="left")
+        _panel(axes[2], after, governing.reinforced, curve, gal=gal)
+        panel_title(axes[1], tell("as surveyed"))
         held = tell("{stones} of {all} stones reinforced", stones=governing.reinforced.reinforced_stones, all=cemetery.size)
-        axes[2].set_title(held, fontsize=9, loc="left")
+        panel_title(axes[2], held)
     _key(axes[-1])
     return figure
 
 
-def _name(record: Record | None, each: CemeteryRate, several: bool) -> str:
+def _name(record: Record | None, each: CemeteryRate, records: Sequence[Record | None]) -> str:
     """Return what a point is called before its frequency."""
-    if record is None:
-        return ""
-    return f"{record.station or record.source} {each.component}, " if several else f"{each.component}, "
+    return "" if record is None else f"{called(record, each.component or '', records)}, "
 
 
 def _panel(
@@ -114,15 +123,18 @@ def _panel(
     shown: Sequence[tuple[str, CemeteryRate, CemeteryRate | Reinforcement]],
     governing: CemeteryRate | Reinforcement | None,
     curve: Sequence[CurvePoint],
+    *,
+    gal: bool,
 ) -> None:
     """Draw the curves, those of the results in colour, and the rate of each result with its interval."""
+    unit, _ = acceleration_unit(gal=gal)
     own = {each.equivalent_frequency_hz for _, each, _ in shown}
-    rates(axis, [p for p in (governing.curve if governing else curve) if p.frequency_hz not in own])
+    rates(axis, [p for p in (governing.curve if governing else curve) if p.frequency_hz not in own], gal=gal)
     for index, (name, each, found) in enumerate(shown):
         points = [p for p in found.curve if p.frequency_hz == each.equivalent_frequency_hz]
         thick = 1.8 if found is governing else 0.9
-        axis.plot([p.pga_m_s2 / GAL for p in points], [p.rate for p in points], color=ACCENT, linewidth=thick, zorder=3)
-        (low, high), pga = found.rate_interval, each.pga_m_s2 / GAL
+        axis.plot([p.pga_m_s2 / unit for p in points], [p.rate for p in points], color=ACCENT, linewidth=thick, zorder=3)
+        (low, high), pga = found.rate_interval, each.pga_m_s2 / unit
         axis.errorbar(
             [pga],
             [found.rate],

@@ -24,20 +24,49 @@ def heading(record: Record | None, directions: Sequence[str] = ()) -> str:
     record : Record or None
     directions : sequence of str
     """
-    if record is None:
-        return listed(map(_direction, dict.fromkeys(directions)))
-    site = site_of(record)
-    name = next((name for name in (site.label, site.code, record.source) if name and has_letters(name)), tell("record"))
-    parts = (name, told_time(record, record.start), listed(map(_direction, dict.fromkeys(directions))), "; ".join(_brief(record.history)))
-    return BETWEEN.join(plain_text(part) for part in parts if part)
+    return heading_over([record], directions)
 
 
 def heading_of(motions: Sequence[Motion]) -> str:
-    """Return the line of the motions of one record."""
-    return heading(motions[0].record, [motion.name for motion in motions])
+    """Return the line of some motions."""
+    return heading_over([motion.record for motion in motions], [motion.name for motion in motions])
 
 
-def _direction(name: str) -> str:
+def heading_over(records: Sequence[Record | None], directions: Sequence[str] = ()) -> str:
+    """Return the line of what is drawn of some records; of several the names and the directions alone, for each has its own time."""
+    there = _different(records)
+    along = listed(map(direction, dict.fromkeys(name for name in directions if name)))
+    if len(there) == 1:
+        (record,) = there
+        parts = [name_of(record), told_time(record, record.start), along, "; ".join(_brief(record.history))]
+    else:
+        parts = [listed(map(name_of, there)), along]
+    return BETWEEN.join(plain_text(part) for part in parts if part)
+
+
+def called(record: Record | None, name: str, records: Sequence[Record | None]) -> str:
+    """Return what one of several panels is called: its direction, and its record too where the panels are of several."""
+    told = direction(name)
+    return f"{name_of(record)} {told}" if record is not None and len(_different(records)) > 1 else told
+
+
+def names_of(motions: Sequence[Motion]) -> list[str]:
+    """Return what the panels of some motions are called."""
+    return [called(motion.record, motion.name, [each.record for each in motions]) for motion in motions]
+
+
+def name_of(record: Record) -> str:
+    """Return code and name of the station as far as they can be written, else the file's name."""
+    site = site_of(record)
+    return next((name for name in (site.label, site.code, record.source) if name and has_letters(name)), tell("record"))
+
+
+def _different(records: Sequence[Record | None]) -> list[Record]:
+    """Return the records among these, each once."""
+    return list({id(record): record for record in records if record is not None}.values())
+
+
+def direction(name: str) -> str:
     """Return a component's code, or an azimuth as such."""
     try:
         float(name)

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure, SubFigure
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
+from seisblock.present.figures.heading import names_of
 from seisblock.records import Motion
 from seisblock.typing import FloatArray
 from seisblock.words import tell
@@ -49,6 +50,7 @@ def columns_of(
     heights : sequence of float
         Of the rows, relative; alike when left out.
     """
+    names = names_of(motions)
     partial = [is_part(motion.time, stretch) for motion, stretch in zip(motions, stretches, strict=True)]
     counts = [rows] * len(motions) if isinstance(rows, int) else rows
     tall = list(heights) or [1.0] * max(counts)
@@ -57,7 +59,7 @@ def columns_of(
     columns = []
     for index, (motion, stretch) in enumerate(zip(motions, stretches, strict=True)):
         if partial[index]:
-            strip(figure.add_subplot(grid[0, index]), motion.time, motion.horizontal, stretch, motion.name)
+            strip(figure.add_subplot(grid[0, index]), motion.time, motion.horizontal, stretch, names[index])
         panels: list[Axes] = []
         for row in range(counts[index]):
             panels.append(figure.add_subplot(grid[len(lead) + row, index], sharex=panels[0] if panels else None))

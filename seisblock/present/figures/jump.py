@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
-from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.text.jump import Jumps
 from seisblock.results import Response
@@ -26,8 +26,9 @@ def figure(responses: Jumps, *, gal: bool = True) -> Figure:
     """Return the figure: per component the record with its thresholds (fig. 12), tilt, rise and displacement (fig. 14)."""
     motions = [response.motion for response in responses]
     made = canvas.titled(heading_of(motions), width=4.0 + 4.0 * len(responses), height=8.2)
-    for panels, response in zip(columns_of(made, motions, [stretch(r) for r in responses], 4), responses, strict=True):
-        _column(panels, response, gal=gal)
+    columns = columns_of(made, motions, [stretch(r) for r in responses], 4)
+    for panels, name, response in zip(columns, names_of(motions), responses, strict=True):
+        _column(panels, name, response, gal=gal)
     return made
 
 
@@ -41,7 +42,7 @@ def stretch(response: Response[JumpOutcome]) -> Stretch:
     return max(first - margin, float(response.motion.time[0])), last + margin
 
 
-def _column(panels: Sequence[Any], response: Response[JumpOutcome], *, gal: bool) -> None:
+def _column(panels: Sequence[Any], called: str, response: Response[JumpOutcome], *, gal: bool) -> None:
     """Draw one component's four panels."""
     motion, outcome = response.motion, response.outcome
     unit, name = canvas.acceleration_unit(gal=gal)
@@ -54,6 +55,6 @@ def _column(panels: Sequence[Any], response: Response[JumpOutcome], *, gal: bool
     for panel in panels:
         canvas.shade(panel, response.phases, COLOURS, names=panel is panels[0])
     canvas.legend(panels[0])
-    canvas.panel_title(panels[0], tell("{name}: {what}", name=motion.name, what=tell(response.body.name)))
+    canvas.panel_title(panels[0], tell("{name}: {what}", name=called, what=tell(response.body.name)))
     for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), *map(tell, QUANTITIES)), strict=True):
         canvas.label(panel, y=text)

@@ -112,7 +112,7 @@ def _draw_fourier(axis: Axes, record: Record, parts: list[Component], smoothing_
     _logarithmic(axis)
     label(axis, x=tell("f (Hz)"), y=f"|A| ({name})")
     axis.set_title(tell("Fourier amplitude, Parzen {width:g} Hz", width=smoothing_hz), fontsize=8, loc="left")
-    legend(axis, loc="lower center")
+    legend(axis)
 
 
 def _draw_response(axis: Axes, record: Record, parts: list[Component], *, gal: bool) -> None:
@@ -124,7 +124,7 @@ def _draw_response(axis: Axes, record: Record, parts: list[Component], *, gal: b
     _logarithmic(axis)
     label(axis, x=tell("T (s)"), y=f"Sₐ ({name})")
     axis.set_title(tell("Response spectrum, damping {damping:g} %", damping=100 * DAMPING), fontsize=8, loc="left")
-    legend(axis, loc="lower center")
+    legend(axis)
 
 
 def _styles(count: int) -> list[tuple[str, object]]:

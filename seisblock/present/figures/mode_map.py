@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
 from seisblock.present.figures import canvas
-from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.spectrum import edges, log_edges, log_ticks
 from seisblock.present.text.mode_map import Maps, by_size
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
@@ -43,11 +43,10 @@ JUMP: dict[str, Any] = {"color": "black", "linewidth": 1.1, "linestyle": (0, (4,
 
 def figure(maps: Maps) -> Figure:
     """Return the figure: per component a map, coloured by the mode that governs, with the closed-form limits of initiation."""
-    made, axes = canvas.new_figure(
-        1, columns=len(maps), width=1.2 + 4.6 * len(maps), height=5.2, sharey=True, title=heading_of([motion for motion, _ in maps])
-    )
+    motions = [motion for motion, _ in maps]
+    made, axes = canvas.new_figure(1, columns=len(maps), width=1.2 + 4.6 * len(maps), height=5.2, sharey=True, title=heading_of(motions))
     seen = sorted({int(index) for _, found in maps for index in np.unique(found.governing)})
-    for axis, (motion, found) in zip(axes, maps, strict=True):
+    for axis, name, (_, found) in zip(axes, names_of(motions), maps, strict=True):
         sizes = by_size(found)
         x, y = edges(found.mu), log_edges(found.size_m) if sizes else edges(found.b_over_h)
         colours = ListedColormap([COLOURS[mode] for mode in GOVERNING])
@@ -63,7 +62,7 @@ def figure(maps: Maps) -> Figure:
         _name_regions(axis, found, x, y)
         what = tell("2R = {size:.3g} m", size=found.size_m[0]) if not sizes else tell("b/h = {ratio:.3g}", ratio=found.b_over_h[0])
         push = tell("A = {ratio:.2f} at {time:.1f} s", ratio=found.loading, time=found.loading_time_s)
-        axis.set_title(f"{motion.name}, {what}; {push}", fontsize=9, loc="left", parse_math=False)
+        axis.set_title(f"{name}, {what}; {push}", fontsize=9, loc="left", parse_math=False)
         canvas.label(axis, tell("friction μ"), ("2R (m)" if sizes else "b/h") if axis is axes[0] else "")
     handles: list[Any] = [
         Patch(facecolor=COLOURS[GOVERNING[i]], edgecolor="0.6", linewidth=0.5, label=tell(NAMES[GOVERNING[i]])) for i in seen

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
-from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.results import Phase, Response
 from seisblock.solvers.respond.outcome import RespondOutcome
@@ -40,9 +40,10 @@ def figure(responses: Responds, *, gal: bool = True) -> Figure:
     rows = [len(kinds) for kinds in shown]
     motions, stretches = [response.motion for response in responses], [stretch(response) for response in responses]
     made = canvas.titled(heading_of(motions), width=2.0 + 5.4 * len(responses), height=1.2 + 1.75 * max(rows))
-    for panels, response, kinds, (first, last) in zip(columns_of(made, motions, stretches, rows), responses, shown, stretches, strict=True):
+    columns, names = columns_of(made, motions, stretches, rows), names_of(motions)
+    for panels, name, response, kinds, (first, last) in zip(columns, names, responses, shown, stretches, strict=True):
         for kind, panel in zip(kinds, panels, strict=True):
-            _draw(kind, panel, response, gal=gal)
+            _draw(kind, panel, name, response, gal=gal)
             canvas.shade(panel, seen(response.phases, first, last), COLOURS, names=kind == DISPLACEMENT)
             canvas.legend(panel)
     return made
@@ -57,10 +58,10 @@ def happened(response: Response[RespondOutcome]) -> list[int]:
     return [kind for kind, does in there if does]
 
 
-def _draw(kind: int, panel: Axes, response: Response[RespondOutcome], *, gal: bool) -> None:
+def _draw(kind: int, panel: Axes, called: str, response: Response[RespondOutcome], *, gal: bool) -> None:
     """Draw one panel."""
     if kind == GROUND:
-        _ground(panel, response, gal=gal)
+        _ground(panel, called, response, gal=gal)
     elif kind == DISPLACEMENT:
         _curve(panel, response, 100.0 * response["displacement"], tell("x (cm)"), canvas.SECOND)
     elif kind == LEAN:
@@ -84,7 +85,7 @@ def seen(phases: Sequence[Phase], first: float, last: float) -> list[Phase]:
     return [phase for phase in phases if phase.duration_s >= SEEN * (last - first)]
 
 
-def _ground(axis: Axes, response: Response[RespondOutcome], *, gal: bool) -> None:
+def _ground(axis: Axes, called: str, response: Response[RespondOutcome], *, gal: bool) -> None:
     """Draw the ground acceleration with the levels at which it would slide and rock from rest."""
     unit, name = canvas.acceleration_unit(gal=gal)
     block, options = response.body, response.options
@@ -105,7 +106,7 @@ def _ground(axis: Axes, response: Response[RespondOutcome], *, gal: bool) -> Non
     if limit > 0.0:
         axis.set_ylim(-limit, limit)
     canvas.label(axis, y=f"a ({name})")
-    title = f"{response.motion.name}  " + tell("{name}: {what}", name=tell(block.name), what=tell(response.outcome.outcome))
+    title = f"{called}  " + tell("{name}: {what}", name=tell(block.name), what=tell(response.outcome.outcome))
     canvas.panel_title(axis, title)
 
 

@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
-from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.text.rock import Rockings
 from seisblock.results import Response
@@ -20,26 +20,36 @@ from seisblock.words import tell
 FAR = 0.2
 """Angular velocity over p alpha below which the edge of falling is far away."""
 
+LEAST_LEAN = 1e-4
+"""Lean over alpha that is drawn: what is less, a hair's breadth in a block of a metre, is no motion that one sees."""
+
 COLOURS = {"rocks to +x": "#f4d9c6", "rocks to -x": "#d5dcef", "beyond +alpha": "#e6b39a", "beyond -alpha": "#a9b6dd"}
 
 
 def figure(responses: Rockings, *, gal: bool = True) -> Figure:
     """Return the figure: per component acceleration with its band, lean over alpha with impacts and phases, and the phase plane."""
-    heights = [2.0 if response.outcome.rocking_start_s is None else 3.6 for response in responses]
-    made = canvas.titled(heading_of([response.motion for response in responses]), width=10.5, height=0.5 + sum(heights))
-    for row, response in zip(made.subfigures(len(responses), 1, squeeze=False, height_ratios=heights)[:, 0], responses, strict=True):
-        if response.outcome.rocking_start_s is None:
-            ((above,),) = columns_of(row, [response.motion], [stretch(response)], 1)
-            draw_ground(above, response, gal=gal)
+    heights = [3.6 if leans(response) else 2.0 for response in responses]
+    motions = [response.motion for response in responses]
+    made = canvas.titled(heading_of(motions), width=10.5, height=0.5 + sum(heights))
+    rows = made.subfigures(len(responses), 1, squeeze=False, height_ratios=heights)[:, 0]
+    for row, name, response in zip(rows, names_of(motions), responses, strict=True):
+        if not leans(response):
+            ((above,),) = columns_of(row, [response.motion], [strong_stretch(response.motion)], 1)
+            draw_ground(above, response, name, gal=gal)
             continue
         left, right = row.subfigures(1, 2, width_ratios=(2.6, 1.0))
         ((above, below),) = columns_of(left, [response.motion], [stretch(response)], 2)
         plane = right.add_subplot()
         canvas.dress(plane)
-        draw_ground(above, response, gal=gal)
+        draw_ground(above, response, name, gal=gal)
         draw_lean(below, response)
         _draw_plane(plane, response)
     return made
+
+
+def leans(response: Response[RockOutcome]) -> bool:
+    """Return whether a block leans enough to be seen."""
+    return response.outcome.rocking_start_s is not None and response.outcome.max_rotation_ratio >= LEAST_LEAN
 
 
 def stretch(response: Response[RockOutcome]) -> Stretch:
@@ -52,7 +62,7 @@ def stretch(response: Response[RockOutcome]) -> Stretch:
     return max(float(response.time[0]), start - margin), min(float(response.time[-1]), moving[-1].end_s + margin)
 
 
-def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> None:
+def draw_ground(axis: Any, response: Response[RockOutcome], called: str, *, gal: bool) -> None:
     """Draw the ground acceleration over the band within which the block rests."""
     unit, name = canvas.acceleration_unit(gal=gal)
     outcome, options = response.outcome, response.options
@@ -71,7 +81,7 @@ def draw_ground(axis: Any, response: Response[RockOutcome], *, gal: bool) -> Non
     canvas.legend(axis)
     title = tell(
         "{name}  {body}: α {alpha:.3f} rad, e {restitution:.3f}",
-        name=response.motion.name,
+        name=called,
         body=tell(response.body.name),
         alpha=outcome.slenderness_rad,
         restitution=outcome.restitution,

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
-from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.text.slide import Slides, setting
 from seisblock.results import Response
@@ -23,12 +23,13 @@ def figure(responses: Slides, *, gal: bool = True) -> Figure:
     """Return the figure: a column per direction; acceleration with the friction band, both velocities, relative displacement."""
     motions = [response.motion for response in responses]
     made = canvas.titled(heading_of(motions), width=4.5 + 4.0 * len(responses), height=7.0)
-    for panels, response in zip(columns_of(made, motions, [stretch(r) for r in responses], 3), responses, strict=True):
-        _column(panels, response, gal=gal)
+    columns = columns_of(made, motions, [stretch(r) for r in responses], 3)
+    for panels, name, response in zip(columns, names_of(motions), responses, strict=True):
+        _column(panels, name, response, gal=gal)
     return made
 
 
-def _column(panels: Sequence[Any], response: Response[SlideOutcome], *, gal: bool) -> None:
+def _column(panels: Sequence[Any], called: str, response: Response[SlideOutcome], *, gal: bool) -> None:
     """Draw one direction's three panels."""
     unit, name = canvas.acceleration_unit(gal=gal)
     time, phases = response.time, response.phases
@@ -48,7 +49,7 @@ def _column(panels: Sequence[Any], response: Response[SlideOutcome], *, gal: boo
     for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), tell("velocity (m/s)"), tell("x − z (mm)")), strict=True):
         canvas.label(panel, y=text)
         canvas.legend(panel)
-    canvas.panel_title(top, tell("{name}: {what}", name=response.motion.name, what=setting(response)))
+    canvas.panel_title(top, tell("{name}: {what}", name=called, what=setting(response)))
 
 
 def stretch(response: Response[SlideOutcome]) -> Stretch:

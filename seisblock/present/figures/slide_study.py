@@ -12,13 +12,17 @@ from matplotlib.figure import Figure
 
 from seisblock.criteria.sliding import friction_that_holds, friction_that_stops
 from seisblock.present.figures import canvas
+from seisblock.present.figures.heading import called, heading_over
 from seisblock.present.text.slide_study import PLANE, SYMBOLS, Arrangement, Points, panels_of, value_of
 from seisblock.records import Record, motion_of
 from seisblock.words import noted, tell
 
 SLIP_LABEL = noted("largest slip (m)")
-LEAST_SHADE = 1e-4
-"""Slip, m, below which the plane stays white."""
+LEAST_SHADE, MOST_SHADE = 1e-4, 10.0
+"""Slip, m, below which the plane stays white, and beyond which it is black: it slides on as long as the record lasts."""
+
+DIGITS = 9
+"""Decimals to which a ratio of two frictions is the one that was asked for."""
 
 
 def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length: float | None, gravity: float) -> Figure:
@@ -29,19 +33,44 @@ def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length
     panels = [
         (record, title, part)
         for record, points in zip(records, studies, strict=True)
-        for title, part in panels_of(points, Arrangement.of(points))
+        for name, directed in panels_of(points, Arrangement.of(points))
+        for title, part in _planes(called(record, name, records), directed)
     ]
-    made, axes = canvas.new_figure(1, columns=len(panels), width=2.0 + 4.5 * len(panels), height=4.6, sharey=True)
+    directions = [point.component for points in studies for point in points]
+    made, axes = canvas.new_figure(
+        1, columns=len(panels), width=2.0 + 4.5 * len(panels), height=4.6, sharey=True, title=heading_over(records, directions)
+    )
     for axis, (record, title, part) in zip(axes, panels, strict=True):
-        if all(len({getattr(point, name) for point in part}) >= PLANE for name in ("mu", "slope_deg")):
+        if _is_plane(part):
             _plane(axis, part)
             _criteria(axis, part, record, gravity)
         else:
             _curves(axis, part, slope_length)
-        axis.set_title(title, fontsize=9, loc="left")
+        canvas.panel_title(axis, title)
+    for axis in axes:
+        axis.label_outer()
     if axes[0].get_ylabel() == tell(SLIP_LABEL):
         axes[0].set_ylim(bottom=0.0)
     return made
+
+
+def _is_plane(points: Points) -> bool:
+    """Return whether points are many enough in slope and in friction for a plane."""
+    return all(len({getattr(point, name) for point in points}) >= PLANE for name in ("mu", "slope_deg"))
+
+
+def _planes(title: str, points: Points) -> list[tuple[str, Points]]:
+    """Return the points of one direction; those of a plane apart by what else varies, for one shade holds one slip."""
+    if not _is_plane(points):
+        return [(title, points)]
+    settings = list(dict.fromkeys((round(point.kappa, DIGITS), point.vertical) for point in points))
+    shared = [(len({each[i] for each in settings}) == 1) for i in (0, 1)]
+    parts: list[tuple[str, Points]] = []
+    for kappa, vertical in settings:
+        told = [f"κ {kappa:g}"] * (not shared[0]) + [f"γ {vertical:g}"] * (not shared[1])
+        part = [point for point in points if (round(point.kappa, DIGITS), point.vertical) == (kappa, vertical)]
+        parts.append((", ".join([title, *told]), part))
+    return parts
 
 
 def _curves(axis: Any, points: Points, slope_length: float | None) -> None:
@@ -80,28 +109,30 @@ def _plane(axis: Any, points: Points) -> None:
     for point in points:
         if point.max_slip_m is not None:
             slip[frictions.index(point.mu), slopes.index(point.slope_deg)] = max(point.max_slip_m, LEAST_SHADE)
-    norm = LogNorm(LEAST_SHADE, max(float(np.nanmax(slip)), 100.0 * LEAST_SHADE))
+    most = float(np.nanmax(slip))
+    norm = LogNorm(LEAST_SHADE, min(max(most, 100.0 * LEAST_SHADE), MOST_SHADE))
     mesh = axis.pcolormesh(slopes, frictions, slip, norm=norm, cmap="Greys", shading="nearest")
-    bar = axis.figure.colorbar(mesh, ax=axis, pad=0.02)
+    axis.grid(False)
+    bar = axis.figure.colorbar(mesh, ax=axis, pad=0.02, extend="max" if most > MOST_SHADE else "neither")
     bar.set_label(tell(SLIP_LABEL), fontsize=9)
     bar.ax.tick_params(labelsize=8)
 
 
 def _criteria(axis: Any, points: Points, record: Record, gravity: float) -> None:
-    """Draw what friction holds at rest, what stops a slide, eq. (14), and what starts one in this record, eq. (15)."""
+    """Draw what friction holds at rest, what stops a slide, eq. (14), and what starts one in this record, eq. (15), down or up."""
     angles = np.array([point.slope_deg for point in points])
     frictions = [point.mu for point in points]
     dense = np.linspace(angles.min(), angles.max(), 100)
     axis.plot(dense, np.tan(np.radians(np.abs(dense))), color=canvas.INPUT, linewidth=0.9, label=tell("holds at rest: tan θ"))
-    for kappa in sorted({point.kappa for point in points if point.kappa > 0.0})[:3]:
+    for kappa in sorted({round(point.kappa, DIGITS) for point in points if point.kappa > 0.0}):
         stops = [friction_that_stops(abs(angle), kappa) for angle in dense]
         axis.plot(dense, stops, color=canvas.ACCENT, linewidth=1.1, label=f"(14): tan θ / κ, κ {kappa:g}")
     motion = motion_of(record, points[0].component)
-    for scale, style in zip(list(dict.fromkeys(point.vertical for point in points))[:2], ("-", "--"), strict=False):
-        starts = [friction_that_holds(angle, motion.horizontal / gravity, scale * motion.vertical / gravity).max() for angle in dense]
-        axis.plot(
-            dense, starts, style, color=canvas.SECOND, linewidth=1.1, label=tell("(15): this record") + (f", γ {scale:g}" if scale else "")
-        )
+    for scale in dict.fromkeys(point.vertical for point in points):
+        along, up = motion.horizontal / gravity, scale * motion.vertical / gravity
+        starts = [max(friction_that_holds(sign * angle, sign * along, up).max() for sign in (1, -1)) for angle in dense]
+        told = tell("(15): this record") + (f", γ {scale:g}" if scale else "")
+        axis.plot(dense, starts, color=canvas.SECOND, linewidth=1.1, linestyle=(0, (5, 1.5)), label=told)
     axis.set_ylim(min(frictions), max(frictions))
     canvas.label(axis, x=SYMBOLS["slope_deg"], y=SYMBOLS["mu"])
-    canvas.legend(axis, ncols=3)
+    canvas.legend(axis, loc="lower right", bbox_to_anchor=None, borderaxespad=0.5, ncols=1)

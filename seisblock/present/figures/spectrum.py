@@ -1,4 +1,4 @@
-"""A rocking spectrum in pictures: a heat map with the overturning region."""
+"""A rocking spectrum in pictures: a map of what stands still, what rocks, and how far, and what falls."""
 
 from __future__ import annotations
 
@@ -9,41 +9,63 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from seisblock.present.figures import canvas
+from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.text.spectrum import Spectra
 from seisblock.typing import FloatArray
 from seisblock.words import tell
 
+DASHES = (0, (6, 2, 1, 2))
+
+STILL, ROCKED, FELL = "#f6f6f2", "#c3deee", "#6b1f23"
+"""What stands still, what rocks and stands, what falls: as in a map of modes, apart in grey and to every eye."""
+
+LEAN = LinearSegmentedColormap.from_list("lean", [ROCKED, "#3d6f9e"])
+"""From the first hop to the edge of falling, none of it as light as what stands still or as dark as what falls."""
+
 
 def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
-    """Return the figure: per component a map of size against slenderness, shaded by the lean, the overturning region in full colour."""
-    made, axes = canvas.new_figure(1, columns=len(spectra), width=1.6 + 4.4 * len(spectra), height=4.6, sharey=True)
-    grey = LinearSegmentedColormap.from_list("lean", ["white", "#c9d6e6", "#5d7fa6"])
-    full = ListedColormap([canvas.ACCENT])
-    shaded = None
-    for axis, (motion, found) in zip(axes, spectra, strict=True):
+    """Return the figure: per component a map of size against slenderness of what stands still, rocks (by how far it leans), and falls."""
+    motions = [motion for motion, _ in spectra]
+    made, axes = canvas.new_figure(
+        1, columns=len(spectra), width=1.6 + 4.4 * len(spectra), height=5.0, sharey=True, title=heading_of(motions)
+    )
+    shaded, seen, limits = None, set(), False
+    for axis, name, (motion, found) in zip(axes, names_of(motions), spectra, strict=True):
         x, y = edges(np.degrees(found.slenderness_rad)), log_edges(found.size_m)
-        lean = np.where(found.overturned, np.nan, found.max_rotation_ratio)
-        if kind == "rocking":
-            shaded = axis.pcolormesh(x, y, lean, cmap=grey, vmin=0.0, vmax=1.0, rasterized=True)
-        axis.pcolormesh(x, y, np.where(found.overturned, 1.0, np.nan), cmap=full, rasterized=True)
+        rocked = ~found.overturned & (found.max_rotation_ratio > 0.0)
+        state = np.where(found.overturned, 2, np.where(rocked, 1, 0))
+        seen |= set(np.unique(state).tolist())
+        axis.pcolormesh(x, y, state, cmap=ListedColormap([STILL, ROCKED, FELL]), vmin=-0.5, vmax=2.5, rasterized=True)
+        if kind == "rocking" and rocked.any():
+            lean = np.where(rocked, found.max_rotation_ratio, np.nan)
+            shaded = axis.pcolormesh(x, y, lean, cmap=LEAN, vmin=0.0, vmax=1.0, rasterized=True)
         log_ticks(axis, y)
         still = math.degrees(math.atan(float(np.abs(motion.horizontal).max()) / gravity))
         if x.min() < still < x.max():
-            axis.axvline(still, color=canvas.THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label="PGA = g tan α")
-            canvas.legend(axis, loc="lower right", bbox_to_anchor=(1.0, 0.0))
-        axis.set_title(tell("{name}: red overturns", name=motion.name), fontsize=9, loc="left")
+            axis.axvline(still, color=canvas.THRESHOLD, linewidth=0.8, linestyle=DASHES)
+            limits = True
+        axis.set_title(name, fontsize=9, loc="left", parse_math=False)
         axis.grid(False)
         canvas.label(axis, tell("α (degrees)"), "2R (m)" if axis is axes[0] else "")
         top = axis.secondary_xaxis("top", functions=(_height_over_width, _degrees))
         top.set_xlabel(tell("H/B"), fontsize=8)
-        top.set_xticks([k for k in (1.5, 2, 3, 4, 6, 10) if _degrees(k) >= x.min() and _degrees(k) <= x.max()])
+        ratios = [k for k in (1.5, 2, 3, 4, 6, 10) if x.min() <= _degrees(k) <= x.max()]
+        top.set_xticks(ratios, [f"{k:g}" for k in ratios])
         top.tick_params(labelsize=7)
     if shaded is not None:
         bar = made.colorbar(shaded, ax=axes, shrink=0.85, pad=0.02)
-        bar.set_label(tell("largest lean over α (white: stands still)"), fontsize=8)
+        bar.set_label(tell("largest lean over α"), fontsize=8)
         bar.ax.tick_params(labelsize=7)
+    names = (tell("stands still"), tell("rocks and stands"), tell("falls"))
+    handles: list[Any] = [
+        Patch(facecolor=(STILL, ROCKED, FELL)[index], edgecolor="0.6", linewidth=0.5, label=names[index]) for index in sorted(seen)
+    ]
+    if limits:
+        handles += axes[0].plot([], [], color=canvas.THRESHOLD, linewidth=0.8, linestyle=DASHES, label="PGA = g tan α")
+    made.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=7.5, frameon=False)
     return made
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
-from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import columns_of, strong_stretch
 from seisblock.present.text.stack import NOTICEABLE_SLIP, NOTICEABLE_TILT, Stacks
 from seisblock.results import Response
@@ -27,21 +27,21 @@ def figure(responses: Stacks, *, gal: bool = True) -> Figure:
     """Return the figure: per run the ground acceleration, and tilts and slips of the stones against time."""
     motions, stretches = [response.motion for response in responses], [stretch(response, margin=1.0) for response in responses]
     made = canvas.titled(heading_of(motions), width=3.5 + 4.5 * len(responses), height=6.6)
-    for panels, response in zip(columns_of(made, motions, stretches, 3), responses, strict=True):
-        _column(panels, response, gal=gal)
+    for panels, name, response in zip(columns_of(made, motions, stretches, 3), names_of(motions), responses, strict=True):
+        _column(panels, name, response, gal=gal)
     return made
 
 
-def _column(panels: Sequence[Any], response: Response[StackOutcome], *, gal: bool) -> None:
+def _column(panels: Sequence[Any], called: str, response: Response[StackOutcome], *, gal: bool) -> None:
     """Draw one run's three panels."""
     motion = response.motion
     unit, unit_name = canvas.acceleration_unit(gal=gal)
-    rows = ((tell("up"), 2, "0.75"), (tell("across"), 1, "0.6"), (motion.name or tell("along +x"), 0, canvas.INPUT))
-    for name, row, grey in rows:
+    rows = ((tell("up"), 2, canvas.SECOND), (tell("across"), 1, "0.7"), (tell("along +x"), 0, "0.2"))
+    for name, row, colour in rows:
         values = motion.acceleration[row]
         acts = row == 0 or (row == 1 and response.options["across"]) or (row == 2 and response.options["vertical"])
         if acts and values.any():
-            curve(panels[0], motion.time, values / unit, color=grey, label=name)
+            curve(panels[0], motion.time, values / unit, color=colour, linewidth=0.7, label=name)
     for index, name in enumerate(reversed(response.body.names)):
         style: dict[str, Any] = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": tell(name)}
         curve(panels[1], response.time, np.degrees(response[f"{name}_tilt"]), **style)
@@ -56,7 +56,7 @@ def _column(panels: Sequence[Any], response: Response[StackOutcome], *, gal: boo
         panels[1].text(0.01, 0.95, tell("falls: {stones}", stones=falls), transform=panels[1].transAxes, fontsize=7, va="top")
     canvas.legend(panels[0])
     canvas.legend(panels[1])
-    canvas.panel_title(panels[0], f"+x = {motion.name}: {tell(response.body.name)}")
+    canvas.panel_title(panels[0], f"+x = {called}: {tell(response.body.name)}")
     for panel, text in zip(panels, (tell("a ({unit})", unit=unit_name), tell("tilt θ (deg)"), tell("slip s (mm)")), strict=True):
         canvas.label(panel, y=text)
 

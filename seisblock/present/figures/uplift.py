@@ -13,7 +13,7 @@ from matplotlib.patches import Rectangle
 from seisblock.bodies.spring_block import CORNERS
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
-from seisblock.present.figures.heading import heading_of
+from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.results import Phase, Response
 from seisblock.words import tell
@@ -30,12 +30,12 @@ def record_figure(responses: Sequence[Response[UpliftOutcome]], *, gal: bool = T
     """Return ground motion, four corner displacements with uplift shaded, and a plan of which corner lifted when."""
     columns = len(responses)
     motions, spans = [response.motion for response in responses], [stretch(response) for response in responses]
-    made = canvas.titled(heading_of(motions), width=3.0 + 5.0 * columns, height=12.0)
+    made = canvas.titled(heading_of(motions), width=3.0 + 5.0 * columns, height=11.6)
     above, below = made.subfigures(2, 1, height_ratios=(5.3, 2.6), squeeze=False)[:, 0]
     plans = below.subplots(1, columns, squeeze=False)[0]
     histories = columns_of(above, motions, spans, 5, heights=(1.3, 1, 1, 1, 1))
-    for panels, plan, response, span in zip(histories, plans, responses, spans, strict=True):
-        _motion(panels[0], response, gal=gal)
+    for panels, plan, name, response, span in zip(histories, plans, names_of(motions), responses, spans, strict=True):
+        _motion(panels[0], name, response, gal=gal)
         for i, panel in enumerate(panels[1:]):
             if i:
                 panel.sharey(panels[1])
@@ -55,7 +55,7 @@ def stretch(response: Response[UpliftOutcome]) -> Stretch:
     return max(start, first - margin), min(end, last + margin)
 
 
-def _motion(panel: Axes, response: Response[UpliftOutcome], *, gal: bool) -> None:
+def _motion(panel: Axes, called: str, response: Response[UpliftOutcome], *, gal: bool) -> None:
     """Draw the three components of the ground motion."""
     unit, unit_name = canvas.acceleration_unit(gal=gal)
     motion = response.motion
@@ -66,7 +66,7 @@ def _motion(panel: Axes, response: Response[UpliftOutcome], *, gal: bool) -> Non
             curve(panel, motion.time, values / unit, color=style, label=name, linewidth=0.7)
     canvas.label(panel, y=tell("a ({unit})", unit=unit_name))
     canvas.legend(panel)
-    canvas.panel_title(panel, f"+x = {motion.name or 'x'}: {_size(response)}")
+    canvas.panel_title(panel, f"+x = {called or 'x'}: {_size(response)}")
 
 
 def _size(response: Response[UpliftOutcome]) -> str:
@@ -152,7 +152,7 @@ def _plan(panel: Axes, response: Response[UpliftOutcome], start: float, end: flo
     reach = half_a + 1.3 * body.width
     panel.set_xlim(-reach, reach)
     panel.set_ylim(-half_b - 0.35 * body.depth, half_b + 0.35 * body.depth)
-    panel.set_title(tell("plan: when each corner was in the air, {start:.4g} to {end:.4g} s", start=start, end=end), fontsize=8, loc="left")
+    panel.set_title(tell("plan: when each corner was in the air, {start:.1f} to {end:.1f} s", start=start, end=end), fontsize=8, loc="left")
     canvas.label(panel, x="x (m)", y="y (m)")
 
 

@@ -1,0 +1,170 @@
+"""Every kind of figure, drawn of a record of 300 s in both languages: what a journal would send back is found here first."""
+
+import functools
+import itertools
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.text import Text
+
+from seisblock.present.figures.canvas import SMALLEST_LETTERS, fitted
+from seisblock.words import speaking
+from tests.present.long_record import EVERY, OF_THE_RECORD, drawing_functions
+
+COLUMN = 0.085
+"""Width of a journal's column, m."""
+
+TOUCH = 0.05
+"""Share of a text's box that may lie in another's: boxes are a little larger than letters."""
+
+APART = 0.12
+"""Difference of lightness, of 1, by which two greys are told apart in print."""
+
+UNITS = ("gal", "m/s²")
+
+
+def test_every_kind_of_figure_is_looked_at():
+    """A new function that returns a figure belongs into the list, or nothing here would look at it."""
+    assert {function for function, _ in EVERY.values()} == drawing_functions()
+    assert len(EVERY) >= 30
+
+
+@functools.cache
+def drawn(name, lang="en", *, gal=True):
+    """Return a figure, drawn once."""
+    with speaking(lang):
+        figure = EVERY[name][1](gal)
+        figure.draw_without_rendering()
+    return figure
+
+
+def narrow(name, lang):
+    """Return a figure as wide as a column of a journal for each of its columns, as high as before."""
+    with speaking(lang):
+        figure = EVERY[name][1](True)
+        columns = max(axis.get_subplotspec().get_gridspec().ncols for axis in figure.axes if axis.get_subplotspec())
+        fitted(figure, size=(COLUMN * columns, 0.0254 * figure.get_figheight()), dpi=300)
+        figure.draw_without_rendering()
+    return figure
+
+
+@pytest.mark.parametrize("lang", ["en", "ja"])
+@pytest.mark.parametrize("name", EVERY)
+def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
+    """F3: every text that is drawn stands by itself, within the figure."""
+    assert crowded(drawn(name, lang)) == []
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_a_journals_column_holds_it(name):
+    """At 85 mm a column letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
+    figure = narrow(name, "ja")
+    assert crowded(figure) == []
+    assert min(text.get_fontsize() for text in visible_texts(figure)) >= 6.5 * SMALLEST_LETTERS
+
+
+@pytest.mark.parametrize("name", OF_THE_RECORD)
+def test_the_title_says_which_record(name):
+    """F3, P4: station and local time stand above every figure of a record; a name is text, not mathematics (R15)."""
+    figure = drawn(name)
+    assert figure.heading.get_text().startswith("X012 小さな町 $a_b$   2024-01-01 16:10:00 JST")
+    assert not figure.heading.get_parse_math()
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_accelerations_have_one_unit(name):
+    """F3: gal or m/s², as asked, never both; and what is drawn in m/s² is a hundredth of what is drawn in gal."""
+    for gal, other in ((True, UNITS[1]), (False, UNITS[0])):
+        if not gal and "gal" not in " ".join(map(Text.get_text, visible_texts(drawn(name)))):
+            return
+        if not gal and name in {"a record", "a motion", "response spectrum", "field test", "as fig. 16"}:
+            return  # a notebook's, and the papers': always gal
+        texts = [text.get_text() for text in visible_texts(drawn(name, gal=gal))]
+        assert not [text for text in texts if other in text.split() or f"({other})" in text]
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_no_panel_or_legend_is_empty(name):
+    """F3: what did not happen has neither."""
+    for axis in drawn(name).axes:
+        assert axis.has_data() or axis.get_label() == "<colorbar>"
+        if axis.get_legend():
+            assert all(text.get_text() for text in axis.get_legend().get_texts())
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_what_a_legend_tells_apart_differs_in_grey(name):
+    """F3: no two entries of a legend differ in hue alone: in dash, marker or lightness they do, for every eye and every printer."""
+    figure = drawn(name)
+    keys = [axis.get_legend() for axis in figure.axes if axis.get_legend()] + list(figure.legends)
+    for key in keys:
+        looks = [(text.get_text(), look(handle)) for text, handle in zip(key.get_texts(), key.legend_handles, strict=True)]
+        for (one, (kind, style, light)), (other, (kind_2, style_2, light_2)) in itertools.combinations(looks, 2):
+            assert (kind, style) != (kind_2, style_2) or abs(light - light_2) >= APART, (one, other)
+
+
+def look(handle):
+    """Return of an entry of a legend what does not depend on its hue: what it is, its dashes and marker, its lightness."""
+    if isinstance(handle, Patch):
+        return "patch", None, lightness(handle.get_facecolor())
+    if hasattr(handle, "get_marker"):
+        return "line", (str(handle._dash_pattern), handle.get_marker(), handle.get_linestyle() == "None"), lightness(handle.get_color())
+    colours = handle.get_facecolor() if hasattr(handle, "get_facecolor") else []
+    marker = tuple(np.round(handle.get_paths()[0].vertices, 3).ravel()) if hasattr(handle, "get_paths") and handle.get_paths() else None
+    return type(handle).__name__, marker, lightness(colours[0]) if len(colours) else 0.0
+
+
+def lightness(colour):
+    """Return how light a colour is, CIE L* over 100."""
+    linear = np.array([c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in to_rgb(colour)])
+    y = float(linear @ (0.2126, 0.7152, 0.0722))
+    return (116.0 * np.cbrt(y) - 16.0) / 100.0 if y > 0.008856 else 9.033 * y
+
+
+def test_the_guards_see_what_they_are_for():
+    """A text put on another, one beyond the edge, and two greys alike are found."""
+    figure = EVERY["sliding"][1](True)
+    figure.text(0.5, 0.5, "one text here")
+    figure.text(0.5, 0.505, "another here")
+    figure.text(0.95, 0.7, "beyond the edge of it")
+    figure.draw_without_rendering()
+    assert len(crowded(figure)) == 2
+    assert abs(lightness("#c0392b") - lightness("#1f5a8c")) < APART < lightness("#f4d9c6") - lightness("#c0392b")
+
+
+def crowded(figure: Figure) -> list[object]:
+    """Return the texts that leave the canvas and the pairs that lie on one another."""
+    renderer = figure.canvas.get_renderer()
+    boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in visible_texts(figure)]
+    width, height = figure.bbox.width, figure.bbox.height
+    edge = 0.01 * figure.dpi
+    outside = [told for told, box in boxes if min(box.x0, box.y0) < -edge or box.x1 > width + edge or box.y1 > height + edge]
+    pairs = itertools.combinations(boxes, 2)
+    return [*outside, *((a, b) for (a, one), (b, other) in pairs if shared(one, other) > TOUCH)]
+
+
+def visible_texts(figure: Figure):
+    """Yield the texts that a reader sees, each once."""
+    seen = set()
+    for axis in figure.axes:
+        for text in axis.findobj(Text):
+            low, high = axis.get_xlim()
+            if text in axis.get_xticklabels() and not low <= text.get_position()[0] <= high:
+                continue
+            bottom, top = axis.get_ylim()
+            if text in axis.get_yticklabels() and not min(bottom, top) <= text.get_position()[1] <= max(bottom, top):
+                continue
+            if text.get_visible() and text.get_text().strip() and id(text) not in seen:
+                seen.add(id(text))
+                yield text
+    others = [*figure.texts, *(text for key in figure.legends for text in key.get_texts())]
+    yield from (text for text in others if text.get_text().strip())
+
+
+def shared(one, other):
+    """Return how much of the smaller box lies in the other."""
+    wide, high = min(one.x1, other.x1) - max(one.x0, other.x0), min(one.y1, other.y1) - max(one.y0, other.y0)
+    return max(wide, 0.0) * max(high, 0.0) / min(one.width * one.height, other.width * other.height)
