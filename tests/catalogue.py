@@ -123,13 +123,13 @@ def said_in_source() -> dict[str, str]:
 
 
 def said_in_help() -> dict[str, str]:
-    """Return every text of ``--help``: lines and paragraphs of commands and of their options."""
+    """Return every text of ``--help``: lines and paragraphs of commands, of their arguments and of their options."""
     found: dict[str, str] = {}
     context = click.Context(main)
     for name in ("", *COMMANDS):
         command = main.get_command(context, name) if name else main
         texts = [*paragraphs(command.help or ""), *(COMMANDS[name][1:] if name else ())]
-        texts += [option.help for option in command.params if isinstance(option, click.Option)]
+        texts += [each.help for each in command.params if getattr(each, "help", None)]
         found |= {text: f"help of seisblock {name}".strip() for text in texts if text and text not in found}
     return found
 

@@ -21,6 +21,7 @@ from seisblock.cli.command import lang_option, plainly
 from seisblock.cli.help import Context, rows_of
 from seisblock.cli.language import answering
 from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, printable
+from seisblock.cli.meant import asking, nearest, suggested
 from seisblock.cli.talk import forget, say
 from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import ledger
@@ -94,6 +95,13 @@ class SeisblockGroup(click.Group):
         command: click.Command = getattr(importlib.import_module(module), attribute)
         return command
 
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the command that is named; of one that is not there, ask for the nearest."""
+        try:
+            return super().resolve_command(ctx, args)
+        except click.UsageError as error:
+            raise click.UsageError(asking(error.format_message(), nearest(args[0], COMMANDS)), ctx) from None
+
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Complete the names of commands without importing them."""
         names = [CompletionItem(name, help=tell(text)) for name, (_, text) in COMMANDS.items() if name.startswith(incomplete)]
@@ -127,7 +135,8 @@ class SeisblockGroup(click.Group):
                 sys.stdout.flush()
                 return result
         except SeisblockError as error:
-            click.secho(f"seisblock: {on_a_screen(plain_text(as_options(tell(error.said), ctx)))}", fg="red", err=True)
+            told = suggested(as_options(tell(error.said), ctx), error.said)
+            click.secho(f"seisblock: {on_a_screen(plain_text(told))}", fg="red", err=True)
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
             click.echo(f"\nseisblock: {tell('interrupted; no half-written file is left')}", err=True)

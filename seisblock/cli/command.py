@@ -22,6 +22,19 @@ class Option(click.Option):
         super().__init__(*args, **kwargs)
 
 
+class Argument(click.Argument):
+    """A click argument that the help describes in a section, as it does options."""
+
+    def __init__(self, *args: Any, section: str = "Other", **kwargs: Any) -> None:
+        told = kwargs.pop("help")
+        super().__init__(*args, **kwargs)
+        self.section, self.help = section, told
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str]:
+        """Return the row of the help."""
+        return self.make_metavar(ctx), self.help or ""
+
+
 class Command(click.Command):
     """A command whose help groups its options and ends with examples.
 
@@ -76,3 +89,8 @@ def plainly(option: click.Option | None) -> click.Option | None:
 def option(*declarations: str, section: str = "Solver", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Declare an option in a section of the help; otherwise :func:`click.option`."""
     return click.option(*declarations, cls=Option, section=section, **attributes)
+
+
+def argument(*declarations: str, section: str = "Other", **attributes: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Declare an argument with its line of help; otherwise :func:`click.argument`."""
+    return click.argument(*declarations, cls=Argument, section=section, **attributes)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from seisblock.cli.command import Command
+from seisblock.cli.command import Command, argument
 from seisblock.words import said
 
 VARIABLE = "_SEISBLOCK_COMPLETE"
@@ -17,7 +17,7 @@ WHERE = {
 
 
 @click.command(cls=Command, examples=('eval "$(seisblock completion bash)"', "seisblock completion fish > seisblock.fish"))
-@click.argument("shell", type=click.Choice(list(WHERE)))
+@argument("shell", type=click.Choice(list(WHERE)), help="The shell that is to complete.")
 @click.pass_context
 def completion(ctx: click.Context, shell: str) -> None:
     """Print the completion script of a shell; where it belongs is said on stderr."""

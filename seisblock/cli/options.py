@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import click
-from click.shell_completion import CompletionItem
 
 from seisblock import checks
-from seisblock.cli.command import option
+from seisblock.cli import offered
+from seisblock.cli.command import argument, option
 from seisblock.cli.talk import quietly
 from seisblock.cli.types import SIZE, WINDOW
 from seisblock.errors import ParameterError
@@ -77,20 +77,20 @@ def _components(ctx: click.Context, param: click.Parameter, value: tuple[str, ..
     return tuple(part.strip() for text in value for part in text.split(",") if part.strip())
 
 
-def _files_and_samples(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete a record's file name, and the names of the bundled samples."""
-    from seisblock.samples import list_samples
-
-    names = [sample.name for sample in list_samples() if sample.kind == "record" and sample.name.startswith(incomplete or "?")]
-    return [*(CompletionItem(name) for name in names), CompletionItem(incomplete, type="file")]
-
-
 _RECORD_OPTIONS = (
-    click.argument("record", nargs=-1, metavar="[RECORD]...", shell_complete=_files_and_samples),
+    argument(
+        "record",
+        nargs=-1,
+        metavar="[RECORD]...",
+        section="Record",
+        shell_complete=offered.records,
+        help="Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]",
+    ),
     option(
         "--component",
         multiple=True,
         callback=_components,
+        shell_complete=offered.components,
         metavar="NS|EW|UD|all|DEGREES",
         section="Record",
         help="Component, or azimuth in degrees clockwise from north; may be repeated. [default: all that apply]",

@@ -10,6 +10,7 @@ import click
 
 from seisblock import checks
 from seisblock.bodies.inset import HALF, WORN, Inset
+from seisblock.cli import offered
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, checked, gravity_option, output_options, record_options
@@ -55,6 +56,7 @@ def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
     "--cemetery",
     required=True,
     metavar="FILE|NAME",
+    shell_complete=offered.cemeteries,
     section="Body",
     help="CSV of gravestones: height_over_width, or height and width; optional reinforced, fallen, azimuth_deg, count. "
     "Bundled: aoyama.csv.",

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from seisblock.cli import offered
 from seisblock.cli.bodies.options import side_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, record_options
@@ -27,6 +28,7 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     "--body",
     multiple=True,
     metavar="NAME|FILE|BxH",
+    shell_complete=offered.bodies(),
     section="Body",
     help="Bundled body, TOML file, or width and height (24cmx72cm); may be repeated. [default: gravestone and chozusha]",
 )

@@ -12,6 +12,7 @@ from seisblock.cli.bodies.standing import choose_standing, standing_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
+from seisblock.cli.offered import ALL_AZIMUTHS
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
 from seisblock.cli.types import LENGTH
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from seisblock.records import Motion
     from seisblock.studies.standing.azimuths import AzimuthFate
 
-ALL_AZIMUTHS = "all-azimuths"
 VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth_deg")
 
 

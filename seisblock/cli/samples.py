@@ -6,12 +6,13 @@ from pathlib import Path
 
 import click
 
-from seisblock.cli.command import Command, option
+from seisblock.cli import offered
+from seisblock.cli.command import Command, argument, option
 from seisblock.cli.talk import quietly, say
 
 
 @click.command(cls=Command, examples=("seisblock samples", "seisblock samples --copy synthetic_knet"))
-@click.argument("name", nargs=-1, metavar="[NAME]...")
+@argument("name", nargs=-1, metavar="[NAME]...", shell_complete=offered.samples, help="Names of bundled files. [default: all]")
 @option(
     "--copy",
     "target",

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import click
 
-from seisblock.cli.command import Command
+from seisblock.cli.command import Command, argument
 from seisblock.present.documents.catalogue import KINDS, schema_of
 from seisblock.present.documents.versions import VERSIONS, schema_name
 
 
 @click.command(cls=Command, examples=("seisblock schema rock", "seisblock schema"))
-@click.argument("command", required=False, metavar="[COMMAND]", type=click.Choice(list(KINDS)))
+@argument("command", required=False, metavar="[COMMAND]", type=click.Choice(list(KINDS)), help="Whose document. [default: of all commands]")
 def schema(command: str | None) -> None:
     """Print the JSON Schema of a command's --json document; without COMMAND, list the commands that write one.
 

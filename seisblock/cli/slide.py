@@ -11,6 +11,7 @@ import click
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
+from seisblock.cli.offered import ALL_AZIMUTHS
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
@@ -20,7 +21,6 @@ from seisblock.words import said, tell
 if TYPE_CHECKING:
     from seisblock.records import Motion, Record
 
-ALL_AZIMUTHS = "all-azimuths"
 AZIMUTH_STEP = 5
 
 

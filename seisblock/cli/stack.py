@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from seisblock.cli import offered
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
@@ -32,14 +33,24 @@ DEFAULT_PILE = "wagata"
 @option(
     "--stones",
     metavar="NAME|FILE",
+    shell_complete=offered.bodies("pile"),
     default=DEFAULT_PILE,
     show_default=True,
     section="Body",
     help="TOML file of the pile, or a bundled one: wagata, lantern.",
 )
 @option("--reinforced", is_flag=True, section="Body", help="Put in the dowels that the file names.")
-@option("--without", multiple=True, metavar="STONE", section="Body", help="Leave a stone out; may be repeated.")
-@option("--fix", multiple=True, metavar="STONE", section="Body", help="Let a stone move with the ground; may be repeated.")
+@option(
+    "--without", multiple=True, metavar="STONE", shell_complete=offered.stones, section="Body", help="Leave a stone out; may be repeated."
+)
+@option(
+    "--fix",
+    multiple=True,
+    metavar="STONE",
+    shell_complete=offered.stones,
+    section="Body",
+    help="Let a stone move with the ground; may be repeated.",
+)
 @option("--mu", type=float, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
 @option(
     "--points",

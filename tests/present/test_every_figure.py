@@ -6,6 +6,7 @@ import itertools
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.text import Text
@@ -14,8 +15,11 @@ from seisblock.present.figures.canvas import SMALLEST_LETTERS, fitted
 from seisblock.words import speaking
 from tests.present.long_record import EVERY, OF_THE_RECORD, drawing_functions
 
-COLUMN = 0.085
-"""Width of a journal's column, m."""
+COLUMN, PAGE = 0.085, 0.18
+"""Width of a journal's column, and of what is printed of its page, m."""
+
+WIDE = 8.0
+"""Inches by default, from which on a figure takes the page."""
 
 TOUCH = 0.05
 """Share of a text's box that may lie in another's: boxes are a little larger than letters."""
@@ -42,11 +46,10 @@ def drawn(name, lang="en", *, gal=True):
 
 
 def narrow(name, lang):
-    """Return a figure as wide as a column of a journal for each of its columns, as high as before."""
+    """Return a figure as wide as a journal's column, or as its page where it is wide by default, and as high as before."""
     with speaking(lang):
         figure = EVERY[name][1](True)
-        columns = max(axis.get_subplotspec().get_gridspec().ncols for axis in figure.axes if axis.get_subplotspec())
-        fitted(figure, size=(COLUMN * columns, 0.0254 * figure.get_figheight()), dpi=300)
+        fitted(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
         figure.draw_without_rendering()
     return figure
 
@@ -60,7 +63,7 @@ def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
 
 @pytest.mark.parametrize("name", EVERY)
 def test_a_journals_column_holds_it(name):
-    """At 85 mm a column letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
+    """At 85 mm, or 180, letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
     figure = narrow(name, "ja")
     assert crowded(figure) == []
     assert min(text.get_fontsize() for text in visible_texts(figure)) >= 6.5 * SMALLEST_LETTERS
@@ -99,9 +102,10 @@ def test_no_panel_or_legend_is_empty(name):
 def test_what_a_legend_tells_apart_differs_in_grey(name):
     """F3: no two entries of a legend differ in hue alone: in dash, marker or lightness they do, for every eye and every printer."""
     figure = drawn(name)
-    keys = [axis.get_legend() for axis in figure.axes if axis.get_legend()] + list(figure.legends)
-    for key in keys:
-        looks = [(text.get_text(), look(handle)) for text, handle in zip(key.get_texts(), key.legend_handles, strict=True)]
+    keys = [axis.get_legend_handles_labels() for axis in figure.axes if axis.get_legend()]
+    keys += [(key.legend_handles, [text.get_text() for text in key.get_texts()]) for key in figure.legends]
+    for handles, names in keys:
+        looks = [(name, look(handle)) for name, handle in zip(names, handles, strict=True)]
         for (one, (kind, style, light)), (other, (kind_2, style_2, light_2)) in itertools.combinations(looks, 2):
             assert (kind, style) != (kind_2, style_2) or abs(light - light_2) >= APART, (one, other)
 
@@ -110,6 +114,8 @@ def look(handle):
     """Return of an entry of a legend what does not depend on its hue: what it is, its dashes and marker, its lightness."""
     if isinstance(handle, Patch):
         return "patch", None, lightness(handle.get_facecolor())
+    if isinstance(handle, ErrorbarContainer):
+        handle = handle.lines[0]
     if hasattr(handle, "get_marker"):
         return "line", (str(handle._dash_pattern), handle.get_marker(), handle.get_linestyle() == "None"), lightness(handle.get_color())
     colours = handle.get_facecolor() if hasattr(handle, "get_facecolor") else []

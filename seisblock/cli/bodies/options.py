@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from seisblock.cli import offered
 from seisblock.cli.command import option
 from seisblock.cli.types import INSET, LENGTH, MASS
 
@@ -36,7 +37,13 @@ _REST = (
         help="How far in from each side its worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm). "
         "[default: the body's own, 0.1 for gravestones, else 0]",
     ),
-    option("--block", metavar="NAME|FILE", section="Body", help="Bundled body (gravestone) or TOML file, instead of sizes."),
+    option(
+        "--block",
+        metavar="NAME|FILE",
+        shell_complete=offered.bodies(),
+        section="Body",
+        help="Bundled body (gravestone) or TOML file, instead of sizes.",
+    ),
     option(
         "--side",
         type=click.Choice(["short", "long"]),

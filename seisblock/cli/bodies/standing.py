@@ -10,6 +10,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.friction import SURFACES, surface
 from seisblock.bodies.library import friction_of
 from seisblock.bodies.toml import read_table
+from seisblock.cli import offered
 from seisblock.cli.bodies.block import choose_block
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import option
@@ -37,6 +38,7 @@ _FRICTION = (
         "--surface",
         section="Body",
         metavar="A/B",
+        shell_complete=offered.surfaces,
         help=f"Friction from a table of pairs, instead of --mu: {', '.join(SURFACES)}.",
     ),
     option(

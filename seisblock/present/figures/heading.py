@@ -63,7 +63,8 @@ def name_of(record: Record) -> str:
 
 def _different(records: Sequence[Record | None]) -> list[Record]:
     """Return the records among these, each once."""
-    return list({id(record): record for record in records if record is not None}.values())
+    there = (record for record in records if record is not None)
+    return list({(record.station, record.source, record.start, record.history): record for record in there}.values())
 
 
 def direction(name: str) -> str:

@@ -69,7 +69,7 @@ def _trade_off(axis: Axes, survey: Survey, assumptions: Assumptions, *, gal: boo
     """Draw the bands of PGA against frequency."""
     unit, name = acceleration_unit(gal=gal)
     shown = [each / unit for each in SHOWN_PGA]
-    for level, shade in zip(sorted(LEVELS, reverse=True), ("0.88", "0.76"), strict=True):
+    for level, shade in zip(sorted(LEVELS, reverse=True), ("0.9", "0.72"), strict=True):
         line = contour(survey, replace(assumptions, level=level), FINE)
         low, high = ([math.nan if e.pga_interval_m_s2[i] is None else e.pga_interval_m_s2[i] for e in line] for i in (0, 1))
         lowest, highest = (np.array(end, dtype=np.float64) / unit for end in (low, high))

@@ -19,7 +19,7 @@ from seisblock.solvers.jump.solve import JumpOutcome
 from seisblock.words import noted, tell
 
 QUANTITIES = tuple(map(noted, ("θ (deg)", "rise of G (mm)", "x of G (mm)")))
-COLOURS = {ROCKING: "#f4d9c6", FLIGHT: "#cfe3d4", LANDED: "#d5dcef"}
+COLOURS = {ROCKING: "#f4d9c6", FLIGHT: "#8fb89b", LANDED: "#7183bb"}
 
 
 def figure(responses: Jumps, *, gal: bool = True) -> Figure:
@@ -53,8 +53,9 @@ def _column(panels: Sequence[Any], called: str, response: Response[JumpOutcome],
     for panel, values in zip(panels[1:], (np.degrees(response["rotation"]), rise * 1e3, response["displacement"] * 1e3), strict=True):
         curve(panel, response.time, values, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
     for panel in panels:
-        canvas.shade(panel, response.phases, COLOURS, names=panel is panels[0])
-    canvas.legend(panels[0])
+        canvas.shade(panel, response.phases, COLOURS, names=panel is panels[1])
+    for panel in panels[:2]:
+        canvas.legend(panel)
     canvas.panel_title(panels[0], tell("{name}: {what}", name=called, what=tell(response.body.name)))
     for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), *map(tell, QUANTITIES)), strict=True):
         canvas.label(panel, y=text)

@@ -21,7 +21,7 @@ from seisblock.studies.standing.mode_map import GOVERNING, ModeMap
 from seisblock.typing import FloatArray
 from seisblock.words import noted, tell
 
-COLOURS = {REST: "#f6f6f2", SLIDE: "#c3deee", ROCK: "#eba937", SLIDE_ROCK: "#b884b4", FLIGHT: "#1f7f78", OVERTURNED: "#6b1f23"}
+COLOURS = {REST: "#f6f6f2", SLIDE: "#b9d6e8", ROCK: "#dd9d2c", SLIDE_ROCK: "#a270a0", FLIGHT: "#176a64", OVERTURNED: "#6b1f23"}
 """Lighter to darker from rest to overturning, so that they differ in grey and to every eye."""
 
 NAMES = {

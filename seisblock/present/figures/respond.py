@@ -17,7 +17,7 @@ from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.solvers.respond.tale import FLIGHT, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.words import tell
 
-COLOURS = {SLIDE: "#d5dcef", ROCK: "#f4d9c6", SLIDE_ROCK: "#e3d3e8", FLIGHT: "#cfe3d4"}
+COLOURS = {SLIDE: "#eef2f9", ROCK: "#ecc3a6", SLIDE_ROCK: "#8f77b0", FLIGHT: "#84ae91"}
 SEEN = 1 / 2000
 """Phases shorter than this share of what is shown are not drawn: dying hops come by the thousand."""
 

@@ -23,7 +23,7 @@ FAR = 0.2
 LEAST_LEAN = 1e-4
 """Lean over alpha that is drawn: what is less, a hair's breadth in a block of a metre, is no motion that one sees."""
 
-COLOURS = {"rocks to +x": "#f4d9c6", "rocks to -x": "#d5dcef", "beyond +alpha": "#e6b39a", "beyond -alpha": "#a9b6dd"}
+COLOURS = {"rocks to +x": "#f6dfcf", "rocks to -x": "#a6b6dc", "beyond +alpha": "#c27c58", "beyond -alpha": "#5262a4"}
 
 
 def figure(responses: Rockings, *, gal: bool = True) -> Figure:

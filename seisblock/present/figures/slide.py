@@ -16,7 +16,8 @@ from seisblock.results import Response
 from seisblock.solvers.slide.solve import SLIDING, SlideOutcome
 from seisblock.words import tell
 
-COLOURS = {SLIDING[0]: "#f4d9c6", SLIDING[1]: "#d5dcef", "flight": "#cfe3d4"}
+COLOURS = {SLIDING[0]: "#f6dfcf", SLIDING[1]: "#a6b6dc", "flight": "#6f9f7e"}
+"""Apart in grey, too: as light as curves over them want, and no lighter."""
 
 
 def figure(responses: Slides, *, gal: bool = True) -> Figure:
@@ -40,7 +41,7 @@ def _column(panels: Sequence[Any], called: str, response: Response[SlideOutcome]
         text = None if index else tell("limits of static friction")
         curve(top, time, limit / unit, color=canvas.THRESHOLD, linestyle=(0, (6, 2, 1, 2)), label=text)
     block = response["ground_velocity"] + response["velocity"]
-    curve(middle, time, response["ground_velocity"], color=canvas.INPUT, label=tell("base"))
+    curve(middle, time, response["ground_velocity"], color="0.62", linewidth=1.6, label=tell("base"))
     curve(middle, time, block, color=canvas.ACCENT, label=tell("object"))
     curve(bottom, time, response["displacement"] * 1e3, color=canvas.ACCENT)
     canvas.shade(middle, phases, COLOURS, names=True)

@@ -123,7 +123,14 @@ def _criteria(axis: Any, points: Points, record: Record, gravity: float) -> None
     angles = np.array([point.slope_deg for point in points])
     frictions = [point.mu for point in points]
     dense = np.linspace(angles.min(), angles.max(), 100)
-    axis.plot(dense, np.tan(np.radians(np.abs(dense))), color=canvas.INPUT, linewidth=0.9, label=tell("holds at rest: tan θ"))
+    axis.plot(
+        dense,
+        np.tan(np.radians(np.abs(dense))),
+        color=canvas.INPUT,
+        linewidth=0.9,
+        linestyle=(0, (1.2, 1.2)),
+        label=tell("holds at rest: tan θ"),
+    )
     for kappa in sorted({round(point.kappa, DIGITS) for point in points if point.kappa > 0.0}):
         stops = [friction_that_stops(abs(angle), kappa) for angle in dense]
         axis.plot(dense, stops, color=canvas.ACCENT, linewidth=1.1, label=f"(14): tan θ / κ, κ {kappa:g}")

@@ -19,7 +19,7 @@ from seisblock.words import tell
 
 DASHES = (0, (6, 2, 1, 2))
 
-STILL, ROCKED, FELL = "#f6f6f2", "#c3deee", "#6b1f23"
+STILL, ROCKED, FELL = "#f6f6f2", "#b3d2e6", "#6b1f23"
 """What stands still, what rocks and stands, what falls: as in a map of modes, apart in grey and to every eye."""
 
 LEAN = LinearSegmentedColormap.from_list("lean", [ROCKED, "#3d6f9e"])
@@ -65,7 +65,7 @@ def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
     ]
     if limits:
         handles += axes[0].plot([], [], color=canvas.THRESHOLD, linewidth=0.8, linestyle=DASHES, label="PGA = g tan α")
-    made.legend(handles=handles, loc="outside lower center", ncols=len(handles), fontsize=7.5, frameon=False)
+    made.legend(handles=handles, loc="outside lower center", ncols=2 * len(spectra), fontsize=7.5, frameon=False)
     return made
 
 

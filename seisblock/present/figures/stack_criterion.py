@@ -45,7 +45,14 @@ def figure(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, 
         label=tell("published, eq. {equation}", equation=equation),
     )
     if study.fit is not None:
-        right.plot(curve, overturning_level(curve, study.fit) / unit, color=canvas.ACCENT, linewidth=1.0, label=tell("this study, eq. (8)"))
+        right.plot(
+            curve,
+            overturning_level(curve, study.fit) / unit,
+            color=canvas.ACCENT,
+            linewidth=1.0,
+            linestyle=(0, (5, 1.5)),
+            label=tell("this study, eq. (8)"),
+        )
     right.plot(
         list(study.levels), [a / unit for a in study.levels.values()], "o", color=canvas.ACCENT, markersize=5, label=tell("this study")
     )

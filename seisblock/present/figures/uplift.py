@@ -92,9 +92,6 @@ def _corner(panel: Axes, response: Response[UpliftOutcome], i: int) -> None:
         told = tell("never lifts")
     title = tell("corner {number} ({place}): {told}", number=i + 1, place=f"{sx}x, {sy}y", told=told)
     panel.set_title(title, fontsize=8, loc="left", pad=2)
-    if not response.outcome.within_model and i == 0:
-        told = tell("leans beyond what the model holds for: heights are not to be believed")
-        panel.set_title(told, fontsize=7, loc="right", pad=2, color=canvas.ACCENT)
 
 
 def _in_air(response: Response[UpliftOutcome], i: int) -> list[Phase]:
@@ -152,7 +149,10 @@ def _plan(panel: Axes, response: Response[UpliftOutcome], start: float, end: flo
     reach = half_a + 1.3 * body.width
     panel.set_xlim(-reach, reach)
     panel.set_ylim(-half_b - 0.35 * body.depth, half_b + 0.35 * body.depth)
-    panel.set_title(tell("plan: when each corner was in the air, {start:.1f} to {end:.1f} s", start=start, end=end), fontsize=8, loc="left")
+    lines = [tell("plan: when each corner was in the air, {start:.1f} to {end:.1f} s", start=start, end=end)]
+    if not outcome.within_model:
+        lines.append(tell("leans beyond what the model holds for: heights are not to be believed"))
+    panel.set_title("\n".join(lines), fontsize=8, loc="left")
     canvas.label(panel, x="x (m)", y="y (m)")
 
 

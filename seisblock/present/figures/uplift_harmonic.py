@@ -80,7 +80,7 @@ def _frequencies(panel: Axes, regions: Sequence[UpliftRegion], against: str) -> 
     other = "alpha" if against == "beta" else "beta"
     gamma = regions[0].ratios["gamma"]
     values = np.linspace(0.01, 3.0, 150)
-    groups = dict(zip(GROUPS, (canvas.ACCENT, canvas.SECOND, "0.35", "#2e7d4f"), strict=True))
+    groups = dict(zip(GROUPS, (canvas.ACCENT, "#123a5e", "0.55", "#7cc29a"), strict=True))
     chosen = sorted({region.ratios[other] for region in regions})
     for index, fixed in enumerate(chosen):
         curves = frequencies_against(against, values, **{against: 1.0, other: fixed}, gamma=gamma)
