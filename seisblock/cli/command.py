@@ -55,6 +55,9 @@ class Command(click.Command):
         """Return ``--help``, described in English until it is told: click keeps the option for the next call."""
         return plainly(super().get_help_option(ctx))
 
+    def format_arguments(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write nothing: arguments stand in the section that they belong to."""
+
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options section by section."""
         groups: dict[str, list[tuple[str, str]]] = {name: [] for name in SECTIONS}

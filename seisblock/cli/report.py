@@ -59,7 +59,7 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     required=True,
     metavar="FILE",
     section="Output",
-    help="The page to write, .html.  [required]",
+    help="The page to write, .html.",
 )
 @option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records.")
 def report(

@@ -61,7 +61,7 @@ def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
     assert crowded(drawn(name, lang)) == []
 
 
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("name", sorted(set(EVERY) - {"field test"}))  # no command draws that one: it has no --size
 def test_a_journals_column_holds_it(name):
     """At 85 mm, or 180, letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
     figure = narrow(name, "ja")

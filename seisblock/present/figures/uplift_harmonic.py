@@ -93,7 +93,7 @@ def _frequencies(panel: Axes, regions: Sequence[UpliftRegion], against: str) -> 
     for group, colour in groups.items():
         panel.plot([], [], color=colour, label=tell(group))
     for index, fixed in enumerate(chosen):
-        panel.plot([], [], color="0.2", linestyle=STYLES[index % len(STYLES)], label=f"{SYMBOLS[other]} = {fixed:.4g}")
+        panel.plot([], [], color="0.85", linestyle=STYLES[index % len(STYLES)], label=f"{SYMBOLS[other]} = {fixed:.4g}")
     panel.set_xlim(0.0, 3.0)
     panel.set_ylim(0.0, 5.0)
     canvas.label(panel, x=SYMBOLS[against], y="ωᵢ/ωᵥ")

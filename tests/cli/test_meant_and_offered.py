@@ -1,0 +1,102 @@
+"""A name that is misspelt is asked back, and a shell knows the names there are."""
+
+import click
+import pytest
+from click.shell_completion import ShellComplete
+from click.testing import CliRunner
+
+from seisblock.cli import COMMANDS, main
+from seisblock.cli.meant import nearest
+from seisblock.cli.offered import SWEEPING
+from seisblock.words import speaking
+
+MISSPELT = (
+    (("messure",), "measure"),
+    (("overturnrate",), "overturn-rate"),
+    (("rock", "--widht", "1"), "--width"),
+    (("measure", "synthetic_jam"), "synthetic_jma.csv"),
+    (("rock", "--block", "graveston"), "gravestone"),
+    (("stack", "--stones", "lanten"), "lantern"),
+    (("stack", "--without", "soa"), "sao"),
+    (("overturn-rate", "--cemetery", "aoyoma"), "aoyama.csv"),
+    (("slide", "--mu", "0.2", "--component", "N"), "NS"),
+    (("respond", "--width", "1", "--height", "2", "--surface", "granit/granite"), "granite/granite"),
+    (("samples", "wagatta"), "wagata.toml"),
+    (("report", "-o", "x.html", "--body", "chozushu"), "chozusha"),
+)
+
+
+@pytest.mark.parametrize(("line", "meant"), MISSPELT, ids=lambda each: " ".join(each) if isinstance(each, tuple) else each)
+def test_the_nearest_name_is_asked_for(line, meant, tmp_path, monkeypatch):
+    """F6: whatever is named, command, option, record, body, stone, cemetery, component or pair: in English and in Japanese."""
+    monkeypatch.chdir(tmp_path)
+    told = CliRunner().invoke(main, list(line))
+    assert told.exit_code in (2, 3)
+    asked = " ".join(told.stderr.split()).lower().partition("did you mean")[2]
+    assert meant.lower() in asked
+    if not line[-2:][0].startswith("--w"):  # click's own sentence is another's to translate
+        japanese = " ".join(CliRunner().invoke(main, ["--lang", "ja", *line]).stderr.split())
+        assert f"{meant} のことでしょうか" in japanese
+
+
+def test_what_is_like_nothing_is_not_asked_for():
+    """A guess that is none would lead astray."""
+    assert nearest("xyz", COMMANDS) is None
+    assert nearest("ROCK", COMMANDS) == "rock"
+    told = CliRunner().invoke(main, ["slide", "--mu", "0.2", "--component", "XX"])
+    assert told.exit_code != 0 and "did you mean" not in told.stderr
+
+
+def offered(*words):
+    """Return what a shell is offered for the last word."""
+    *before, last = words
+    found = ShellComplete(main, {}, "seisblock", "_SEISBLOCK_COMPLETE").get_completions(before, last)
+    return [item.value for item in found if item.type == "plain"]
+
+
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        (("measure", "elc"), ["elcentro_1940_ns.csv"]),
+        (("rock", "--component", ""), ["NS", "EW", "UD", "all"]),
+        (("slide", "--component", "al"), ["all", "all-azimuths"]),
+        (("measure", "--component", "NS,u"), ["NS,UD"]),
+        (("rock", "--block", ""), ["chozusha", "gravestone", "wagata", "lantern"]),
+        (("jump", "--block", ""), ["chozusha"]),
+        (("stack", "--stones", ""), ["wagata", "lantern"]),
+        (("stack", "--without", "mi"), ["mizubachi"]),
+        (("stack", "--stones", "lantern", "--fix", "hi"), ["hibukuro"]),
+        (("stack", "--stones", "nosuch", "--fix", ""), []),
+        (("overturn-rate", "--cemetery", ""), ["aoyama.csv"]),
+        (("infer", "--cemetery", "a"), ["aoyama.csv"]),
+        (("respond", "--surface", "wood"), ["wood/stone", "wood/wood"]),
+        (("samples", "ch"), ["chozusha.toml"]),
+        (("spectrum", "--kind", "m"), ["modes"]),
+        (("cite", "ro"), ["rock"]),
+    ],
+    ids=lambda each: " ".join(each) or "(nothing)",
+)
+def test_a_shell_is_offered_the_names_there_are(words, names):
+    """F6: components, samples, bodies of the kind that is wanted, stones of the pile that is named, cemeteries, surfaces."""
+    assert offered(*words) == names
+
+
+def test_every_direction_is_offered_where_it_is_understood():
+    """A command that sweeps the azimuths says so in its help, and the others do not offer it."""
+    for name in COMMANDS:
+        with speaking("en"):
+            told = " ".join(CliRunner().invoke(main, [name, "--help"]).stdout.split())
+        assert ("--component all-azimuths" in told) == (name in SWEEPING), name
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_row_of_the_help_says_what_it_is(command):
+    """F6: no argument or option stands without a word, and a record stands with what is done to it."""
+    context = click.Context(main.get_command(click.Context(main), command))
+    rows = [each.get_help_record(context) for each in context.command.get_params(context) if not getattr(each, "hidden", False)]
+    assert all(meaning.strip() for _, meaning in rows), rows
+    assert not [meaning for _, meaning in rows if meaning.count("[required]") > 1]
+    told = CliRunner().invoke(main, [command, "--help"]).stdout
+    assert "Positional arguments" not in told
+    if "[RECORD]..." in told:
+        assert told.count("[RECORD]...") == 2 and "Record options:\n  [RECORD]...  " in told
