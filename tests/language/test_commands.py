@@ -1,5 +1,6 @@
 """Every command answers in the language asked for: no English is left in Japanese, and neither language is wider than a terminal."""
 
+import re
 import shutil
 
 import pytest
@@ -104,6 +105,12 @@ REFUSALS = (
 )
 """What users get wrong, for each command."""
 
+MINUS_NOTHING = re.compile(r"(?<![\w.])[-−]0(?:\.0*)?(?:e[-+]?0+)?(?![\w.])")
+"""A zero with a sign."""
+
+ANSWERING = {"measure", "respond", "slide", "rock", "jump", "uplift", "stack", "criteria", "spectrum", "overturn-rate", "infer"}
+"""Commands that answer a question about shaking."""
+
 QUOTING = {"cite", "samples"}
 """Commands that quote: references, licences and origins are told as they are printed elsewhere."""
 
@@ -171,6 +178,27 @@ def test_an_answer_fits_a_terminal(line, lang, spoken):
     examples = "  seisblock "  # to be copied in one piece
     wide = [text for text in answer.stdout.splitlines() if columns(text.rstrip()) > WIDTH and not text.startswith(examples)]
     assert not wide, "\n".join(wide)
+
+
+@pytest.mark.parametrize("lang", words.LANGUAGES)
+@pytest.mark.parametrize("line", ANSWERS, ids=line_of)
+def test_nothing_is_minus_nothing(line, lang, spoken):
+    """F2: what rounds to zero has no sign, on either stream."""
+    answer = spoken(line, lang)
+    assert not MINUS_NOTHING.findall(answer.stdout + answer.stderr)
+
+
+def test_minus_nothing_is_recognised():
+    """The guard sees it in a cell and in a sentence, and lets ranges, dates and small numbers pass."""
+    assert len(MINUS_NOTHING.findall("jumped -0 mm, -0.0 and −0.00 deg; -0.0e+00")) == 4
+    assert not MINUS_NOTHING.findall("0.00-0.00, 2024-01-01, -0.04 mm, 1e-05, e-0.5")
+
+
+@pytest.mark.parametrize("line", [line for line in ANSWERS if line[0] in ANSWERING], ids=line_of)
+def test_the_verdict_comes_first(line, spoken):
+    """F2: under the line of its record an answer begins with a sentence, and no table stands above it."""
+    above, _, _ = spoken(line, "ja").stdout.partition("──")
+    assert "。" in above or "計測震度" in above
 
 
 def test_the_answers_are_of_every_command():

@@ -13,6 +13,7 @@ from matplotlib.text import Text
 
 from seisblock.present.figures.canvas import SMALLEST_LETTERS, fitted
 from seisblock.words import speaking
+from tests.language.test_commands import MINUS_NOTHING
 from tests.present.long_record import EVERY, OF_THE_RECORD, drawing_functions
 
 COLUMN, PAGE = 0.085, 0.18
@@ -45,26 +46,22 @@ def drawn(name, lang="en", *, gal=True):
     return figure
 
 
-def narrow(name, lang):
-    """Return a figure as wide as a journal's column, or as its page where it is wide by default, and as high as before."""
-    with speaking(lang):
-        figure = EVERY[name][1](True)
-        fitted(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
-        figure.draw_without_rendering()
-    return figure
-
-
 @pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("name", EVERY)
 def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
-    """F3: every text that is drawn stands by itself, within the figure."""
-    assert crowded(drawn(name, lang)) == []
+    """F3: every text that is drawn stands by itself, within the figure; and no zero has a sign."""
+    figure = drawn(name, lang)
+    assert crowded(figure) == []
+    assert not [text.get_text() for text in visible_texts(figure) if MINUS_NOTHING.search(text.get_text())]
 
 
 @pytest.mark.parametrize("name", sorted(set(EVERY) - {"field test"}))  # no command draws that one: it has no --size
 def test_a_journals_column_holds_it(name):
     """At 85 mm, or 180, letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
-    figure = narrow(name, "ja")
+    with speaking("ja"):
+        figure = EVERY[name][1](True)
+        fitted(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
+        figure.draw_without_rendering()
     assert crowded(figure) == []
     assert min(text.get_fontsize() for text in visible_texts(figure)) >= 6.5 * SMALLEST_LETTERS
 

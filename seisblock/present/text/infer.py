@@ -35,6 +35,8 @@ def estimate_tables(
                 high=high,
             )
         )
+    if not joint:
+        yield from (line(sentence) for sentence in verdicts(name, estimates, gal=gal, level=level))
     speed, unit = (KINE, "kine") if gal else (1.0, "m/s")
     head = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal)})", "", f"PGV ({unit})", "", "H/B", tell("JMA intensity"))
     caption = tell("median and {level:g} % interval; H/B: stones more slender than this fell", level=100 * level)
@@ -70,6 +72,24 @@ def estimate_tables(
             ),
             "dim",
         )
+
+
+def verdicts(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, level: float) -> Iterator[str]:
+    """Yield the shaking that each group of stones speaks of: over all frequencies, or at the first that was asked for."""
+    firsts = {each.stones: each for each in reversed(estimates)}
+    for stones in dict.fromkeys(each.stones for each in estimates):
+        each = firsts[stones]
+        place, kind = place_and_kind(stones)
+        who = (place or name) if len(firsts) == 1 else tell("{cemetery}, stones {stones}", cemetery=place or name, stones=tell(kind))
+        at = tell("0.5 to 3 Hz") if each.frequency_hz is None else f"{each.frequency_hz:.3g} Hz"
+        pga = acceleration(each.pga_m_s2, gal=gal) if each.bound is None else _range(each.pga_interval_m_s2, GAL if gal else 1.0)
+        values = {"who": who, "pga": f"{pga} {acceleration_unit(gal=gal)}", "at": at, "intensity": _intensity(each)}
+        if each.bound is not None:
+            yield tell("{who}: PGA {pga} at {at}; JMA intensity {intensity}.", **values)
+            continue
+        low, high = (acceleration(end, gal=gal) for end in each.pga_interval_m_s2)
+        text = noted("{who}: PGA {pga} ({low} to {high}, {level:g} %) at {at}; JMA intensity {intensity}.")
+        yield tell(text, low=low, high=high, level=100.0 * level, **values)
 
 
 def _range(interval: Interval, unit: float) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -17,6 +18,12 @@ from seisblock.words import noted, tell
 CAPTION = noted(
     "least H/B: of a stone that falls; %: what so few stones leave open of the rate (Clopper-Pearson), not what shaking and criterion do"
 )
+
+MOST_VERDICTS = 4
+"""Shakings each of which has a sentence of its own."""
+
+USUAL_HZ = 1.0
+"""Frequency of the shaking that a curve is told at, about that of strong motion."""
 
 SHOWN_EVERY = 1.0
 """Step of the curve's rows in the table, m/s^2; the whole curve is in --json and --csv."""
@@ -48,10 +55,38 @@ def tables(
     for record, results in groups:
         if record is not None:
             yield record_line(record)
+        yield from (line(sentence) for sentence in verdicts(cemetery.name, results, gal=gal))
         yield _rates(title, results, gal=gal, confidence=confidence)
         yield from (line(sentence) for sentence in (*_filters(results, gal=gal), *_models(results), *_dowels(results)))
     if not groups:
+        yield line(half_falls(cemetery.name, curve, gal=gal))
         yield _curve(title, curve, gal=gal)
+
+
+def verdicts(cemetery: str, results: Sequence[CemeteryRate], *, gal: bool) -> Iterator[str]:
+    """Yield how many stones fall, a sentence per shaking, or one for many."""
+    own = [each for each in results if not each.of]
+    if len(own) > MOST_VERDICTS:
+        low, high = (f(each.fallen for each in own) for f in (min, max))
+        text = noted("{cemetery}: {low} to {high} of {stones} stones fall, by the shaking.")
+        yield tell(text, cemetery=cemetery, low=low, high=high, stones=own[0].stones)
+        return
+    for each in own:
+        shaking = f"{acceleration(each.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)}, {number(each.equivalent_frequency_hz, 3)} Hz"
+        text = noted("{name}: {fallen} of {stones} stones fall ({share:.0%}).")
+        yield tell(text, name=each.component or shaking, fallen=each.fallen, stones=each.stones, share=each.rate)
+
+
+def half_falls(cemetery: str, curve: Sequence[CurvePoint], *, gal: bool) -> str:
+    """Return at which PGA half of the stones fall, at the frequency nearest to 1 Hz."""
+    frequency = min((point.frequency_hz for point in curve), key=lambda f: abs(math.log(f / USUAL_HZ)))
+    at = sorted((point for point in curve if point.frequency_hz == frequency), key=lambda point: point.pga_m_s2)
+    half = next((point.pga_m_s2 for point in at if point.rate >= 0.5), None)
+    pga = f"{acceleration(at[-1].pga_m_s2 if half is None else half, gal=gal)} {acceleration_unit(gal=gal)}"
+    values = {"cemetery": cemetery, "pga": pga, "f": frequency}
+    if half is None:
+        return tell("{cemetery}: less than half of the stones fall up to {pga} of {f:g} Hz.", **values)
+    return tell("{cemetery}: half of the stones fall at {pga} of {f:g} Hz.", **values)
 
 
 def _rates(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence: float) -> Any:

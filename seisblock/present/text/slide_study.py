@@ -11,7 +11,7 @@ import numpy as np
 from seisblock.present.documents.slide import SLIDE_POINT, point_entry
 from seisblock.present.files import of_records
 from seisblock.present.text.slide import millimetres
-from seisblock.present.text.tables import NOTHING, record_line, table
+from seisblock.present.text.tables import NOTHING, line, record_line, table
 from seisblock.records import Record
 from seisblock.studies.sliding import SlidePoint
 from seisblock.words import noted, tell
@@ -59,6 +59,8 @@ def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any
         yield record_line(record)
         arrangement = Arrangement.of(points)
         for title, part in panels_of(points, arrangement):
+            yield line(verdict(title, part))
+        for title, part in panels_of(points, arrangement):
             yield _pivot(tell("{name}: largest slip (mm)", name=title), part, arrangement, lambda point: millimetres(point.max_slip_m))
             if any(point.beta is not None for point in part):
                 yield _pivot(
@@ -67,6 +69,21 @@ def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any
                     arrangement,
                     lambda point: NOTHING if point.beta is None else f"{point.beta:.3f}",
                 )
+
+
+def verdict(name: str, points: Points) -> str:
+    """Return how far the object slides at most, with which parameters, and how often it holds."""
+    known = [point for point in points if point.max_slip_m is not None]
+    held = sum(point.max_slip_m == 0.0 for point in known)
+    if held == len(known):
+        return tell("{name}: stays where it is in all of {count} combinations.", name=name, count=held)
+    most = max(known, key=lambda point: point.max_slip_m or 0.0)
+    varied = [key for key in SYMBOLS if len({getattr(point, key) for point in points}) > 1]
+    # a ratio of frictions says the same as the second of them
+    varied = [key for key in varied if key != "mu_kinetic" or "kappa" not in varied]
+    where = [f"{tell(SYMBOLS[key]).split(' (')[0]} {getattr(most, key):g}" for key in varied]
+    text = noted("{name}: slides up to {most} mm, at {where}; {held} of {count} combinations stay where they are.")
+    return tell(text, name=name, most=millimetres(most.max_slip_m), where=where, held=held, count=len(known))
 
 
 def panels_of(points: Points, arrangement: Arrangement) -> list[tuple[str, Points]]:

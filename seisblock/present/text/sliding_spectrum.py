@@ -12,7 +12,7 @@ from seisblock.present.files import write_table
 from seisblock.present.text.tables import line, number, table, under_records
 from seisblock.records import Motion
 from seisblock.studies.sliding import SlidePoint
-from seisblock.words import tell
+from seisblock.words import noted, tell
 
 Curves = Sequence[tuple[Motion, Sequence[SlidePoint]]]
 
@@ -24,6 +24,7 @@ def tables(curves: Curves) -> Iterator[Any]:
     """Yield, per component, a table of at most 25 frictions."""
     for heading, (motion, points) in under_records(curves, lambda each: each[0].record):
         yield from heading
+        yield line(verdict(motion.name or "x", points))
         chosen = np.unique(np.linspace(0, len(points) - 1, min(len(points), MOST_ROWS)).round().astype(int))
         rows = [
             [f"{points[i].mu:.4g}", number(_millimetres(points[i].max_slip_m)), number(_millimetres(points[i].residual_slip_m))]
@@ -32,6 +33,22 @@ def tables(curves: Curves) -> Iterator[Any]:
         title = tell("{name}: sliding against friction", name=motion.name)
         yield table(title, ["μ", tell("largest slip (mm)"), tell("residual slip (mm)")], rows)
         yield line()
+
+
+def verdict(name: str, points: Sequence[SlidePoint]) -> str:
+    """Return from which friction on the object holds, and how far it slides below."""
+    ordered = sorted(points, key=lambda point: point.mu)
+    most = max(ordered, key=lambda point: point.max_slip_m or 0.0)
+    slides = [point.mu for point in ordered if point.slips]
+    if not slides:
+        return tell("{name}: holds at every friction from {mu:.4g} on.", name=name, mu=ordered[0].mu)
+    holds = next((point.mu for point in ordered if point.mu > slides[-1]), None)
+    values = {"name": name, "most": number(_millimetres(most.max_slip_m)), "at": most.mu}
+    if holds is None:
+        return tell("{name}: slides at every friction up to {mu:.4g}, at most {most} mm (at {at:.4g}).", mu=slides[-1], **values)
+    return tell(
+        noted("{name}: holds from a friction of {mu:.4g} on; below it slides, at most {most} mm (at {at:.4g})."), mu=holds, **values
+    )
 
 
 def _millimetres(value: float | None) -> float | None:

@@ -18,8 +18,9 @@ Scaled = dict[str, tuple[Threshold, ...]]
 
 
 def tables(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, reinforced: bool) -> Iterator[Any]:
-    """Yield thresholds, levels and the fit."""
+    """Yield the fit, thresholds and levels."""
     fit, equation = published(reinforced)
+    yield line(_sentence(study, fit, equation))
     frequencies = frequencies_of(study)
     found = {(t.frequency_hz, t.pga_m_s2): t.ratio for t in study.thresholds}
     pgas = sorted({t.pga_m_s2 for t in study.thresholds})
@@ -39,7 +40,6 @@ def tables(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, 
         tell("published, eq. {equation}", equation=equation),
     ]
     yield table("a(f) = PGA H/B (gal)", heads, levels)
-    yield line(_sentence(study, fit, equation))
 
 
 def _sentence(study: CriterionStudy, fit: GravestoneFit, equation: str) -> str:

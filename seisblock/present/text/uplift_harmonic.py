@@ -33,7 +33,7 @@ def varied_names(regions: Sequence[UpliftRegion]) -> list[str]:
 def tables(regions: Sequence[UpliftRegion], *, every: bool) -> Iterator[Any]:
     """Yield the modes, the minima and the curve of each region."""
     for region in regions:
-        yield line(title(region), "bold")
+        yield line(verdict(region), "bold")
         wv, w1 = region.body.omega[2], region.modes.omega_1
         yield table(
             tell("natural modes"),
@@ -58,6 +58,15 @@ def tables(regions: Sequence[UpliftRegion], *, every: bool) -> Iterator[Any]:
             [[f"{region.frequency_ratio[i]:.4g}", _finite(float(region.acceleration_ratio[i]))] for i in shown],
             caption="" if step == 1 else tell("one of {step} of {all} rows; all with --csv or --json", step=step, all=n),
         )
+
+
+def verdict(region: UpliftRegion) -> str:
+    """Return how hard the shaking must be that lifts a corner, and where it is easiest."""
+    least = region.minimum
+    if not math.isfinite(least.acceleration_ratio):
+        return tell("{block}: no shaking lifts a corner.", block=title(region))
+    text = noted("{block}: a corner lifts from {least:.3g} g on, at {ratio:.3g} times the first rocking frequency.")
+    return tell(text, block=title(region), least=least.acceleration_ratio, ratio=least.frequency_ratio)
 
 
 def _finite(value: float) -> Any:
