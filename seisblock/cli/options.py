@@ -51,8 +51,8 @@ class Output:
     size: tuple[float, float] | None
     dpi: int
     title: str | None
-    gal: bool
     quiet: bool
+    gal: bool = True
     animate: Path | None = None
     slow: float = 1.0
 
@@ -180,10 +180,9 @@ _FILM_OPTIONS = (
     ),
 )
 
-_TALK_OPTIONS = (
-    option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables and figures. [default: gal]"),
-    option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records."),
-)
+_GAL = option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables and figures. [default: gal]")
+
+_QUIET = option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records.")
 
 
 def record_options(function: Function) -> Function:
@@ -191,7 +190,7 @@ def record_options(function: Function) -> Function:
     return _collected(function, _RECORD_OPTIONS, Source, "source")
 
 
-def output_options(*, histories: bool = True, film: bool = True) -> Callable[[Function], Function]:
+def output_options(*, histories: bool = True, film: bool = True, accelerations: bool = True) -> Callable[[Function], Function]:
     """Return what gives a command the options that say where the answer goes; it receives one ``output``.
 
     Parameters
@@ -200,8 +199,11 @@ def output_options(*, histories: bool = True, film: bool = True) -> Callable[[Fu
         Whether ``--csv`` holds time histories; else it holds the numbers of the table.
     film : bool
         Whether there is an animation.
+    accelerations : bool
+        Whether there are any to have a unit.
     """
-    declarations = (_JSON, _CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_FILM_OPTIONS if film else ()), *_TALK_OPTIONS)
+    texts = (_CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_FILM_OPTIONS if film else ()))
+    declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _QUIET)
     return lambda function: _collected(function, declarations, Output, "output")
 
 

@@ -99,7 +99,12 @@ def respond(
         if sweep:
             extra["directions"] = sweep
         extras.append(extra)
-    emit(document(responses, chosen.block, extras), output, responses=responses, tables=lambda: shown.tables(responses, extras))
+    emit(
+        document(responses, chosen.block, extras),
+        output,
+        responses=responses,
+        tables=lambda: shown.tables(responses, extras, gal=output.gal),
+    )
 
 
 def _motions(source: Source, block: Block, vertical: bool | None, options: dict[str, Any]) -> Iterator[tuple[Motion, list[AzimuthFate]]]:

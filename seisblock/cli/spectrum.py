@@ -77,7 +77,7 @@ SMALLEST_REACH, LARGEST_REACH = 0.2, 1.5
 @option("--steps", type=click.IntRange(2, 1000), default=40, show_default=True, help="Points of each axis that is left to its default.")
 @rocking_options
 @gravity_option
-@output_options(histories=False, film=False)
+@output_options(histories=False, film=False, accelerations=False)
 def spectrum(
     source: Source,
     output: Output,

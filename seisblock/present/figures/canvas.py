@@ -44,7 +44,7 @@ MOST_PIXELS = 20_000
 TICKS = 8
 """Size of the letters of an axis, points."""
 
-ABOVE = 0.99
+ABOVE = 1.0
 """Height at which a legend stands over its panel, of the panel's."""
 
 SUFFIXES = (".png", ".svg", ".pdf")

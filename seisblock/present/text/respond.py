@@ -10,6 +10,7 @@ from seisblock.present.text.tables import line, number, record_line, seconds, ta
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.probability import Probability
+from seisblock.units import GAL
 from seisblock.words import listed, noted, tell
 
 Responds = Sequence[Response[RespondOutcome]]
@@ -21,7 +22,7 @@ FEWEST = 20
 """Quantiles of fewer versions are not told."""
 
 
-def tables(responses: Responds, extras: Sequence[Mapping[str, Any]]) -> Iterator[Any]:
+def tables(responses: Responds, extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Iterator[Any]:
     """Yield, per record, its line, what happened and how sure it is, a table with a column per component, and the notes."""
     records = list({id(r.motion.record): r.motion.record for r in responses}.values())
     for record in records:
@@ -34,7 +35,7 @@ def tables(responses: Responds, extras: Sequence[Mapping[str, Any]]) -> Iterator
                 yield line("  " + share(extra["probability"]))
             if "directions" in extra:
                 yield line("  " + around(extra["directions"]))
-        yield _table([r for r, _ in part])
+        yield _table([r for r, _ in part], gal=gal)
         if any("probability" in extra for _, extra in part):
             yield line(varied(next(extra["probability"] for _, extra in part if "probability" in extra)), "dim")
         yield line()
@@ -175,20 +176,20 @@ def varied(found: Probability) -> str:
     )
 
 
-def _table(responses: Responds) -> Any:
+def _table(responses: Responds, *, gal: bool) -> Any:
     """Return the numbers, a column per component."""
     first = responses[0]
     block, options, outcomes = first.body, first.options, [response.outcome for response in responses]
     ratio = min(block.arms) / block.centre
-    onset = min(options["mu"], ratio) * options["gravity_m_s2"] * 100.0
+    onset = min(options["mu"], ratio) * options["gravity_m_s2"]
     title = tell(
-        "{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset:.0f} gal",
+        "{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}",
         name=tell(block.name),
         ratio=ratio,
         mu=options["mu"],
         kinetic=options["mu_kinetic"],
         first=tell("slides") if options["mu"] <= ratio else tell("rocks"),
-        onset=onset,
+        onset=f"{onset / GAL:.0f} gal" if gal else f"{onset:.2f} m/s²",
     )
     spent = [o.time_in_mode_s for o in outcomes]
     rows: list[tuple[str, list[Any]]] = [

@@ -1,0 +1,50 @@
+"""An option that stands in the help changes the answer: of the unit of accelerations, in each command that has it."""
+
+import re
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import COMMANDS, main
+
+SHORT = ("synthetic_jma.csv", "--window", "25.5:26.5", "--component", "NS")
+BLOCK = ("--width", "24cm", "--height", "72cm")
+
+IN_GAL = {
+    "measure": SHORT[:3],
+    "respond": (*SHORT, *BLOCK, "--mu", "0.5", "--runs", "0"),
+    "slide": (*SHORT, "--mu", "0.2"),
+    "rock": (*SHORT, *BLOCK),
+    "jump": SHORT,
+    "uplift": (*SHORT, *BLOCK, "--frequency-vertical", "8"),
+    "stack": (*SHORT, "--points", "2"),
+    "criteria": (*SHORT, *BLOCK),
+    "overturn-rate": ("--cemetery", "aoyama.csv", "--pga", "300", "--frequency", "1"),
+    "infer": (*SHORT, "--slid", "5cm", "--mu", "0.3", "--limit", "1", "--steps", "5"),
+}
+"""A short line of each command whose answer or figure holds an acceleration."""
+
+
+def options_of(command):
+    """Return the names of a command's options."""
+    return {name for each in main.get_command(None, command).params for name in each.opts}
+
+
+def test_the_unit_is_asked_for_where_there_is_one():
+    """F6: --gal/--si stands in the commands that show accelerations, and in no other."""
+    assert {command for command in COMMANDS if "--gal" in options_of(command)} == set(IN_GAL)
+
+
+@pytest.mark.parametrize("command", IN_GAL)
+def test_the_unit_is_that_asked_for(command, tmp_path):
+    """F3, F6: with --si no gal is left in the answer or the figure, with --gal no m/s²; one of the two differs."""
+    answers = []
+    for unit, other in (("--gal", "m/s²"), ("--si", "gal")):
+        path = tmp_path / f"{unit}.svg"
+        answer = CliRunner().invoke(main, [command, *IN_GAL[command], unit, "--plot", str(path), "--quiet"])
+        assert answer.exit_code == 0, answer.output
+        # letters are outlines in an .svg: each text stands before its own as a comment
+        drawn = " ".join(re.findall(r"<!-- (.*?) -->", path.read_text(encoding="utf-8")))
+        assert not re.search(rf"(?<!\w){other}(?!\w)", answer.stdout + drawn.replace("gal s", "")), (unit, other)
+        answers.append((answer.stdout, drawn))
+    assert answers[0] != answers[1]
