@@ -130,11 +130,11 @@ def share(found: Probability) -> str:
         moves = tell("{share} move more than {far}", share=percent(found.moved), far=far)
     middle = ""
     if found.moved > 0.0 and found.runs - fallen >= FEWEST:
-        low, high = (signed(found.final_displacement_m[name]) for name in ("q05", "q95"))
-        if low == high == signed(0.0):
+        least, most = (signed(found.final_displacement_m[name]) for name in ("q05", "q95"))
+        if least == most == signed(0.0):
             middle = tell("; nine in ten of those that stand end where they stood")
         else:
-            middle = tell("; nine in ten of those that stand end between {low} and {high}", low=low, high=high)
+            middle = tell("; nine in ten of those that stand end between {low} and {high}", low=least, high=most)
     return tell("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
 
 
