@@ -19,7 +19,7 @@ from seisblock.present.films import jump, respond, rock, slide, stack, uplift
 from seisblock.present.films.animation import MOST_FRAMES, Filming, frame_times
 from seisblock.present.films.frames import film_frames, set_up
 from seisblock.present.films.page import film_page
-from seisblock.present.films.space import view_axes
+from seisblock.present.films.space import on_picture, view_axes
 from seisblock.solvers.stack.outcome import rotated
 from seisblock.words import speaking
 from tests.language.english import english_in, seen_in
@@ -181,6 +181,16 @@ def test_stones_are_where_the_response_has_them():
         turn = np.array([found[f"{stone.name}_q{axis}"][near] for axis in "wxyz"])
         corner = np.array([found[f"{stone.name}_{axis}"][near] for axis in "xyz"]) + rotated(turn, 0.5 * np.array(stone.size))
         assert np.linalg.norm(solid.placed(index)[7] - corner) < 0.05 * max(stone.size)
+
+
+@pytest.mark.parametrize("model", ["stack", "uplift"])
+def test_the_ground_stays_in_the_picture(model):
+    """However far it moves, the patch of ground lies within the box that is shown."""
+    scene = film(model, 100).scene
+    left, right, bottom, _ = scene.extent()
+    for index in range(100):
+        x, z = on_picture(scene.floor(index)).T
+        assert left <= x.min() and x.max() <= right and bottom <= z.min()
 
 
 def test_the_viewer_sees_at_most_three_faces_of_a_stone_and_the_nearest_last():

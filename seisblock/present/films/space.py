@@ -101,8 +101,11 @@ class Space:
         centres = np.concatenate([solid.centre + self.moved for solid in self.solids])
         across, high, wide = centres @ right, centres @ up, 1.2 * tall + self.half
         patch = self.half * (abs(float(right[0])) + abs(float(right[1]))), self.half * (abs(float(up[0])) + abs(float(up[1])))
-        sides = max(min(float(across.min()) - reach, -patch[0]), -wide), min(max(float(across.max()) + reach, patch[0]), wide)
-        return *sides, max(min(float(high.min()) - reach, -1.1 * patch[1]), -wide), min(float(high.max()) + reach, 1.5 * tall)
+        aside, rise = self.moved @ right, self.moved @ up
+        left = max(min(float(across.min()) - reach, float(aside.min()) - patch[0]), -wide)
+        end = min(max(float(across.max()) + reach, float(aside.max()) + patch[0]), wide)
+        low = max(min(float(high.min()) - reach, float(rise.min()) - 1.1 * patch[1]), -wide)
+        return left, end, low, min(float(high.max()) + reach, 1.5 * tall)
 
     def floor(self, index: int) -> FloatArray:
         """Return the patch of ground in picture `index`, (4, 3), m."""
