@@ -23,7 +23,9 @@ from seisblock.present.films.space import on_picture, view_axes
 from seisblock.solvers.stack.outcome import rotated
 from seisblock.words import speaking
 from tests.language.english import english_in, seen_in
-from tests.present.test_histories import deviation, response, shared, visible_texts
+from tests.present.long_record import response
+from tests.present.test_every_figure import shared, visible_texts
+from tests.present.test_histories import deviation
 
 FILMS = {
     "respond": respond.respond_film,
