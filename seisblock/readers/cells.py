@@ -10,6 +10,8 @@ from typing import NoReturn
 import numpy as np
 
 from seisblock.errors import RecordFormatError
+from seisblock.readers.lines import pieces_of
+from seisblock.records.record import sealed
 from seisblock.typing import FloatArray
 from seisblock.units import ACCELERATION_UNITS
 from seisblock.words import said
@@ -37,6 +39,13 @@ def to_si(values: FloatArray, unit: str) -> FloatArray:
     return values / 10.0 ** _SHIFTS[factor]
 
 
+def turned_si(values: FloatArray, unit: str, sign: float = 1.0) -> FloatArray:
+    """Return accelerations, (n,), that nobody else holds in m/s^2, in their own place, times a sign; read-only from now on."""
+    values[:] = to_si(values, unit)
+    values *= sign
+    return sealed(values)
+
+
 def _has_decimals(values: FloatArray, places: int) -> bool:
     """Return whether numbers are those of so many decimals."""
     whole = np.rint(values * 10.0**places)
@@ -45,8 +54,8 @@ def _has_decimals(values: FloatArray, places: int) -> bool:
 
 def columns_of(
     name: str, lines: Sequence[str], first_line: int, columns: Mapping[str, int], width: int, separator: str | None = ","
-) -> FloatArray:
-    """Return chosen columns of a table as rows, shape (number of columns, lines).
+) -> list[FloatArray]:
+    """Return chosen columns of a table, each an array of its own, (lines,), that nobody else holds.
 
     Parameters
     ----------
@@ -70,34 +79,49 @@ def columns_of(
     """
     if not any(line.strip() for line in lines):
         raise RecordFormatError("{name} ends after its header (line {line}): there are no samples in it", name=name, line=first_line - 1)
-    table = _fast(lines, columns, separator) if _is_even(lines, separator) else None
-    if table is None or not np.isfinite(table).all():
-        table = _careful(name, lines, first_line, columns, width, separator)
-    if not table.size:
+    filled = _filled(lines, separator)
+    table = None if filled is None else _fast(lines, columns, separator, filled)
+    if table is None or not all(np.isfinite(column).all() for column in table):
+        table = list(np.ascontiguousarray(_careful(name, lines, first_line, columns, width, separator).T))
+    if not table or not table[0].size:
         raise RecordFormatError("{name}: the lines after its header (line {line}) hold no samples", name=name, line=first_line - 1)
-    return np.ascontiguousarray(table.T)
+    return table
 
 
-def _is_even(lines: Sequence[str], separator: str | None) -> bool:
-    """Return whether every line has as many separators as the first, so that no cell can have slipped sideways."""
-    if separator is None:
-        return True  # checked by the width of the table
-    text = "\n".join(lines)
-    filled = text.count("\n") + 1 - sum(1 for line in lines if not line)
-    return text.count(separator) == lines[0].count(separator) * filled
+def _filled(lines: Sequence[str], separator: str | None) -> int | None:
+    """Return how many lines are not blank; None where one has not as many separators as the first, so that a cell may have slipped."""
+    filled = separators = written = 0
+    for piece in pieces_of(lines):
+        filled += sum(1 for line in piece if line.strip())
+        if separator is not None:
+            separators += "\n".join(piece).count(separator)
+            written += sum(1 for line in piece if line)
+    # without a separator the width of the table tells
+    even = separator is None or separators == lines[0].count(separator) * written
+    return filled if even else None
 
 
-def _fast(lines: Sequence[str], columns: Mapping[str, int], separator: str | None) -> FloatArray | None:
-    """Return the table through numpy's own parser, or None when it stumbles."""
+def _fast(lines: Sequence[str], columns: Mapping[str, int], separator: str | None, filled: int) -> list[FloatArray] | None:
+    """Return the columns through numpy's own parser, or None when it stumbles."""
     indices = list(columns.values())
+    found = [np.empty(filled) for _ in indices]
+    begin, widths = 0, set()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            if separator is None:
-                return np.loadtxt(lines, comments=None, ndmin=2)[:, indices]
-            return np.loadtxt(lines, delimiter=separator, comments=None, usecols=indices, ndmin=2)
+            for piece in pieces_of(lines):
+                if separator is None:
+                    rows = np.loadtxt(piece, comments=None, ndmin=2)
+                    widths.add(rows.shape[1])
+                    rows = rows[:, indices]
+                else:
+                    rows = np.loadtxt(piece, delimiter=separator, comments=None, usecols=indices, ndmin=2)
+                for column, values in zip(found, rows.T, strict=True):
+                    column[begin : begin + values.size] = values
+                begin += len(rows)
         except (ValueError, IndexError):
             return None
+    return found if begin == filled and len(widths) < 2 else None
 
 
 def _careful(name: str, lines: Sequence[str], first_line: int, columns: Mapping[str, int], width: int, separator: str | None) -> FloatArray:

@@ -30,9 +30,10 @@ def doubts_of_decimals(lines: Sequence[str], first_line: int, separator: str | N
     separator : str or None
         Between cells; None is any run of blanks.
     """
-    filled = [(first_line + i, line) for i, line in enumerate(lines) if line.strip()]
-    if len(filled) < LEAST_LINES or not _some_are_lost(lines, len(filled)):
+    count = sum(1 for line in lines if line.strip())
+    if count < LEAST_LINES or not _some_are_lost(lines, count):
         return ()
+    filled = [(first_line + i, line) for i, line in enumerate(lines) if line.strip()]
     found: list[tuple[int, str, int]] = []
     for cells in zip(*(line.split(separator) for _, line in filled), strict=False):
         tidy = [cell.strip() for cell in cells]

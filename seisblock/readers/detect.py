@@ -7,7 +7,8 @@ import codecs
 from seisblock.errors import RecordFormatError
 from seisblock.readers import bundle
 from seisblock.readers.formats import at2, generic, jma_csv, knet, knet_csv, plain_csv
-from seisblock.readers.source import Blob, decode
+from seisblock.readers.lines import lines_of
+from seisblock.readers.source import Blob
 
 BUNDLE = "BUNDLE"
 OBSPY = "OBSPY"
@@ -28,7 +29,7 @@ def format_of(blob: Blob) -> str:
     if generic.is_gse(head):
         return OBSPY
     try:
-        text = decode(blob)
+        lines = lines_of(blob)
     except RecordFormatError:
         return OBSPY
-    return plain_csv.FORMAT if plain_csv.looks_like_csv(text) else OBSPY
+    return plain_csv.FORMAT if plain_csv.looks_like_csv(lines) else OBSPY

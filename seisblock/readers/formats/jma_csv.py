@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
 
 from seisblock.errors import RecordFormatError, UnitError
-from seisblock.readers.cells import columns_of, fail, to_si
+from seisblock.readers.cells import columns_of, fail, turned_si
 from seisblock.readers.decimals import doubts_of_decimals
 from seisblock.readers.header import JST, number
+from seisblock.readers.lines import lines_of
 from seisblock.readers.naming import code_of, normal_unit
-from seisblock.readers.source import Blob, decode
+from seisblock.readers.source import Blob
 from seisblock.records import Component, Doubt, Record
 from seisblock.words import said
 
@@ -34,7 +36,7 @@ def read_jma_csv(blob: Blob) -> Record:
     Header keys may be spelled with or without blanks around ``=``; columns are taken by name in any order; trailing commas, two-digit
     years and UTF-8 re-encodings are accepted. The level is left as published.
     """
-    lines = decode(blob).split("\n")
+    lines = lines_of(blob)
     header, last = _read_header(blob.name, lines)
     names = [cell.strip().strip('"') for cell in lines[last].split(",")]
     while names and not names[-1]:
@@ -44,7 +46,7 @@ def read_jma_csv(blob: Blob) -> Record:
     unit = _unit(blob.name, header)
     start = _start(blob.name, header)
     rows = columns_of(blob.name, lines[last + 1 :], last + 2, columns, len(names))
-    components = tuple(Component(code, to_si(row, unit)) for code, row in zip(columns, rows, strict=True))
+    components = tuple(Component(code, turned_si(row, unit)) for code, row in zip(columns, rows, strict=True))
     station, metadata = _site(_value(blob.name, header, "SITE CODE")[1])
     for key, label in (("LAT.", "station_latitude_deg"), ("LON.", "station_longitude_deg")):
         value = number(header[key][1].split(",")[0]) if key in header else None
@@ -59,11 +61,11 @@ def read_jma_csv(blob: Blob) -> Record:
         source=blob.name,
         format=FORMAT,
         metadata=metadata,
-        doubts=_doubts(lines, rows.shape[1], dt) + doubts_of_decimals(lines[last + 1 :], last + 2, ","),
+        doubts=_doubts(lines, rows[0].size, dt) + doubts_of_decimals(lines[last + 1 :], last + 2, ","),
     )
 
 
-def _doubts(lines: list[str], samples: int, dt: float) -> tuple[Doubt, ...]:
+def _doubts(lines: Sequence[str], samples: int, dt: float) -> tuple[Doubt, ...]:
     """Return what speaks for a file that was cut: JMA ends its last line, and publishes whole seconds."""
     found = []
     if lines[-1].strip():
@@ -79,7 +81,7 @@ def _doubts(lines: list[str], samples: int, dt: float) -> tuple[Doubt, ...]:
     return tuple(found)
 
 
-def _read_header(name: str, lines: list[str]) -> tuple[dict[str, tuple[int, str]], int]:
+def _read_header(name: str, lines: Sequence[str]) -> tuple[dict[str, tuple[int, str]], int]:
     """Return the header's keys with line number and value, and the index of the line that names the components."""
     header: dict[str, tuple[int, str]] = {}
     for index, line in enumerate(lines[:_HEADER_LINES]):

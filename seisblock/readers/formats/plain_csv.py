@@ -6,16 +6,18 @@ import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from seisblock.errors import ParameterError, RecordFormatError, UnitError
-from seisblock.readers.cells import columns_of, to_si
+from seisblock.readers.cells import columns_of, turned_si
 from seisblock.readers.clock import even_dt
 from seisblock.readers.columns import Column, Columns, columns_of_header, means_something
 from seisblock.readers.decimals import doubts_of_decimals
+from seisblock.readers.lines import lines_of, mapped
 from seisblock.readers.naming import TIME
-from seisblock.readers.source import Blob, decode
+from seisblock.readers.source import Blob
 from seisblock.records import Component, Doubt, Record
 from seisblock.typing import FloatArray
 from seisblock.words import said
@@ -35,9 +37,8 @@ class TableLayout:
     decimal_comma: bool = False
 
 
-def looks_like_csv(text: str) -> bool:
+def looks_like_csv(lines: Sequence[str]) -> bool:
     """Return whether a text is a table of numbers, or at least has a header that names components or units."""
-    lines = text.split("\n")
     body = next((i for i, line in enumerate(lines) if _is_data(line)), None)
     if body is None:
         return False
@@ -75,13 +76,13 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     ParameterError
         If the sampling interval is missing, or contradicts the time column.
     """
-    lines = decode(blob).split("\n")
+    lines = lines_of(blob)
     layout = layout_of(blob.name, lines)
-    body = [line if _is_data(line) else "" for line in lines[layout.body :]]
+    body = mapped(lines[layout.body :], lambda line: line if _is_data(line) else "")
     if layout.decimal_comma:
-        body = [line.replace(",", ".") for line in body]
+        body = mapped(body, lambda line: line.replace(",", "."))
     if any('"' in line for line in body[:3]):
-        body = [_QUOTED.sub(r"\1", line) for line in body]
+        body = mapped(body, partial(_QUOTED.sub, r"\1"))
     named = any(layout.names)
     told = columns_of_header(blob.name, layout.names, units) if named else _unnamed(len(layout.names))
     labels = {c.label if layout.names.count(c.label) == 1 else f"number {c.index + 1}": c.index for c in told.read}
@@ -97,7 +98,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
                 metadata["first_time_s"] = float(row[0]) * column.seconds
     if dt is None:
         raise ParameterError("{name} has no time column: give the sampling interval, `dt`, for example 0.01 s", name=blob.name)
-    components = [Component(c.code, c.sign * to_si(row, c.unit), c.azimuth_deg) for c, row in pairs if c.code != TIME]
+    components = [Component(c.code, turned_si(row, c.unit, c.sign), c.azimuth_deg) for c, row in pairs if c.code != TIME]
     if not components:
         raise RecordFormatError(
             "{name} holds no acceleration: expected at least one such column, found {columns}",
@@ -132,7 +133,7 @@ def _unnamed(width: int) -> Columns:
     return Columns(tuple(Column(i, f"number {i + 1}", "") for i in range(width)))
 
 
-def _guessed(name: str, rows: FloatArray, units: str | None) -> Columns:
+def _guessed(name: str, rows: Sequence[FloatArray], units: str | None) -> Columns:
     """Return what the columns of a table without names are: a first one that climbs evenly is the time, the others are accelerations."""
     first = rows[0]
     steps = np.diff(first)

@@ -1,0 +1,104 @@
+"""A large text is taken piece by piece from its bytes; its lines, and the record in them, are those of a text that is held whole."""
+
+from __future__ import annotations
+
+from dataclasses import astuple
+
+import numpy as np
+import pytest
+
+from seisblock.errors import RecordFormatError
+from seisblock.readers import lines as pieces
+from seisblock.readers import read, sample_path
+from seisblock.readers.lines import Lines, lines_of, mapped
+from seisblock.readers.source import Blob, decode
+
+TEXTS = {
+    "no end": "a\nb\nc",
+    "an end": "a\nb\nc\n",
+    "windows": "a,1\r\nb,2\r\n\r\n",
+    "empty lines": "\n\n\na\n\n",
+    "as many as a piece": "1\n2\n3\n",
+    "Japanese": "最大,加速度\n観測点\n1,2\n3,4\n",
+}
+
+
+@pytest.fixture(params=[1, 3, 7])
+def small_pieces(request, monkeypatch):
+    """Let every text count as large, and a piece be so many lines."""
+    monkeypatch.setattr(pieces, "LARGE", 4)
+    monkeypatch.setattr(pieces, "PIECE", request.param)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932"])
+@pytest.mark.parametrize("text", TEXTS.values(), ids=TEXTS)
+def test_lines_are_those_of_the_whole(text, encoding, small_pieces):
+    """All of them, one by one, from both ends, in slices of slices, and changed."""
+    blob = Blob("x", text.encode(encoding))
+    whole, found = decode(blob).split("\n"), lines_of(blob)
+    assert isinstance(found, Lines) and len(found) == len(whole) and list(found) == whole
+    assert [found[i] for i in range(-len(whole), len(whole))] == whole * 2
+    for begin in range(len(whole)):
+        assert list(found[begin:]) == whole[begin:]
+        assert list(found[begin : len(whole) - 1][1:]) == whole[begin : len(whole) - 1][1:]
+    assert list(mapped(mapped(found, str.strip), lambda line: line + "!")) == [line.strip() + "!" for line in whole]
+    with pytest.raises(IndexError):
+        found[len(whole)]
+
+
+def test_what_is_no_text_is_refused(small_pieces):
+    """A byte that neither encoding knows, however late it comes."""
+    with pytest.raises(RecordFormatError, match="neither UTF-8 nor Shift-JIS"):
+        lines_of(Blob("x", b"1,2\n" * 20 + b"\x81 \n"))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "time,NS (gal),EW (gal)\n" + "".join(f"{0.01 * k:.2f},{k % 7}.5,{-k % 5}.25\n" for k in range(60)),
+        "# comment\nNS;EW\n" + "".join(f"{k % 7},5;{-k % 5},25\n" for k in range(60)),
+        "NS EW\n" + "".join(f" {k % 7}.5  {-k % 5}.25\n" for k in range(60)) + "# end\n\n",
+        "NS,UD\n" + "".join(f'"{k % 7}.5","{k}"\n' for k in range(60)),
+        "NS,UD\n" + "".join(f"{k % 7}.5,{'12' if k == 30 else '1.50'}\n" for k in range(60)),
+    ],
+    ids=["clock", "decimal comma", "blanks", "quotes", "a point lost"],
+)
+def test_a_table_in_pieces_is_the_same_record(text, tmp_path, monkeypatch):
+    """Samples, interval, history and doubts."""
+    path = tmp_path / "record.csv"
+    path.write_text(text, encoding="utf-8")
+    options = {} if "gal" in text else {"units": "gal"}
+    options |= {} if "time" in text else {"dt": 0.01}
+    whole = read(path, **options)
+    monkeypatch.setattr(pieces, "LARGE", 4)
+    monkeypatch.setattr(pieces, "PIECE", 7)
+    same(read(path, **options), whole)
+
+
+def test_a_file_of_jma_in_pieces_is_the_same_record(monkeypatch):
+    """Samples, header and doubts."""
+    whole = read(sample_path("synthetic_jma.csv"))
+    monkeypatch.setattr(pieces, "LARGE", 4)
+    monkeypatch.setattr(pieces, "PIECE", 999)
+    same(read(sample_path("synthetic_jma.csv")), whole)
+
+
+@pytest.mark.parametrize(("line", "cell"), [(33, "1.0,2.0,3.0"), (34, "one,2.0"), (35, "1.0")], ids=["more", "text", "less"])
+def test_a_bad_line_keeps_its_number(line, cell, tmp_path, small_pieces):
+    """The first line that is wrong is named, wherever pieces end."""
+    rows = ["NS (gal),EW (gal)", *("1.5,2.5" for _ in range(60))]
+    rows[line - 1] = cell
+    path = tmp_path / "record.csv"
+    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    with pytest.raises(RecordFormatError, match=f"line {line}"):
+        read(path, dt=0.01)
+
+
+def same(found, expected):
+    """Assert that two records are one."""
+    assert found.codes == expected.codes and found.dt == expected.dt
+    for one, other in zip(found.components, expected.components, strict=True):
+        np.testing.assert_array_equal(one.acceleration, other.acceleration)
+        assert not one.acceleration.flags.writeable
+    assert (found.history, found.metadata, found.start) == (expected.history, expected.metadata, expected.start)
+    assert [astuple(doubt) for doubt in found.doubts] == [astuple(doubt) for doubt in expected.doubts]
