@@ -9,7 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from seisblock.limits import check_curves
 from seisblock.typing import FloatArray, IntArray
+
+OTHERS = 6
+"""Curves that are no states: time, mode, ground motion, and what else is drawn."""
 
 if TYPE_CHECKING:
     from seisblock.dynamics.model import Model
@@ -135,7 +139,14 @@ class Trajectory:
 
     @cached_property
     def path(self) -> Path:
-        """All of the path."""
+        """All of the path.
+
+        Raises
+        ------
+        ParameterError
+            If it, and the curves made of it, would take more memory than they may.
+        """
+        check_curves(self.end.sample, 2 * self.final.size + OTHERS)
         return joined(self.walk())
 
     @property

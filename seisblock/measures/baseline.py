@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from seisblock.records.filters import highpass_samples
-from seisblock.records.integrals import integrate, integrate_twice
+from seisblock.records.integrals import displacements, integrate, integrate_twice
 from seisblock.typing import FloatArray
 
 HIGHPASS_HZ = 0.05
@@ -22,13 +23,21 @@ class GroundHistory:
         After the high-pass.
     velocity : (n,) array, m/s
         Its exact integral, less its mean over the record.
-    displacement : (n,) array, m
-        The exact integral of that velocity: zero at both ends.
+    dt : float, s
+        Sampling interval.
+    initial_velocity : float, m/s
+        At the first sample.
     """
 
     acceleration: FloatArray
     velocity: FloatArray
-    displacement: FloatArray
+    dt: float
+    initial_velocity: float
+
+    @cached_property
+    def displacement(self) -> FloatArray:
+        """The exact integral of that velocity, (n,), m: zero at both ends."""
+        return integrate_twice(self.acceleration, self.dt, self.initial_velocity)
 
 
 def ground_history(acceleration: FloatArray, dt: float, *, highpass_hz: float | None = HIGHPASS_HZ) -> GroundHistory:
@@ -65,6 +74,9 @@ def ground_history_of(acceleration: FloatArray, dt: float) -> GroundHistory:
     """Return the history of samples that need no filter: :func:`ground_history` without its first step ([Furukawa2009]_ section 3(5)e)."""
     velocity = integrate(acceleration, dt)
     # the trapezoidal mean of a quadratic velocity, plus its correction: the displacement then ends at zero exactly
-    drift = float(integrate_twice(acceleration, dt)[-1]) / ((acceleration.size - 1) * dt)
+    end = 0.0
+    for _, piece in displacements(acceleration, dt):
+        end = float(piece[-1])
+    drift = end / ((acceleration.size - 1) * dt)
     velocity -= drift
-    return GroundHistory(acceleration, velocity, integrate_twice(acceleration, dt, -drift))
+    return GroundHistory(acceleration, velocity, dt, -drift)

@@ -12,6 +12,9 @@ from seisblock.typing import FloatArray
 from seisblock.units import GAL, STANDARD_GRAVITY
 from seisblock.words import noted, said
 
+BLOCK = 2**18
+"""Samples that are squared at a time: a day-long record needs no further memory of its size."""
+
 JMA_EXCEEDANCE_S = 0.3
 """Time for which the filtered vector must reach the amplitude that defines the intensity, s ([JMA1996]_)."""
 
@@ -72,7 +75,9 @@ def significant_duration(acceleration: FloatArray, dt: float, *, between: tuple[
     float, s
         0 for a record that is zero throughout.
     """
-    cumulative = np.concatenate(([0.0], np.cumsum(_square_integrals(acceleration, dt))))
+    cumulative = np.zeros(acceleration.size)
+    cumulative[1:] = _square_integrals(acceleration, dt)
+    np.cumsum(cumulative[1:], out=cumulative[1:])
     total = float(cumulative[-1])
     if total == 0.0:
         return 0.0
@@ -178,8 +183,12 @@ def _jma_filter(frequency: FloatArray) -> FloatArray:
 
 def _square_integrals(acceleration: FloatArray, dt: float) -> FloatArray:
     """Return the integral of the squared straight line over each interval, (n - 1,), m^2/s^3."""
-    a, b = acceleration[:-1], acceleration[1:]
-    return dt / 3.0 * (a * a + a * b + b * b)
+    found = np.empty(acceleration.size - 1)
+    for begin in range(0, found.size, BLOCK):
+        a, b = acceleration[begin : begin + BLOCK], acceleration[begin + 1 : begin + 1 + BLOCK]
+        a = a[: b.size]
+        found[begin : begin + BLOCK] = dt / 3.0 * (a * a + a * b + b * b)
+    return found
 
 
 def _time_of(acceleration: FloatArray, dt: float, cumulative: FloatArray, energy: float) -> float:

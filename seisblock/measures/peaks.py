@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock.errors import ComponentError
 from seisblock.measures.baseline import GroundHistory
+from seisblock.records.integrals import displacements
 from seisblock.records.process import towards
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
@@ -94,7 +95,8 @@ def peak_displacement(history: GroundHistory) -> float:
     -------
     float, m
     """
-    return max(float(history.displacement.max()), -float(history.displacement.min()))
+    pieces = displacements(history.acceleration, history.dt, history.initial_velocity)
+    return max(float(np.abs(piece).max()) for _, piece in pieces)
 
 
 def peak_horizontal(record: Record) -> HorizontalPeak | None:

@@ -194,13 +194,15 @@ def _measure_component(
     history = ground_history(a, dt, highpass_hz=rules.velocity_highpass_hz)
     pgv = peak_velocity(history, dt)
     pgv = pgv if pgv > _ROUND_OFF * pga * record.duration_s else 0.0
+    pgd = peak_displacement(history)
+    del history
     pulse = peak_pulse(a, dt)
     return ComponentMeasures(
         component=component.code,
         pga_m_s2=pga,
         time_of_pga_s=record.offset_s + index * dt,
         pgv_m_s=pgv,
-        pgd_m=peak_displacement(history),
+        pgd_m=pgd,
         equivalent_frequency_hz=EquivalentFrequency(
             pga_pgv=pga_pgv_frequency(pga, pgv),
             fourier=dominant_frequency(a, dt, band_hz=rules.fourier_band_hz, smoothing_hz=rules.fourier_smoothing_hz),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import csv
-import io
 import os
 import secrets
 import tempfile
@@ -18,6 +17,9 @@ from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import refuse_collision, wrote
 from seisblock.results import Response
 from seisblock.words import said
+
+BLOCK = 2**14
+"""Rows of a time history that are made at a time."""
 
 
 @contextlib.contextmanager
@@ -114,11 +116,10 @@ def write_text(path: Path | str, text: str) -> None:
 
 def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
     """Write rows as CSV; floats keep all their digits."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
-    write_text(path, text.getvalue())
+    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows(rows)
 
 
 def of_records(header: Sequence[str], tables: Sequence[Iterable[Sequence[Any]]]) -> tuple[list[str], Iterator[list[Any]]]:
@@ -135,11 +136,15 @@ def write_histories(path: Path | str, responses: Sequence[Response[Any]]) -> Non
     """
     if not responses:
         raise OutputError("cannot write {path}: there is no time history to write", path=path)
-    blocks = [response.to_columns() for response in responses]
-    names = list(dict.fromkeys(name for block in blocks for name in block))
-    rows: list[list[Any]] = []
-    for response, block in zip(responses, blocks, strict=True):
-        columns = [block[name].tolist() if name in block else [""] * response.time.size for name in names]
-        phases = np.array([phase.name for phase in response.phases] or [""])[response.phase_of_row()].tolist()
-        rows.extend([response.motion.name, *values] for values in zip(*columns, phases, strict=True))
-    write_table(path, ["component", *names, "phase"], rows)
+    names = list(dict.fromkeys(name for response in responses for name in response.to_columns()))
+    write_table(path, ["component", *names, "phase"], (row for response in responses for row in _rows(response, names)))
+
+
+def _rows(response: Response[Any], names: Sequence[str]) -> Iterator[Sequence[Any]]:
+    """Yield the rows of a time history, a block of them made at a time."""
+    columns, phase = response.to_columns(), response.phase_of_row()
+    phases = np.array([phase.name for phase in response.phases] or [""])
+    for begin in range(0, response.time.size, BLOCK):
+        part = slice(begin, begin + BLOCK)
+        cells = [columns[name][part].tolist() if name in columns else [""] * phase[part].size for name in names]
+        yield from zip([response.motion.name] * phase[part].size, *cells, phases[phase[part]].tolist(), strict=True)

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from seisblock.errors import ParameterError, RecordError
+from seisblock.errors import RecordError
+from seisblock.limits import LIMITS, MIB, limit
 from seisblock.words import noted, said
 
-MIB = 2**20
 _CHUNK = MIB
-
-LIMITS = {"SEISBLOCK_READ_MIB": 1024, "SEISBLOCK_READ_MEMBERS": 20_000, "SEISBLOCK_READ_NESTING": 5, "SEISBLOCK_READ_SAMPLES": 200_000_000}
-"""The environment variables that lift a limit, and the limits without them: MiB read and unpacked, members of archives, archives within
-archives, samples of all components."""
+_PREFIX = "SEISBLOCK_READ_"
 
 
 class Readable(Protocol):
@@ -103,10 +99,4 @@ def budget() -> Budget:
     ParameterError
         If a variable is no positive whole number.
     """
-    limits = {}
-    for variable, usual in LIMITS.items():
-        text = os.environ.get(variable, "")
-        if text and not (text.isascii() and text.isdigit() and int(text) > 0):
-            raise ParameterError("{variable} must be a positive whole number, found {text!r}", variable=variable, text=text[:40])
-        limits[variable] = int(text) if text else usual
-    return Budget(limits)
+    return Budget({variable: limit(variable) for variable in LIMITS if variable.startswith(_PREFIX)})

@@ -99,6 +99,9 @@ def columns_of_header(name: str, names: Sequence[str], units: str | None = None)
     remarks += [
         said("turned the sign of {name!r}, which is positive down, to UD, positive up", name=names[c.index]) for c in read if c.sign < 0
     ]
+    if len({column.unit for column in read if column.code != TIME}) > 1:
+        told_units = [f"{names[c.index]!r}: {c.unit}" for c in read if c.code != TIME]
+        remarks.append(said("the columns state several units, and each was taken in its own ({units})", units=told_units))
     return Columns(read, tuple(remarks))
 
 

@@ -51,15 +51,29 @@ def integrate_twice(acceleration: FloatArray, dt: float, initial_velocity: float
         Zero at the first sample.
     """
     displacement = np.zeros(acceleration.size)
-    reached = 0.0
+    for begin, piece in displacements(acceleration, dt, initial_velocity):
+        displacement[begin : begin + piece.size] = piece
+    return displacement
+
+
+def displacements(acceleration: FloatArray, dt: float, initial_velocity: float = 0.0) -> Iterator[tuple[int, FloatArray]]:
+    """Yield :func:`integrate_twice` piece by piece, from its second sample on: the sample at which a piece begins, and the piece.
+
+    Parameters
+    ----------
+    acceleration, dt, initial_velocity
+        As in :func:`integrate_twice`.
+    """
+    velocity, reached = 0.0, 0.0
     for begin, end in _blocks(acceleration.size):
         a = acceleration[begin : end + 1]
-        from_rest = _velocity(a, dt, reached)
-        reached = float(from_rest[-1])
+        from_rest = _velocity(a, dt, velocity)
+        velocity = float(from_rest[-1])
         steps = dt * (initial_velocity + from_rest[:-1]) + dt**2 / 6.0 * (2.0 * a[:-1] + a[1:])
-        steps[0] += displacement[begin]
-        np.cumsum(steps, out=displacement[begin + 1 : end + 1])
-    return displacement
+        steps[0] += reached
+        np.cumsum(steps, out=steps)
+        reached = float(steps[-1])
+        yield begin + 1, steps
 
 
 def _velocity(acceleration: FloatArray, dt: float, initial: float) -> FloatArray:

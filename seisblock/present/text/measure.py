@@ -8,11 +8,13 @@ from typing import Any
 from rich.console import Group
 from rich.text import Text
 
+from seisblock.limits import check_curves
 from seisblock.measures import FilterRange, RecordMeasures, ground_history
-from seisblock.present.files import of_records
+from seisblock.present.files import BLOCK, of_records
 from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, record_line, seconds, table
 from seisblock.records import Record
 from seisblock.records.process import pick
+from seisblock.typing import FloatArray
 from seisblock.units import KINE
 from seisblock.words import tell
 
@@ -135,12 +137,16 @@ def history_table(records: Sequence[Record], answers: Sequence[RecordMeasures]) 
 def _history_rows(record: Record, answer: RecordMeasures, codes: Sequence[str]) -> Iterator[Sequence[Any]]:
     """Yield the rows of one record; a component that it lacks stays empty."""
     present = {m.component for m in answer.components}
-    columns: list[list[Any]] = [record.time.tolist()]
+    check_curves(record.samples, 1 + 2 * len(present))
+    columns: list[FloatArray | None] = [record.time]
     for code in codes:
         if code not in present:
-            columns += [[""] * record.samples] * 3
+            columns += [None] * 3
             continue
         a = pick(record, code).acceleration
         history = ground_history(a, record.dt, highpass_hz=answer.conventions.velocity_highpass_hz)
-        columns += [a.tolist(), history.velocity.tolist(), history.displacement.tolist()]
-    yield from zip(*columns, strict=True)
+        columns += [a, history.velocity, history.displacement]
+    for begin in range(0, record.samples, BLOCK):
+        part = slice(begin, min(begin + BLOCK, record.samples))
+        empty = [""] * (part.stop - begin)
+        yield from zip(*(empty if column is None else column[part].tolist() for column in columns), strict=True)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.limits import check_curves
 from seisblock.records import Motion
 from seisblock.results import Channel, Event, Histories, Phase
 from seisblock.solvers.jump.chain import (
@@ -26,6 +27,9 @@ from seisblock.solvers.jump.chain import (
     phases_and_events,
 )
 from seisblock.words import noted, said
+
+COLUMNS = 10
+"""Rows of a day that are held while curves are made: the clock, the parts and the whole of each."""
 
 ROUND_OFF = 1e-9
 """What is no more than this over a limit, as a share, meets it."""
@@ -135,6 +139,7 @@ def phases_and_events_of(motion: Motion, parts: Sequence[Part]) -> tuple[tuple[P
 
 def curves_of(motion: Motion, block: TwoLayerBlock, parts: Sequence[Part]) -> Histories:
     """Return the curves over the whole motion: the chains and the rest between them."""
+    check_curves(motion.samples, COLUMNS)
     clock = motion.time
     columns: list[tuple[np.ndarray, ...]] = []
     for part in parts:
