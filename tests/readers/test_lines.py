@@ -102,3 +102,12 @@ def same(found, expected):
         assert not one.acceleration.flags.writeable
     assert (found.history, found.metadata, found.start) == (expected.history, expected.metadata, expected.start)
     assert [astuple(doubt) for doubt in found.doubts] == [astuple(doubt) for doubt in expected.doubts]
+
+
+def test_columns_in_several_units_are_each_taken_in_their_own(tmp_path):
+    """And the record's history says so."""
+    path = tmp_path / "record.csv"
+    path.write_text("NS (gal),EW (m/s2)\n" + "100,2\n" * 5, encoding="utf-8")
+    record = read(path, dt=0.01)
+    assert [float(component.acceleration[0]) for component in record.components] == [1.0, 2.0]
+    assert record.history == ("the columns state several units, and each was taken in its own ('NS (gal)': gal, 'EW (m/s2)': m/s2)",)

@@ -39,3 +39,20 @@ def test_too_much_is_refused(what, tmp_path, monkeypatch):
     assert (done.exit_code, done.stdout) == (code, ""), done.stderr
     assert told in " ".join(done.stderr.split())
     assert time.process_time() - start < SOON_S
+
+
+def test_curves_of_a_day_are_refused_with_what_lifts_the_limit(tmp_path, monkeypatch):
+    """A figure and a table of curves name the memory they would take; the verdict alone is given."""
+    monkeypatch.setenv("SEISBLOCK_CURVES_MIB", "1")
+    monkeypatch.chdir(tmp_path)
+    lines = ("time,NS (gal)\n", *(f"{0.01 * k:.2f},{100 * (k % 7 - 3)}\n" for k in range(20_000)))
+    (tmp_path / "long.csv").write_text("".join(lines))
+    words = ["slide", "long.csv", "--mu", "0.2", "--quiet"]
+    done = CliRunner().invoke(main, [*words, "--csv", "out.csv"])
+    assert done.exit_code == 3 and not (tmp_path / "out.csv").exists(), done.stderr
+    told = " ".join(done.stderr.split())
+    assert "would take 2 MiB, and 1 may be taken" in told and "set SEISBLOCK_CURVES_MIB to take more" in told
+    assert CliRunner().invoke(main, words).exit_code == 0
+    monkeypatch.setenv("SEISBLOCK_CURVES_MIB", "100")
+    assert CliRunner().invoke(main, [*words, "--csv", "out.csv"]).exit_code == 0
+    assert len((tmp_path / "out.csv").read_text().splitlines()) > 20_000
