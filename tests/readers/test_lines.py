@@ -58,10 +58,11 @@ def test_what_is_no_text_is_refused(small_pieces):
         "time,NS (gal),EW (gal)\n" + "".join(f"{0.01 * k:.2f},{k % 7}.5,{-k % 5}.25\n" for k in range(60)),
         "# comment\nNS;EW\n" + "".join(f"{k % 7},5;{-k % 5},25\n" for k in range(60)),
         "NS EW\n" + "".join(f" {k % 7}.5  {-k % 5}.25\n" for k in range(60)) + "# end\n\n",
+        "NS (gal)\n" + "".join(f"{k % 7}.5\n" if k != 40 else "\n" for k in range(60)),
         "NS,UD\n" + "".join(f'"{k % 7}.5","{k}"\n' for k in range(60)),
         "NS,UD\n" + "".join(f"{k % 7}.5,{'12' if k == 30 else '1.50'}\n" for k in range(60)),
     ],
-    ids=["clock", "decimal comma", "blanks", "quotes", "a point lost"],
+    ids=["clock", "decimal comma", "blanks", "an empty line", "quotes", "a point lost"],
 )
 def test_a_table_in_pieces_is_the_same_record(text, tmp_path, monkeypatch):
     """Samples, interval, history and doubts."""
@@ -73,6 +74,19 @@ def test_a_table_in_pieces_is_the_same_record(text, tmp_path, monkeypatch):
     monkeypatch.setattr(pieces, "LARGE", 4)
     monkeypatch.setattr(pieces, "PIECE", 7)
     same(read(path, **options), whole)
+
+
+def test_no_line_is_looked_for_one_by_one(tmp_path, monkeypatch):
+    """A table is gone through some ten times, from piece to piece, and never line by line from the beginning of a piece."""
+    path = tmp_path / "record.csv"
+    path.write_text("NS (gal)\n" + "".join(f"{k % 7}.5\n" for k in range(1000)), encoding="utf-8")
+    monkeypatch.setattr(pieces, "LARGE", 4)
+    monkeypatch.setattr(pieces, "PIECE", 100)
+    made = []
+    original = Lines._piece
+    monkeypatch.setattr(Lines, "_piece", lambda self, number: made.append(number) or original(self, number))
+    read(path, dt=0.01)
+    assert len(made) < 20 * 11
 
 
 def test_a_file_of_jma_in_pieces_is_the_same_record(monkeypatch):

@@ -114,7 +114,7 @@ def _doubts(lines: Sequence[str], body: int, *, clocked: bool) -> tuple[Doubt, .
     """Return what speaks for lines that were lost: one that is empty where nothing else counts them, and a last one cut short."""
     found = []
     last = max(i for i, line in enumerate(lines) if _is_data(line))
-    empty = [] if clocked else [i + 1 for i in range(body, last) if not lines[i].strip()]
+    empty = [] if clocked else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
     if empty:
         text = said(
             "{count} line(s) are empty (the first is line {line}) where each stands for a sample: if samples are missing there, all later "
