@@ -131,6 +131,15 @@ def test_a_long_record_opens_on_what_matters():
     assert len(figure_of([solve_slide(SlidingBase(0.15), short)]).axes) == 3
 
 
+def test_each_phase_that_can_be_seen_is_shaded():
+    """F1: what is too short for a band is so in what is shown, not in the whole of a long record."""
+    found = response("rock")
+    (axis,) = [axis for axis in figure_of([found]).axes if axis.get_ylabel() == "θ/α" and axis.patches]
+    first, last = axis.get_xlim()
+    shaded = [phase for phase in found.phases if phase.name != "rest" and phase.duration_s > (last - first) / 2000]
+    assert len(axis.patches) == len(shaded) > len([phase for phase in shaded if phase.duration_s > found.time[-1] / 2000]) > 3
+
+
 def test_what_did_not_happen_has_no_panel():
     """F3: a block at rest has its ground motion and nothing empty beside it."""
     at_rest = solve_rock(Block(1.0, 1.0), motion())

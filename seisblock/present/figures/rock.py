@@ -93,7 +93,7 @@ def draw_ground(axis: Any, response: Response[RockOutcome], called: str, *, gal:
 def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     """Draw the lean over alpha with its phases and impacts."""
     ratio = response["rotation"] / response.outcome.slenderness_rad
-    canvas.shade(axis, _merged(response), COLOURS, names=True)
+    canvas.shade(axis, _seen(response, *axis.get_xlim()), COLOURS, names=True)
     curve(axis, response.time, ratio, color=canvas.ACCENT)
     canvas.threshold(axis, [-1.0, 1.0])
     reach = float(np.abs(ratio).max())
@@ -111,10 +111,9 @@ def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     canvas.legend(axis)
 
 
-def _merged(response: Response[RockOutcome]) -> list[Any]:
-    """Return the phases long enough to be seen, so that dying hops do not become thousands of bands."""
-    shortest = (response.time[-1] - response.time[0]) / 2000
-    return [phase for phase in response.phases if phase.duration_s > shortest]
+def _seen(response: Response[RockOutcome], first: float, last: float) -> list[Any]:
+    """Return the phases long enough to be seen in what is shown, so that dying hops do not become thousands of bands."""
+    return [phase for phase in response.phases if phase.duration_s > (last - first) / 2000]
 
 
 def _draw_plane(axis: Any, response: Response[RockOutcome]) -> None:
