@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import fields
 from types import SimpleNamespace
 
@@ -103,3 +104,29 @@ def test_curves_are_made_when_they_are_asked_for(monkeypatch):
     response = seisblock.solve_slide(0.1, Motion.from_arrays(np.sin(np.arange(300.0)), 0.01))
     assert response.outcome.slips and made.count == 0
     assert response.time.size == response["displacement"].size and made.count == 1
+
+
+SHORTER, LONGER, LEAST = 2**17, 2**18, 8.0
+"""Samples of a burst in a quiet day, and the bytes of each that a single row would take."""
+
+
+def peak_bytes(solve, samples):
+    """Return what a solve holds at its peak, bytes, of a motion that shakes at its beginning alone."""
+    place = np.arange(samples)
+    burst = 6.0 * np.exp(-(((place - 2000.0) / 200.0) ** 2)) * np.sin(0.06 * place)
+    motion = Motion((burst, np.zeros(samples), 0.3 * burst), 0.005)
+    tracemalloc.start()
+    try:
+        assert solve(motion).outcome is not None
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("solve", SOLVES.values(), ids=SOLVES)
+def test_a_verdict_holds_no_row_of_the_length_of_the_motion(solve, monkeypatch):
+    """The slope between two lengths: less than one row; the path of a slide takes five."""
+    monkeypatch.setattr("seisblock.records.motion.LONG", 2**16)
+    monkeypatch.setattr("seisblock.records.motion.STRETCH", 2**15)
+    peak_bytes(solve, 2**16 + 2)
+    assert (peak_bytes(solve, LONGER) - peak_bytes(solve, SHORTER)) / (LONGER - SHORTER) < LEAST

@@ -30,6 +30,9 @@ ENDED_LANDED = noted("still moving a minute after the record")
 REST, ROCKING, FLIGHT, LANDED = noted("rest"), noted("rocking"), noted("flight"), noted("rocking-sliding")
 """Names of the phases."""
 
+LOOKED_AT = 2**12
+"""Samples at a time among which the end of a stretch is looked for."""
+
 SLIPPING = (flying.BACK, flying.FORTH, flying.FLAT_BACK, flying.FLAT_FORTH)
 """Kinds of motion in which the foot slips."""
 
@@ -235,11 +238,13 @@ def _time_above_threshold(followed: Followed) -> float:
     """Return how long the acceleration stays above the rocking threshold from the onset on, s."""
     motion, start = followed.motion, followed.start
     threshold = followed.block.rocking_threshold(followed.gravity)
-    ahead = followed.sign * motion.horizontal[start.sample + 1 :]
-    below = np.flatnonzero(ahead <= threshold)
-    if not below.size:
-        return motion.dt * ahead.size - start.tau
-    i = start.sample + int(below[0])
+    for begin in range(start.sample + 1, motion.samples, LOOKED_AT):
+        below = np.flatnonzero(followed.sign * motion.horizontal[begin : begin + LOOKED_AT] <= threshold)
+        if below.size:
+            i = begin - 1 + int(below[0])
+            break
+    else:
+        return motion.dt * (motion.samples - 1 - start.sample) - start.tau
     a0, a1 = followed.sign * motion.horizontal[i], followed.sign * motion.horizontal[i + 1]
     fraction = (a0 - threshold) / (a0 - a1) if a0 > threshold else 1.0
     return max((i - start.sample + float(fraction)) * motion.dt - start.tau, 0.0)
@@ -285,16 +290,3 @@ def curves(followed: Followed) -> tuple[FloatArray, FloatArray, FloatArray, Floa
         time, theta = np.concatenate([time, times + t0]), np.concatenate([theta, states[:, flying.THETA]])
         x, rise = np.concatenate([x, xs]), np.concatenate([rise, rises])
     return time, -followed.sign * theta, followed.sign * x, rise
-
-
-def end_of_curves(followed: Followed) -> tuple[float, float, float]:
-    """Return the last of each of :func:`curves`, but the tilt: time (s), displacement and rise of the centroid (m)."""
-    block, last = followed.block, followed.flown or followed.rocked
-    time = followed.motion.start_s + (last.changes[-1].time if last.final_mode < 0 else last.end_time)
-    if followed.flown is None:
-        lean = block.slenderness - last.final[rocking.THETA]
-        x, rise = block.radius * np.sin(lean) - block.width / 2, block.radius * np.cos(lean) - block.centroid_height
-    else:
-        mode = last.changes[-1].source if last.final_mode < 0 else last.final_mode
-        (x,), (rise,) = flying.centroid(block, followed.drop, np.array([mode]), last.final[np.newaxis])
-    return time, followed.sign * float(x), float(rise)

@@ -12,6 +12,8 @@ from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.limits import check_curves
 from seisblock.records import Motion
 from seisblock.results import Channel, Event, Histories, Phase
+from seisblock.solvers.jump import modes as flying
+from seisblock.solvers.jump import rocking
 from seisblock.solvers.jump.chain import (
     ENDED_FLYING,
     ENDED_LANDED,
@@ -23,7 +25,6 @@ from seisblock.solvers.jump.chain import (
     Followed,
     chain_of,
     curves,
-    end_of_curves,
     phases_and_events,
 )
 from seisblock.words import noted, said
@@ -157,3 +158,16 @@ def curves_of(motion: Motion, block: TwoLayerBlock, parts: Sequence[Part]) -> Hi
         Channel("ground_acceleration", "m/s^2", np.interp(time, clock, motion.horizontal, right=0.0), "z''"),
     )
     return Histories(time, channels)
+
+
+def end_of_curves(followed: Followed) -> tuple[float, float, float]:
+    """Return the last of each of :func:`curves`, but the tilt: time (s), displacement and rise of the centroid (m)."""
+    block, last = followed.block, followed.flown or followed.rocked
+    time = followed.motion.start_s + (last.changes[-1].time if last.final_mode < 0 else last.end_time)
+    if followed.flown is None:
+        lean = block.slenderness - last.final[rocking.THETA]
+        x, rise = block.radius * np.sin(lean) - block.width / 2, block.radius * np.cos(lean) - block.centroid_height
+    else:
+        mode = last.changes[-1].source if last.final_mode < 0 else last.final_mode
+        (x,), (rise,) = flying.centroid(block, followed.drop, np.array([mode]), last.final[np.newaxis])
+    return time, followed.sign * float(x), float(rise)
