@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import line, number, record_line, seconds, table
+from seisblock.present.text.tables import by_record, line, number, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.probability import Probability
@@ -24,9 +24,7 @@ FEWEST = 20
 
 def tables(responses: Responds, extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Iterator[Any]:
     """Yield, per record, its line, what happened and how sure it is, a table with a column per component, and the notes."""
-    records = list({id(r.motion.record): r.motion.record for r in responses}.values())
-    for record in records:
-        part = [(r, e) for r, e in zip(responses, extras, strict=True) if r.motion.record is record]
+    for record, part in by_record(zip(responses, extras, strict=True), lambda pair: pair[0].motion.record):
         if record is not None:
             yield record_line(record)
         for response, extra in part:

@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.bodies.library import edges
 from seisblock.present.text.agreement import agreement_line, chance_lines
-from seisblock.present.text.tables import acceleration, acceleration_unit, line, number, record_line, seconds, table
+from seisblock.present.text.tables import acceleration, acceleration_unit, by_record, line, number, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome, friction_suffices
 from seisblock.studies.rocking.margin import Margin
@@ -31,9 +31,7 @@ def tables(responses: Rockings, extras: Sequence[Mapping[str, Any]], *, gal: boo
     mu : float or None
         The friction there is, where it was said.
     """
-    records = list({id(r.motion.record): r.motion.record for r in responses}.values())
-    for record in records:
-        part = [(r, e) for r, e in zip(responses, extras, strict=True) if r.motion.record is record]
+    for record, part in by_record(zip(responses, extras, strict=True), lambda pair: pair[0].motion.record):
         if record is not None:
             yield record_line(record)
         for response, _ in part:

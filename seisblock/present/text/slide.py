@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import NOTHING, fixed, line, record_line, seconds, table
+from seisblock.present.text.tables import NOTHING, by_record, fixed, line, record_line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
 from seisblock.studies.sliding import SlidePoint
@@ -27,11 +27,9 @@ def millimetres(value: float | None) -> str:
 
 def tables(responses: Slides, sweep: Sequence[SlidePoint] = ()) -> Iterator[Any]:
     """Yield, for each record, its line and one row per direction; then the sweep of directions when there was one."""
-    records = list({id(r.motion.record): r.motion.record for r in responses}.values())
-    for record in records:
+    for record, mine in by_record(responses, lambda response: response.motion.record):
         if record is not None:
             yield record_line(record)
-        mine = [response for response in responses if response.motion.record is record]
         for response in mine:
             yield line(sentence(response))
         yield table(

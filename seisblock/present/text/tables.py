@@ -121,6 +121,22 @@ def acceleration_unit(*, gal: bool) -> str:
     return "gal" if gal else "m/s²"
 
 
+def by_record(items: Iterable[Item], record_of: Callable[[Item], Record | None]) -> Iterator[tuple[Record | None, list[Item]]]:
+    """Yield each record with what belongs to it, in the order in which they come.
+
+    Parameters
+    ----------
+    items : sequence
+    record_of : callable
+        Returns the record of an item, None where it has none.
+    """
+    parts: dict[int, tuple[Record | None, list[Item]]] = {}
+    for item in items:
+        record = record_of(item)
+        parts.setdefault(id(record), (record, []))[1].append(item)
+    yield from parts.values()
+
+
 def record_line(record: Record) -> Text:
     """Return one line that says which record an answer is about."""
     start = told_time(record, record.start) or tell("start unknown")
