@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from numbers import Integral, Real
-from typing import Any
+from typing import Any, TypeVar
 
-from seisblock.errors import InputError, ParameterError
+from seisblock.errors import InputError, KindError, ParameterError
 from seisblock.words import said
 
 Refusal = type[InputError]
@@ -21,6 +21,8 @@ SMALLEST, LARGEST = 1e-100, 1e100
 
 LONGEST_SHOWN = 200
 """How much is shown of what is no number."""
+
+Kind = TypeVar("Kind")
 
 
 def finite(what: str, value: Any, /, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
@@ -110,6 +112,25 @@ def fraction(what: str, value: Any, /, *, error: Refusal = ParameterError, **nam
 def gravity(value: Any) -> float:
     """Return an acceleration of gravity, m/s^2: positive."""
     return positive("gravity", value, "m/s^2")
+
+
+def instance(value: Any, kind: type[Kind]) -> Kind:
+    """Return what is of a kind, or refuse it.
+
+    Examples
+    --------
+    >>> instance(None, dict)
+    Traceback (most recent call last):
+    seisblock.errors.KindError: a dict is needed, found nothing
+    """
+    if not isinstance(value, kind):
+        raise KindError("a {kind} is needed, found {found}", kind=kind.__name__, found=kind_of(value))
+    return value
+
+
+def kind_of(value: Any) -> str:
+    """Return what a value is, for a message."""
+    return said("nothing") if value is None else type(value).__name__
 
 
 def seed(value: Any) -> int:

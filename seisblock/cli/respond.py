@@ -93,7 +93,7 @@ def respond(
         responses.append(solve_respond(chosen.block, motion, vertical=vertical, **options))
         extra: dict[str, Any] = {}
         if runs:
-            same = {**options, "vertical": vertical is not False, "runs": runs, "moved_m": moved, "seed": seed}
+            same = {**options, "vertical": vertical, "runs": runs, "moved_m": moved, "seed": seed}
             with progress("versions {name}", name=motion.name) as advance:
                 extra["probability"] = respond_probability(chosen.block, motion, versions=Versions(**widths), progress=advance, **same)
         if sweep:
@@ -117,6 +117,6 @@ def _motions(source: Source, block: Block, vertical: bool | None, options: dict[
         if not every:
             yield from ((motion, []) for motion in motions(record, source))
             continue
-        found = respond_directions(block, record, vertical=vertical is not False, **options)
+        found = respond_directions(block, record, vertical=vertical, **options)
         say("worst of {count} directions: azimuth {azimuth:g} degrees", count=len(found), azimuth=found[0].azimuth_deg)
         yield motion_of(record, f"{found[0].azimuth_deg:g}"), found

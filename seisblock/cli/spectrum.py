@@ -196,15 +196,14 @@ def _modes(
     shaken = [motion for record in load(source) for motion in motions(record, source)]
     for motion in shaken:
         need_vertical(motion, bool(vertical))
-    acts = vertical is not False
-    axes = _axes(shaken, grid, gravity, vertical=acts)
+    axes = _axes(shaken, grid, gravity, vertical=vertical)
     found = []
     for motion in shaken:
         with progress("modes {name}", name=motion.name) as advance:
-            each = mode_map(*axes, motion, inset=inset, restitution=restitution, vertical=acts, gravity=gravity, progress=advance)
+            each = mode_map(*axes, motion, inset=inset, restitution=restitution, vertical=vertical, gravity=gravity, progress=advance)
             found.append((motion, each))
     emit(
-        modes_document(found, gravity=gravity, restitution=restitution, inset=inset, vertical=acts),
+        modes_document(found, gravity=gravity, restitution=restitution, inset=inset, vertical=vertical is not False),
         output,
         tables=lambda: shown.tables(found, _worn(inset)),
         csv=lambda path: shown.write(path, found),
@@ -212,7 +211,7 @@ def _modes(
     )
 
 
-def _axes(shaken: Sequence[Any], grid: tuple[Any, Any, Any, int], gravity: float, *, vertical: bool) -> tuple[Any, Any, Any]:
+def _axes(shaken: Sequence[Any], grid: tuple[Any, Any, Any, int], gravity: float, *, vertical: bool | None) -> tuple[Any, Any, Any]:
     """Return frictions, diagonals and slendernesses; those not given reach to what the motions can move, no two of them equal."""
     from seisblock.criteria.initiation import loading
 

@@ -68,7 +68,11 @@ DEFAULT_PILE = "wagata"
     show_default=True,
     help="Damping ratio of a stone on its joint, with --young or --joint-stiffness.",
 )
-@option("--vertical/--no-vertical", default=True, show_default=True, help="Whether the record's vertical component acts.")
+@option(
+    "--vertical/--no-vertical",
+    default=None,
+    help="Whether the vertical component acts. [default: where the record has one]",
+)
 @option("--across/--no-across", default=True, show_default=True, help="Whether the other horizontal component acts.")
 @option("--step", type=float, metavar="S", help="Time step, s. [default: 0.7 of what the stiffest contact admits]")
 @option(

@@ -82,6 +82,7 @@ def overturning_card(
     ParameterError
         If a peak is negative or not a number.
     """
+    checks.instance(block, Block)
     checks.not_negative("the PGA", pga, "m/s^2")
     checks.not_negative("the PGV", pgv, "m/s")
     width, height = 2 * min(block.arms), 2 * block.centre

@@ -16,6 +16,7 @@ import numpy as np
 from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.records import Motion
+from seisblock.records.given import Factor, vertical_gain
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted
 
@@ -23,7 +24,7 @@ REST, SLIDE, ROCK, SLIDE_ROCK = noted("rest"), noted("slide"), noted("rock"), no
 """Modes that begin from rest."""
 
 
-def loading(motion: Motion, *, vertical: bool = True, gravity: float = STANDARD_GRAVITY) -> tuple[float, float]:
+def loading(motion: Motion, *, vertical: Factor | None = None, gravity: float = STANDARD_GRAVITY) -> tuple[float, float]:
     """Return the largest A = abs(a)/(g + a_y) of a motion, 1, and its time, s (derived here, as in [Shenton1996]_).
 
     A block rests throughout if, and only if, neither mu nor b/h is below it: between samples both sides of the conditions of rest
@@ -32,8 +33,8 @@ def loading(motion: Motion, *, vertical: bool = True, gravity: float = STANDARD_
     Parameters
     ----------
     motion : Motion
-    vertical : bool
-        Whether its vertical component acts.
+    vertical : bool, float or None
+        Whether its vertical component acts, or a factor on it; None: where the record has one.
     gravity : float, m/s^2
 
     Examples
@@ -42,7 +43,7 @@ def loading(motion: Motion, *, vertical: bool = True, gravity: float = STANDARD_
     (0.5, 0.2)
     """
     checks.gravity(gravity)
-    weight = gravity + motion.vertical * float(vertical)
+    weight = gravity + motion.vertical * vertical_gain(motion, vertical)
     with np.errstate(divide="ignore"):
         ratio = np.where(weight > 0.0, np.abs(motion.horizontal) / weight, math.inf)
     largest = int(np.argmax(ratio))

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.records.motion import motion_of
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
@@ -114,6 +115,7 @@ def jma_intensity(record: Record) -> float | None:
         None when the intensity is not defined: a component is missing, the record is shorter than 0.3 s, or so still that the scale says
         nothing (below -3, 0.01 gal: an offset alone would give -26). :func:`why_no_intensity` tells which.
     """
+    checks.instance(record, Record)
     needed = _samples_needed(record)
     if record.vertical is None or len(record.horizontals) != 2 or needed > record.samples:
         return None
@@ -167,6 +169,7 @@ def jma_class(intensity: float) -> str:
     >>> [jma_class(i) for i in (-1.0, 4.494, 4.497, 5.1, 7.2)]
     ['0', '4', '5-', '5+', '7']
     """
+    checks.finite("the intensity", intensity)
     published = math.floor(round(round(intensity, 2) * 10, 6)) / 10
     return next((name for bound, name in _CLASSES if published < bound), "7")
 

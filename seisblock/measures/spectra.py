@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock import checks
-from seisblock.errors import ParameterError
+from seisblock.errors import KindError, ParameterError
+from seisblock.records import Motion, Record
 from seisblock.showing import Drawn
 from seisblock.typing import ArrayLike, FloatArray
 
@@ -85,6 +86,11 @@ def response_spectrum(
     ParameterError
         If a period is not positive or the damping outside its range.
     """
+    if isinstance(acceleration, (Motion, Record)):
+        found = type(acceleration).__name__
+        raise KindError("accelerations are needed, found a {found}: give motion.horizontal and motion.dt", found=found)
+    acceleration = np.asarray(acceleration, dtype=np.float64)
+    checks.positive("the sampling interval", dt, "s")
     wanted = default_periods() if periods is None else np.atleast_1d(np.asarray(periods, dtype=np.float64))
     if not (np.isfinite(wanted).all() and (wanted > 0).all()):
         raise ParameterError("the periods of a response spectrum must be positive")

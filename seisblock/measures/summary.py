@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from seisblock import checks
 from seisblock.measures.baseline import HIGHPASS_HZ, ground_history
 from seisblock.measures.duration import Duration, Side, duration_above
 from seisblock.measures.frequency import (
@@ -167,6 +168,7 @@ def measure(
     ParameterError
         If the threshold or a convention is out of range.
     """
+    checks.instance(record, Record)
     rules = conventions or Conventions()
     chosen = [pick(record, name) for name in (record.codes if components is None else components)]
     intensity = jma_intensity(record)

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 
-from seisblock.errors import ComponentError, ParameterError
+from seisblock import checks
+from seisblock.errors import ComponentError, KindError, ParameterError
 from seisblock.readers.assemble import assemble, continues
 from seisblock.readers.dispatch import Options, parts_of
 from seisblock.readers.siblings import with_siblings
@@ -77,7 +78,7 @@ def read(
     (('NS', 'EW', 'UD'), 0.01, 6000)
     """
     options = Options(format, units, dt, station, level)
-    sources: list[Location] = [source] if isinstance(source, (str, PathLike)) else list(source)
+    sources = _listed(source)
     if not sources:
         raise ParameterError("no file was named: give at least one record")
     return _record_of([_open(s, options) for s in sources], options)
@@ -108,7 +109,7 @@ def read_all(
     """
     options = Options(format, units, dt, station, level)
     groups: list[list[Opened]] = []
-    names = [str(s) for s in sources]
+    names = [str(s) for s in _listed(sources)]
     _refuse_repeats(names)
     for name in names:
         opened = _open(name, options)
@@ -119,6 +120,15 @@ def read_all(
             home.append(opened)
     named = frozenset(opened.blob.path for g in groups for opened in g)
     return [record for g in groups for record in _records_of(g, options, named)]
+
+
+def _listed(given: Location | Iterable[Location]) -> list[Location]:
+    """Return what was named as a list: one path, or several."""
+    if isinstance(given, (str, PathLike)):
+        return [given]
+    if not isinstance(given, Iterable):
+        raise KindError("a path is needed, or a list of paths, found {found}", found=checks.kind_of(given))
+    return list(given)
 
 
 def _refuse_repeats(names: Sequence[str]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from seisblock import checks
 from seisblock.errors import ComponentError, KindError
@@ -30,6 +30,18 @@ def check_call(body: object, kind: type, motion: object) -> None:
             body=type(body).__name__,
             motion=type(motion).__name__,
         )
+    check_motion(motion)
+    checks.instance(body, kind)
+
+
+def check_motion(motion: object) -> None:
+    """Refuse what is no motion, with the sentence that helps.
+
+    Raises
+    ------
+    KindError
+        If a record stands where a motion belongs, or anything else.
+    """
     if isinstance(motion, Record):
         code = next((component.code for component in motion.horizontals), "EW")
         raise KindError(
@@ -37,39 +49,34 @@ def check_call(body: object, kind: type, motion: object) -> None:
         )
     if not isinstance(motion, Motion):
         raise KindError(
-            "a Motion is needed, found {found}: make one with motion_of(record, 'EW') or Motion.from_arrays(...)", found=_kind(motion)
+            "a Motion is needed, found {found}: make one with motion_of(record, 'EW') or Motion.from_arrays(...)",
+            found=checks.kind_of(motion),
         )
-    raise KindError("a {kind} is needed, found {found}", kind=kind.__name__, found=_kind(body))
 
 
-def vertical_gain(motion: Motion, vertical: Factor, *, needed: bool = True) -> float:
+def vertical_gain(motion: Motion, vertical: Factor | None) -> float:
     """Return the factor on a motion's vertical row.
 
     Parameters
     ----------
     motion : Motion
-    vertical : bool or float
-        Whether the vertical ground motion acts, or a factor on it.
-    needed : bool
-        Whether a record without a vertical component is refused, or taken as one that does not move up and down.
+    vertical : bool, float or None
+        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
 
     Raises
     ------
     ParameterError
         If the factor is not a finite number.
     ComponentError
-        If the motion's record has no vertical component.
+        If it is asked for, and the motion's record has no vertical component.
     """
-    gain = checks.finite("the factor on the vertical motion", float(vertical))
-    if needed and gain != 0.0 and motion.record is not None and motion.record.vertical is None:
+    if vertical is None:
+        return 1.0
+    gain = checks.finite("the factor on the vertical motion", float(vertical) if isinstance(vertical, bool) else vertical)
+    if gain != 0.0 and motion.record is not None and motion.record.vertical is None:
         raise ComponentError(
             "{source}: no vertical component; it has {codes}: leave the vertical motion out, or give a record that has one",
             source=motion.record.source or said("record"),
             codes=motion.record.codes,
         )
     return gain
-
-
-def _kind(value: Any) -> str:
-    """Return what a value is, for a message."""
-    return said("nothing") if value is None else f"{type(value).__name__}"

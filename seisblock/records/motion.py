@@ -169,6 +169,8 @@ def motion_of(record: Record, component: str) -> Motion:
     ComponentError
         If there is no such component, or an azimuth is asked of a record without two oriented horizontals.
     """
+    checks.instance(record, Record)
+    component = str(component)
     along, across = _along_and_across(record, component)
     nothing = np.zeros(record.samples)
     up = nothing if record.vertical is None else record.vertical.acceleration

@@ -75,6 +75,7 @@ class Preparation:
         RecordError
             If the window lies outside the record.
         """
+        checks.instance(record, Record)
         if record.carries_offset if self.demean is None else self.demean:
             record = process.demean(record)
         if self.highpass_hz is not None:

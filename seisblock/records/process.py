@@ -33,6 +33,7 @@ def demean(record: Record) -> Record:
     Record
         With the means removed and named in ``history``.
     """
+    checks.instance(record, Record)
     means = {c.code: float(c.acceleration.mean()) for c in record.components}
     removed = [f"{code} {mean:.6g}" for code, mean in means.items()]
     did = said("mean of the whole record removed ({means} m/s^2)", means=removed)
@@ -55,6 +56,7 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
     RecordError
         If the window lies outside the record or holds fewer than two samples.
     """
+    checks.instance(record, Record)
     first, last = record.offset_s, record.offset_s + record.duration_s
     start, end = first if start_s is None else start_s, last if end_s is None else end_s
     window = said("window {start:g}:{end:g} s", start=start, end=end)
@@ -98,6 +100,7 @@ def scale(record: Record, factor: float) -> Record:
     ParameterError
         If the factor is not a finite number.
     """
+    checks.instance(record, Record)
     checks.finite("the scale factor", factor)
     return _apply(record, lambda c: c.acceleration * factor, said("scaled by {factor:.10g}", factor=factor))
 
@@ -121,6 +124,7 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
     ComponentError
         If there is no such component.
     """
+    checks.instance(record, Record)
     checks.positive("the target PGA", target, "m/s^2")
     if component is None:
         chosen, among = largest_horizontal(record), said("the largest horizontal")
@@ -201,6 +205,7 @@ def highpass(record: Record, hz: float) -> Record:
     ParameterError
         If the corner lies outside that range, or so low that it needs more padding than is allowed.
     """
+    checks.instance(record, Record)
     text = "high-pass {hz:g} Hz (Butterworth order {order} forwards and backwards, line through the ends removed, mirrored ends)"
     did = said(text, hz=hz, order=HIGHPASS_ORDER)
     return _apply(record, lambda c: highpass_samples(c.acceleration, record.dt, hz), did, doubts=settled(record.doubts))
@@ -221,7 +226,8 @@ def towards(record: Record, azimuth_deg: float) -> Component:
     ComponentError
         If the record lacks those two.
     """
-    if not np.isfinite(azimuth_deg):
+    checks.instance(record, Record)
+    if isinstance(azimuth_deg, str) or not np.isfinite(azimuth_deg):
         raise ComponentError("the azimuth must be a finite number of degrees, found {found}", found=azimuth_deg)
     return Component(f"{azimuth_deg:g}", _resolve(_oriented_pair(record), azimuth_deg), azimuth_deg % 360.0)
 

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.top import rigid_top
@@ -128,6 +129,7 @@ def criterion_study(
     RecordFormatError
         If `resume` cannot be read.
     """
+    checks.instance(body, Pile)
     if not (frequencies and pgas and ratios):
         raise ParameterError("the criterion study needs at least one frequency, one amplitude and one height")
     contact = PileContact() if contact is None else contact

@@ -13,7 +13,7 @@ import numpy as np
 from seisblock.bodies.sliding_base import SlidingBase, holds_at_rest, sliding_base
 from seisblock.dynamics import follow_many
 from seisblock.errors import ParameterError
-from seisblock.records.given import Factor
+from seisblock.records.given import Factor, check_motion
 from seisblock.records.motion import Motion
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
@@ -105,7 +105,10 @@ def slide_study(
     ParameterError
         If a value lies outside its range.
     """
-    chosen = [motions] if isinstance(motions, Motion) else list(motions)
+    several = isinstance(motions, Iterable) and not isinstance(motions, (str, np.ndarray))
+    chosen: list[Motion] = list(motions) if several else [motions]  # type: ignore[arg-type, list-item]
+    for motion in chosen:
+        check_motion(motion)
     if mu_kinetic is not None and kappa is not None:
         raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
     scales = tuple(float(value) for value in _values(vertical))

@@ -150,6 +150,7 @@ def solve_jump(
     'jumped'
     """
     check_call(block, TwoLayerBlock, motion)
+    checks.instance(contact, Contact)
     _check(drop, direction, landing, gravity)
     ratio = spin_ratio(block, spin, contact.restitution_x, contact.restitution_y)
     run = _Run(motion, block, contact, ratio, gravity, landing)

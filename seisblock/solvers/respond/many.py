@@ -10,11 +10,13 @@ from threading import Event
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.dynamics import Ensemble, follow_many
 from seisblock.dynamics.arguments import LONGEST, TOTAL
 from seisblock.dynamics.halt import halting, heeding
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
+from seisblock.records.given import check_motion
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import check_settling, still_ground
 from seisblock.solvers.respond.setting import Initial, Setting
@@ -88,9 +90,12 @@ def respond_many(
     workers : int or None
         Threads; None: one per core. The answer does not depend on it.
     """
+    check_motion(motion)
     check_settling(settle_s)
     if not settings:
         raise ParameterError("an ensemble needs at least one row")
+    for setting in settings:
+        checks.instance(setting, Setting)
     rows = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (len(settings), 3)))
     pool, gone = ThreadPoolExecutor(workers or os.cpu_count()), Event()
     events = (*halting(), gone)

@@ -222,4 +222,4 @@ class Setting:
 
 def gains(motion: Motion, vertical: Factor | None) -> tuple[float, float, float]:
     """Return the factors on the motion's rows; `vertical` None: the vertical motion acts where there is one."""
-    return 1.0, 0.0, vertical_gain(motion, True if vertical is None else vertical, needed=vertical is not None)
+    return 1.0, 0.0, vertical_gain(motion, vertical)

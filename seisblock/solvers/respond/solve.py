@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache, partial
 
+from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.records import Motion
@@ -178,6 +179,7 @@ def make_setting(
     BodyError
         If the centre of gravity does not lie above the base.
     """
+    checks.instance(block, TwoLayerBlock if isinstance(block, TwoLayerBlock) else Block)
     return Setting(
         stand(block),
         mu,

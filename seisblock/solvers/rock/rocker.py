@@ -22,7 +22,7 @@ class RockOptions(TypedDict, total=False):
 
     restitution: Restitution
     linear: bool
-    vertical: Factor
+    vertical: Factor | None
     gravity: float
 
 
@@ -76,7 +76,7 @@ def rocker(
     *,
     restitution: Restitution = None,
     linear: bool = False,
-    vertical: Factor = False,
+    vertical: Factor | None = False,
     gravity: float = STANDARD_GRAVITY,
 ) -> Rocker:
     """Return a block as it rocks under a motion, or refuse what it cannot be asked.

@@ -25,7 +25,7 @@ def solve_rock(
     *,
     restitution: Restitution = None,
     linear: bool = False,
-    vertical: Factor = False,
+    vertical: Factor | None = False,
     gravity: float = STANDARD_GRAVITY,
     initial: tuple[float, float] = (0.0, 0.0),
 ) -> Response[RockOutcome]:
@@ -44,8 +44,8 @@ def solve_rock(
         the angular momentum about the corner that is struck, 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_).
     linear : bool
         Whether to use the linear equation of slender blocks ([Zhang2001]_ eqs. (4), (5)).
-    vertical : bool or float
-        Whether the vertical ground motion acts, too, or a factor on it.
+    vertical : bool, float or None
+        Whether the vertical ground motion acts, too, or a factor on it; None: where the record has one.
     gravity : float, m/s^2
     initial : (float, float), rad, rad/s
         Lean and angular velocity at the first sample.

@@ -8,6 +8,7 @@ from typing import Unpack
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.dynamics import follow, follow_many
 from seisblock.records import Motion
@@ -50,6 +51,7 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options:
     Verdict
         The ratio is pi/2 over alpha when it overturns.
     """
+    checks.finite("the scale factor", scale)
     one = rocker(block, motion, **options)
     p = model.parameters(one, motion.dt)
     end = follow(model.ROCKING, motion, p, (0.0, 0.0), model.REST, gains=one.gains(scale), keep_path=False, keep_events=False)

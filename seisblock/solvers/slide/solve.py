@@ -72,7 +72,7 @@ class SlideOutcome:
 
 
 def solve_slide(
-    base: SlidingBase | float, motion: Motion, *, vertical: Factor = False, gravity: float = STANDARD_GRAVITY
+    base: SlidingBase | float, motion: Motion, *, vertical: Factor | None = False, gravity: float = STANDARD_GRAVITY
 ) -> Response[SlideOutcome]:
     """Follow an object that slides on a shaken base, exactly for the piecewise linear record.
 
@@ -86,8 +86,8 @@ def solve_slide(
         Friction and slope; a number is the friction coefficient of a level base, static and kinetic.
     motion : Motion
         Its horizontal row acts along the slope's direction.
-    vertical : bool or float
-        Whether the vertical ground motion acts, too, or a factor on it, the paper's gamma.
+    vertical : bool, float or None
+        Whether the vertical ground motion acts, too, or a factor on it, the paper's gamma; None: where the record has one.
     gravity : float, m/s^2
 
     Returns
@@ -154,7 +154,7 @@ def solve_slide(
     )
 
 
-def check(motion: Motion, vertical: Factor, gravity: float) -> tuple[float, float, float]:
+def check(motion: Motion, vertical: Factor | None, gravity: float) -> tuple[float, float, float]:
     """Return the factors on the motion's three rows, or refuse what cannot act."""
     checks.gravity(gravity)
     return 1.0, 0.0, vertical_gain(motion, vertical)

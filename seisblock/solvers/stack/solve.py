@@ -49,7 +49,7 @@ def solve_stack(
     *,
     points: int = 5,
     contact: PileContact | None = None,
-    vertical: Factor = True,
+    vertical: Factor | None = None,
     across: Factor = True,
     gravity: float = STANDARD_GRAVITY,
     step: float | None = None,
@@ -71,8 +71,10 @@ def solve_stack(
         Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
     contact : PileContact
         Default: [Furukawa2009]_ table 2.
-    vertical, across : bool or float
-        Whether the motion's vertical and transverse rows act, or factors on them.
+    vertical : bool, float or None
+        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
+    across : bool or float
+        Whether the motion's transverse row acts, or a factor on it.
     gravity : float, m/s^2
     step : float, s
         Fixed step; default: 0.7 of the stable step of the stiffest contact.
@@ -99,14 +101,15 @@ def solve_stack(
         If the run created energy or left the finite numbers.
     """
     check_call(body, Pile, motion)
-    contact = PileContact() if contact is None else contact
+    contact = PileContact() if contact is None else checks.instance(contact, PileContact)
     checks.gravity(gravity)
     pile = pile_arrays(body, contact, points)
     steps = steps_per_sample(pile, motion.dt, step)
     quiet = math.ceil(AFTERWARDS / motion.dt)
     shaking = np.zeros((3, motion.samples + quiet))
     shaking[:, : motion.samples] = motion.acceleration
-    shaking[[ACROSS, UP]] *= np.array([[float(across)], [vertical_gain(motion, vertical, needed=False)]])
+    up = vertical_gain(motion, vertical)
+    shaking[[ACROSS, UP]] *= np.array([[float(across)], [up]])
     memory = pile.memory()
     cursor = PileCursor(np.zeros(PLACE, dtype=np.int64), pile.bodies.copy())
     sink(pile, gravity, cursor.bodies, memory.stretches)
@@ -137,7 +140,7 @@ def solve_stack(
         options={
             "points": points,
             "mu": body.mu,
-            "vertical": float(vertical),
+            "vertical": up,
             "across": float(across),
             "gravity_m_s2": gravity,
             "step_s": motion.dt / steps,

@@ -6,7 +6,7 @@ says nothing of the motion beyond it.
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -18,6 +18,8 @@ from seisblock.typing import ArrayLike, ComplexArray, FloatArray
 
 Damping = Literal["modal", "dashpots"]
 """The paper's equal ratio h in each mode, or the corner dashpots that a record's solution uses."""
+
+DAMPINGS: tuple[Damping, ...] = get_args(Damping)
 
 UNDAMPED_RESONANCE = 1e-150
 """Stands for zero in the denominator of an undamped resonance, so that a mode that takes no part stays out."""
@@ -144,6 +146,8 @@ def uplift_thresholds(
     ratio = np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
     if not (np.isfinite(ratio).all() and (ratio >= 0.0).all()):
         raise ParameterError("frequency ratios theta/omega_1 must be finite and not negative")
+    if damping not in DAMPINGS:
+        raise ParameterError("the damping must be one of {known}, found {found}", known=DAMPINGS, found=repr(damping))
     omega = ratio * natural_modes(body).omega_1
     direction = shaking_direction(phi_deg, rho_deg)
     if damping == "modal":

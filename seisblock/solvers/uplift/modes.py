@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.spring_block import SpringBlock, mass_matrix, stiffness_matrix
 from seisblock.records.record import frozen
 from seisblock.typing import FloatArray
@@ -77,6 +78,7 @@ def natural_modes(body: SpringBlock) -> Modes:
     """
     from scipy.linalg import eigh
 
+    checks.instance(body, SpringBlock)
     mass, stiffness = mass_matrix(body), stiffness_matrix(body)
     found: list[tuple[float, str, FloatArray]] = []
     for ranked, members in BLOCKS.items():

@@ -20,7 +20,7 @@ ROUND_OFF = 1e-12
 
 
 def solve_uplift(
-    body: SpringBlock, motion: Motion, *, vertical: Factor = True, gravity: float = STANDARD_GRAVITY
+    body: SpringBlock, motion: Motion, *, vertical: Factor | None = None, gravity: float = STANDARD_GRAVITY
 ) -> Response[UpliftOutcome]:
     """Solve a block on corner springs through a three-component motion, from static equilibrium.
 
@@ -33,8 +33,8 @@ def solve_uplift(
         Its damping is the ratio zeta of each corner dashpot, c = 2 zeta k / omega of its direction.
     motion : Motion
         Ground acceleration along +x, across (+y) and up.
-    vertical : bool or float
-        Whether the vertical ground motion acts, or a factor on it.
+    vertical : bool, float or None
+        Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
     gravity : float, m/s^2
 
     Returns
@@ -58,7 +58,7 @@ def solve_uplift(
     """
     check_call(body, SpringBlock, motion)
     checks.gravity(gravity)
-    gains = (1.0, 1.0, vertical_gain(motion, vertical, needed=False))
+    gains = (1.0, 1.0, vertical_gain(motion, vertical))
     p, start = parameters(body, gravity), at_rest(body, gravity)
     trajectory = follow(UPLIFT, motion, p, start, WHOLE_BASE, gains=gains)
     linear = follow(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)

@@ -103,6 +103,7 @@ def overturning_rate(
 
 def overturns(cemetery: Cemetery, pga: float, frequency: float, *, limits: Limits = fitted_limits) -> BoolArray:
     """Return which stones fall, (size,): those whose limit a PGA (m/s^2) exceeds ([Furukawa2009]_ eqs. (9), (10))."""
+    checks.instance(cemetery, Cemetery)
     checks.positive("the peak ground acceleration", pga, "m/s^2")
     falls: BoolArray = pga > limits(cemetery, frequency)
     return falls
@@ -164,6 +165,7 @@ def rate_curve(
     tuple of CurvePoint
         Frequency by frequency, PGA in the order given.
     """
+    checks.instance(cemetery, Cemetery)
     grid = np.atleast_1d(np.asarray(pga, dtype=np.float64))
     points = []
     for frequency in frequencies:

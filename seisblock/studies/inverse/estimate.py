@@ -101,6 +101,7 @@ def estimate_shaking(
     >>> round(found.pga_m_s2, 1)
     9.5
     """
+    checks.instance(survey, Survey)
     rules = assumptions or Assumptions()
     if frequency is not None:
         checks.positive("the equivalent frequency", frequency, "Hz")

@@ -18,6 +18,7 @@ from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
+from seisblock.records.given import check_motion
 from seisblock.solvers.jump.solve import solve_jump
 from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.runs import in_threads
@@ -129,6 +130,7 @@ def scale_factors(
     >>> [round(f.scale, 6) for f in found.scale_factors]
     [0.5, 1.5]
     """
+    check_motion(motion)
     checks.positive("the observed displacement", observed, "m")
     checks.positive("the largest factor", limit)
     if steps < 1:

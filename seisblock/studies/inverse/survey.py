@@ -19,9 +19,11 @@ import functools
 import math
 import re
 from dataclasses import dataclass
+from numbers import Integral
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.errors import BodyError, ParameterError
 from seisblock.studies.cemetery.limits import Limits, fitted_limits
@@ -96,6 +98,7 @@ def marked_survey(cemetery: Cemetery) -> Survey:
     BodyError
         If no stone is marked.
     """
+    checks.instance(cemetery, Cemetery)
     if not cemetery.surveyed:
         raise BodyError(
             "{source}: no stone is marked fallen or standing; add a column fallen (0 or 1), or give a rate such as 35/100",
@@ -122,9 +125,13 @@ def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
     ParameterError
         If the counts make no sense.
     """
-    if not (0 <= fallen <= stones and stones > 0):
+    checks.instance(cemetery, Cemetery)
+    whole = isinstance(fallen, Integral) and isinstance(stones, Integral)
+    if not (whole and 0 <= fallen <= stones and stones > 0):
         raise ParameterError(
-            "a rate needs 0 <= fallen <= stones and at least one stone, found {fallen}/{stones}", fallen=fallen, stones=stones
+            "a rate needs whole numbers, 0 <= fallen <= stones, and at least one stone, found {fallen}/{stones}",
+            fallen=fallen,
+            stones=stones,
         )
     nobody = np.zeros(len(cemetery.stones), dtype=np.int64)
     return Survey(cemetery, nobody, nobody, (fallen, stones))

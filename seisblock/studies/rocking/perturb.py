@@ -114,6 +114,7 @@ def perturb(
     ParameterError
         If there are no runs, or an option is out of range.
     """
+    checks.instance(spread, Spread)
     if runs < 1:
         raise ParameterError("a perturbation needs at least 1 run, found {runs}", runs=runs)
     given = rocker(block, motion, **options)

@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.records import Record, motion_of
+from seisblock.records.given import Factor, vertical_gain
 from seisblock.solvers.respond.many import Fates, respond_many
 from seisblock.solvers.respond.solve import make_setting
 
@@ -40,7 +42,7 @@ class AzimuthFate:
 
 
 def respond_directions(
-    block: Block, record: Record, *, vertical: bool = True, step_deg: float = STEP_DEG, **options: Any
+    block: Block, record: Record, *, vertical: Factor | None = None, step_deg: float = STEP_DEG, **options: Any
 ) -> list[AzimuthFate]:
     """Return what becomes of a body in every direction of a record, the worst first.
 
@@ -53,20 +55,23 @@ def respond_directions(
     block : Block
     record : Record
         With two horizontal components.
-    vertical : bool
-        Whether the vertical motion acts, where the record has it.
+    vertical : bool, float or None
+        Whether the vertical motion acts, or a factor on it; None: where the record has one.
     step_deg : float
         Degrees between directions.
     options
         ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``gravity``, ``tenon`` as in
         :func:`~seisblock.solvers.respond.solve.solve_respond`, and ``settle_s``.
     """
+    checks.instance(block, Block)
+    checks.instance(record, Record)
+    checks.positive("the step between directions", step_deg, "degrees")
     settle_s = options.pop("settle_s", 60.0)
     round_about = 360.0 if block.centroid_offset else 180.0
     azimuths = np.arange(0.0, round_about, step_deg)
     motion = motion_of(record, "0")
     turn = np.radians(azimuths)
-    gains = np.column_stack([np.cos(turn), -np.sin(turn), np.full(turn.size, float(vertical))])
+    gains = np.column_stack([np.cos(turn), -np.sin(turn), np.full(turn.size, vertical_gain(motion, vertical))])
     fates = respond_many([make_setting(block, **options)] * turn.size, motion, gains=gains, settle_s=settle_s)
     found = [_direction(float(azimuth), fates, row, motion.start_s) for row, azimuth in enumerate(azimuths)]
     return sorted(found, key=_severity, reverse=True)

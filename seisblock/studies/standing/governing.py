@@ -75,8 +75,9 @@ def governing(
         Plausible versions behind the probability; 0 for none.
     """
     friction = {"mu": friction_that_holds(block) if mu is None else mu, "mu_kinetic": None if mu is None else mu_kinetic}
-    response = solve_respond(block, motion, vertical=None if vertical else False, gravity=gravity, **friction)  # type: ignore[arg-type]
+    acts = None if vertical else False
+    response = solve_respond(block, motion, vertical=acts, gravity=gravity, **friction)  # type: ignore[arg-type]
     probability = None
     if runs:
-        probability = respond_probability(block, motion, vertical=vertical, gravity=gravity, runs=runs, **friction)  # type: ignore[arg-type]
+        probability = respond_probability(block, motion, vertical=acts, gravity=gravity, runs=runs, **friction)  # type: ignore[arg-type]
     return Governing(response, probability, mu is not None)

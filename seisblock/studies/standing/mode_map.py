@@ -14,6 +14,7 @@ from seisblock.bodies.inset import SHARP, Inset
 from seisblock.criteria.initiation import friction_to_rock, loading
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
+from seisblock.records.given import Factor, check_motion, vertical_gain
 from seisblock.solvers.respond.many import KINDS, Fates, respond_many
 from seisblock.solvers.respond.setting import Setting
 from seisblock.solvers.respond.solve import make_setting
@@ -82,7 +83,7 @@ def mode_map(
     *,
     inset: Inset = SHARP,
     restitution: float = 0.0,
-    vertical: bool = True,
+    vertical: Factor | None = None,
     gravity: float = STANDARD_GRAVITY,
     settle_s: float = 60.0,
     progress: Progress | None = None,
@@ -100,8 +101,8 @@ def mode_map(
         How far the edges are worn, per side.
     restitution : float
         Poisson's, in [0, 1).
-    vertical : bool
-        Whether the vertical component acts.
+    vertical : bool, float or None
+        Whether the vertical component acts, or a factor on it; None: where the record has one.
     gravity : float, m/s^2
     settle_s : float, s
         How long bodies are followed after the record.
@@ -115,16 +116,18 @@ def mode_map(
     """
     mu = np.array([checks.not_negative(noted("the friction coefficient mu"), value) for value in np.atleast_1d(frictions)])
     blocks = _blocks(sizes, slendernesses, inset)
+    check_motion(motion)
     cells = len(blocks) * mu.size
     if not 0 < cells <= MOST_CELLS:
         raise ParameterError("a map needs 1 to {most} cells, found {cells}", most=MOST_CELLS, cells=cells)
     settings = (make_setting(block, mu=float(m), restitution=restitution, gravity=gravity) for block in blocks for m in mu)
+    up = vertical_gain(motion, vertical)
     ratio, time = loading(motion, vertical=vertical, gravity=gravity)
     seen_s = math.sqrt(8.0 * SEEN_M / gravity)
     table = np.empty((cells, 4))
     first = 0
     for part in _parts(settings):
-        fates = respond_many(part, motion, gains=(1.0, 0.0, float(vertical)), settle_s=settle_s)
+        fates = respond_many(part, motion, gains=(1.0, 0.0, up), settle_s=settle_s)
         last = first + len(part)
         lean = fates.max_rotation_rad / [min(setting.stand.slendernesses) for setting in part]
         table[first:last] = np.column_stack([_worst(fates, seen_s), lean, fates.slip_path_m, fates.final_displacement_m])

@@ -17,6 +17,7 @@ from seisblock.bodies.block import Block, resized
 from seisblock.bodies.inset import HALF, Inset
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
+from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import ACROSS
 from seisblock.solvers.respond.many import respond_many
 from seisblock.solvers.respond.setting import Setting
@@ -110,7 +111,7 @@ def respond_probability(
     mu_kinetic: float | None = None,
     restitution: float = 0.0,
     rocking_restitution: float | None = None,
-    vertical: bool = True,
+    vertical: Factor | None = None,
     gravity: float = STANDARD_GRAVITY,
     settle_s: float = 60.0,
     tenon: float = 0.0,
@@ -141,6 +142,8 @@ def respond_probability(
     ParameterError
         If there are no runs, or a number lies outside its range.
     """
+    check_call(block, Block, motion)
+    checks.instance(versions, Versions)
     if runs < 1:
         raise ParameterError("a probability needs at least 1 run, found {runs}", runs=runs)
     if not (math.isfinite(moved_m) and moved_m > 0.0):
@@ -194,8 +197,8 @@ def _version(block: Block, versions: Versions, draw: FloatArray, given: dict[str
     )
 
 
-def _gains(motion: Motion, versions: Versions, draws: FloatArray, vertical: bool) -> FloatArray:
+def _gains(motion: Motion, versions: Versions, draws: FloatArray, vertical: Factor | None) -> FloatArray:
     """Return the factors on the rows along, across and up that scale and turn the shaking of each version, (runs, 3)."""
     amplitude = 1.0 + versions.amplitude * draws[:, 4]
     angle = np.radians(versions.azimuth_deg) * draws[:, 5] * bool(motion.acceleration[ACROSS].any())
-    return np.column_stack([amplitude * np.cos(angle), -amplitude * np.sin(angle), amplitude * float(vertical)])
+    return np.column_stack([amplitude * np.cos(angle), -amplitude * np.sin(angle), amplitude * vertical_gain(motion, vertical)])

@@ -1,0 +1,173 @@
+"""Every public function refuses what is of another kind in one sentence of its own, never with an AttributeError from inside."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import seisblock as sb
+
+RECORD = sb.read("synthetic_jma.csv")
+LEVEL = sb.read("elcentro_1940_ns.csv")
+MOTION = sb.motion_of(sb.crop(RECORD, 24.0, 26.0), "EW")
+BLOCK, LAYERS, PILE = sb.load_block("gravestone"), sb.load_two_layer("chozusha"), sb.load_pile("wagata")
+SPRINGS = sb.SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)
+CEMETERY = sb.read_cemetery("aoyama.csv")
+
+OF_MOTIONS = {
+    "mode_map": lambda motion: sb.mode_map([0.3], [1.0], [0.2], motion),
+    "slide_study": lambda motion: sb.slide_study(0.2, motion),
+    "respond_probability": lambda motion: sb.respond_probability(BLOCK, motion, mu=0.3, runs=2),
+    "respond_many": lambda motion: sb.respond_many([sb.make_setting(BLOCK, mu=0.3)], motion),
+    "scale_factors": lambda motion: sb.scale_factors(lambda factor: factor, 0.05, motion),
+    "rock_verdict": lambda motion: sb.rock_verdict(BLOCK, motion),
+    "perturb": lambda motion: sb.perturb(BLOCK, motion, 2),
+    "find_margin": lambda motion: sb.find_margin(BLOCK, motion),
+    "rocking_spectrum": lambda motion: sb.rocking_spectrum([1.0], [0.2], motion),
+    "slid": lambda motion: sb.slid(0.2, motion),
+}
+OF_RECORDS = {
+    "demean": sb.demean,
+    "crop": lambda record: sb.crop(record, 1.0, 2.0),
+    "scale": lambda record: sb.scale(record, 2.0),
+    "scale_to_pga": lambda record: sb.scale_to_pga(record, 3.0),
+    "highpass": lambda record: sb.highpass(record, 0.1),
+    "rotate": lambda record: sb.rotate(record, 30.0),
+    "towards": lambda record: sb.towards(record, 30.0),
+    "measure": sb.measure,
+    "jma_intensity": sb.jma_intensity,
+    "motion_of": lambda record: sb.motion_of(record, "EW"),
+    "Preparation": lambda record: sb.Preparation(window=(1.0, 2.0)).apply(record),
+    "respond_directions": lambda record: sb.respond_directions(BLOCK, record, mu=0.3),
+}
+OF_BODIES = {
+    "make_setting": (lambda body: sb.make_setting(body, mu=0.3), "Block"),
+    "respond_probability": (lambda body: sb.respond_probability(body, MOTION, mu=0.3, runs=2), "Block"),
+    "respond_directions": (lambda body: sb.respond_directions(body, RECORD, mu=0.3), "Block"),
+    "overturning_card": (lambda body: sb.overturning_card(body, 3.0, 0.4, {}), "Block"),
+    "natural_modes": (sb.natural_modes, "SpringBlock"),
+    "uplift_thresholds": (lambda body: sb.uplift_thresholds(body, [1.0]), "SpringBlock"),
+    "uplift_minima": (sb.uplift_minima, "SpringBlock"),
+    "criterion_study": (sb.criterion_study, "Pile"),
+    "overturning_rate": (lambda body: sb.overturning_rate(body, 5.0, 2.0), "Cemetery"),
+    "rate_curve": (lambda body: sb.rate_curve(body, [5.0], [2.0]), "Cemetery"),
+    "marked_survey": (sb.marked_survey, "Cemetery"),
+    "counted_survey": (lambda body: sb.counted_survey(body, 3, 10), "Cemetery"),
+    "estimate_shaking": (lambda body: sb.estimate_shaking(body, 2.75), "Survey"),
+    "contact of solve_jump": (lambda body: sb.solve_jump(LAYERS, MOTION, contact=body), "Contact"),
+    "contact of solve_stack": (lambda body: sb.solve_stack(PILE, MOTION, contact=body), "PileContact"),
+    "spread of perturb": (lambda body: sb.perturb(BLOCK, MOTION, 2, spread=body), "Spread"),
+    "settings of respond_many": (lambda body: sb.respond_many([body], MOTION), "Setting"),
+}
+
+
+@pytest.mark.parametrize("name", OF_MOTIONS)
+def test_a_motion_is_needed(name):
+    """A record holds several components and an array no time step: each study says so as the solvers do."""
+    with pytest.raises(sb.KindError, match=r"is a Record: choose a component with motion_of\(record, 'NS'\)"):
+        OF_MOTIONS[name](RECORD)
+    for wrong in (np.zeros(100), "record.csv", None):
+        with pytest.raises(sb.KindError, match=r"a Motion is needed, found (ndarray|str|nothing)"):
+            OF_MOTIONS[name](wrong)
+
+
+@pytest.mark.parametrize("name", OF_RECORDS)
+def test_a_record_is_needed(name):
+    """What works on records names what it found in its place."""
+    for wrong in (MOTION, "record.csv", None):
+        with pytest.raises(sb.KindError, match=r"a Record is needed, found (Motion|str|nothing)"):
+            OF_RECORDS[name](wrong)
+
+
+@pytest.mark.parametrize("name", OF_BODIES)
+def test_a_body_is_needed(name):
+    """So does what needs a body, a survey, or a contact; a motion in its place is such a thing, too."""
+    call, kind = OF_BODIES[name]
+    for wrong in (MOTION, 0.3, "gravestone"):
+        with pytest.raises(sb.KindError, match=rf"a {kind} is needed, found (Motion|float|str)|the body comes first"):
+            call(wrong)
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: sb.response_spectrum(MOTION, 0.01), "accelerations are needed, found a Motion: give motion.horizontal and motion.dt"),
+        (lambda: sb.response_spectrum(MOTION.horizontal, 0.0), "the sampling interval must be positive, found 0 s"),
+        (lambda: sb.uplift_thresholds(SPRINGS, [1.0], damping="modl"), "the damping must be one of modal, dashpots, found 'modl'"),
+        (lambda: sb.counted_survey(CEMETERY, 3.5, 10), "whole numbers, 0 <= fallen <= stones, .* found 3.5/10"),
+        (lambda: sb.solve_slide(0.2, MOTION, vertical="yes"), "the factor on the vertical motion must be a number, found 'yes'"),
+        (lambda: sb.rock_verdict(BLOCK, MOTION, scale="2"), "the scale factor must be a number, found '2'"),
+        (lambda: sb.respond_directions(BLOCK, RECORD, mu=0.3, step_deg=0.0), "the step between directions must be positive"),
+        (lambda: sb.rotate(RECORD, "NS"), "azimuth must be a finite number of degrees, found NS"),
+        (lambda: sb.motion_of(RECORD, None), "no component 'None'; it has NS, EW, UD"),
+        (lambda: sb.jma_class("5+"), "the intensity must be a number, found '5\\+'"),
+        (lambda: sb.read(3), "a path is needed, or a list of paths, found int"),
+        (lambda: sb.read_all(None), "a path is needed, or a list of paths, found nothing"),
+    ],
+)
+def test_a_wrong_value_is_told(call, says):
+    """Neither taken in silence nor left to numpy."""
+    with pytest.raises(sb.InputError, match=says):
+        call()
+
+
+def test_one_path_is_a_list_of_one():
+    """`read_all` takes a path for what it is, not for a list of letters."""
+    assert [record.codes for record in sb.read_all("synthetic_jma.csv")] == [("NS", "EW", "UD")]
+
+
+VERTICAL = {
+    "slide": lambda motion, vertical: sb.solve_slide(0.2, motion, vertical=vertical),
+    "rock": lambda motion, vertical: sb.solve_rock(BLOCK, motion, vertical=vertical),
+    "uplift": lambda motion, vertical: sb.solve_uplift(SPRINGS, motion, vertical=vertical),
+    "respond": lambda motion, vertical: sb.solve_respond(BLOCK, motion, mu=0.3, vertical=vertical, sensitivity=False),
+    "stack": lambda motion, vertical: sb.solve_stack(PILE, motion, points=2, vertical=vertical),
+    "respond_probability": lambda motion, vertical: sb.respond_probability(BLOCK, motion, mu=0.3, runs=2, vertical=vertical),
+    "mode_map": lambda motion, vertical: sb.mode_map([0.3], [1.0], [0.2], motion, vertical=vertical),
+    "respond_directions": lambda motion, vertical: sb.respond_directions(BLOCK, motion.record, mu=0.3, step_deg=90.0, vertical=vertical),
+}
+
+
+@pytest.mark.parametrize("name", VERTICAL)
+def test_vertical_means_the_same_everywhere(name):
+    """Asked for, it is refused where the record has none; None takes what there is; a factor scales it."""
+    solve = VERTICAL[name]
+    flat = sb.Record(tuple(RECORD.horizontals), RECORD.dt, source="level.csv")
+    level = sb.motion_of(sb.crop(flat, 24.0, 24.5), "EW")
+    for asked in (True, 0.5):
+        with pytest.raises(sb.ComponentError, match=r"level.csv: no vertical component; it has NS, EW"):
+            solve(level, asked)
+    assert told(solve(level, None)) == told(solve(level, False))
+    shaken = sb.motion_of(sb.crop(RECORD, 24.0, 24.5), "EW")
+    assert told(solve(shaken, None)) == told(solve(shaken, True)) == told(solve(shaken, 1.0))
+    assert told(solve(shaken, 0.5))
+
+
+def told(answer):
+    """Return what an answer says, to the last digit."""
+    return repr(getattr(answer, "outcome", answer))
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        lambda: sb.solve_slide(0.2, MOTION),
+        lambda: sb.solve_rock(BLOCK, MOTION),
+        lambda: sb.solve_jump(LAYERS, MOTION, contact=sb.load_contact("chozusha")),
+        lambda: sb.solve_uplift(SPRINGS, MOTION),
+        lambda: sb.solve_respond(BLOCK, MOTION, mu=0.3),
+        lambda: sb.solve_stack(PILE, sb.motion_of(sb.crop(RECORD, 24.0, 24.2), "EW"), points=2),
+    ],
+    ids=["slide", "rock", "jump", "uplift", "respond", "stack"],
+)
+def test_an_answer_travels_to_another_process(answer):
+    """Pickled, a response brings its outcome and its curves along, and shows itself as before; so does its copy's copy."""
+    given = answer()
+    came = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(given))))
+    assert came.outcome == given.outcome
+    assert [event.time_s for event in came.events] == [event.time_s for event in given.events]
+    np.testing.assert_array_equal(came.time, given.time)
+    assert [channel.name for channel in came.channels] == [channel.name for channel in given.channels]
+    for one, other in zip(came.channels, given.channels, strict=True):
+        np.testing.assert_array_equal(one.values, other.values)
+    assert came.summary() == given.summary()
