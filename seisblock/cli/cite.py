@@ -29,11 +29,9 @@ def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
     elif bibtex:
         click.echo("\n\n".join(reference.bibtex() for reference in chosen))
     else:
-        from rich.padding import Padding
-        from rich.text import Text
-
+        from seisblock.present.text.cite import listing
         from seisblock.present.text.tables import console
 
         screen = console()
-        for reference in chosen:
-            screen.print(Text(f"[{reference.key}]", style="bold"), Padding(Text(reference.text()), (0, 0, 0, 2)))
+        for part in listing(chosen):
+            screen.print(part)

@@ -38,7 +38,7 @@ def ending_in_order() -> Iterator[None]:
 
 @contextlib.contextmanager
 def printable() -> Iterator[None]:
-    """Give a run that has no stdout (``>&-``) one that takes everything, and one in Latin-1 a sign for what it cannot write."""
+    """Give a run that has no stdout (``>&-``) one that takes everything, and one in Latin-1 or ASCII a sign for what it cannot write."""
     with contextlib.ExitStack() as stack:
         for name in ("stdout", "stderr"):
             stream = getattr(sys, name)
@@ -46,10 +46,15 @@ def printable() -> Iterator[None]:
                 void = stack.enter_context(open(os.devnull, "w", encoding="utf-8"))  # noqa: PTH123
                 setattr(sys, name, void)
                 stack.callback(setattr, sys, name, None)
-            elif hasattr(stream, "reconfigure") and stream.errors == "strict":
+            elif hasattr(stream, "reconfigure") and (stream.errors == "strict" or _is_narrow(stream)):
+                stack.callback(stream.reconfigure, errors=stream.errors)
                 stream.reconfigure(errors="replace")
-                stack.callback(stream.reconfigure, errors="strict")
         yield
+
+
+def _is_narrow(stream: Any) -> bool:
+    """Whether a stream of the C locale, which passes on bytes that it could not read, refuses letters as a strict one does."""
+    return stream.errors == "surrogateescape" and "utf" not in stream.encoding.lower()
 
 
 def discard_stdout() -> None:

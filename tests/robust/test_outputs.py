@@ -209,6 +209,15 @@ def test_stdout_in_latin_1(tmp_path):
     assert done.returncode == 0 and b"Traceback" not in done.stderr
 
 
+def test_stdout_in_ascii(tmp_path):
+    """The C locale of a Python that was told not to mend it (a batch job) cannot write a station's Japanese name: a sign in its place."""
+    narrow = {"PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "LC_ALL": "C"}
+    environment = {**{name: value for name, value in os.environ.items() if name != "PYTHONIOENCODING"}, **narrow}
+    done = subprocess.run([*PROGRAM, "measure", "synthetic_jma"], cwd=tmp_path, env=environment, capture_output=True, check=False)
+    assert done.returncode == 0 and b"Traceback" not in done.stderr
+    assert b"SYN ???? SYNTHETIC" in done.stdout and done.stdout.isascii()
+
+
 def test_names_that_are_not_utf_8(tmp_path):
     """R16: a file name of other bytes is read like any other."""
     name = os.path.join(os.fsencode(tmp_path), b"\xb6\xe8.csv")  # noqa: PTH118
