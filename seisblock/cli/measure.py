@@ -106,10 +106,10 @@ def measure(
     answers = [measured(r, components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records]
     answer = document(records, answers, rules, threshold=level, threshold_from=origin)
 
-    def tables() -> Any:
-        from seisblock.present.text.measure import measures_report
+    def shown() -> Any:
+        from seisblock.present.text.measure import tables
 
-        return (part for r, a in zip(records, answers, strict=True) for part in measures_report(r, a, gal=output.gal))
+        return tables(records, answers, gal=output.gal)
 
     def figure() -> Any:
         from seisblock.present.figures.measure import measure_figure
@@ -119,7 +119,7 @@ def measure(
         return measure_figure(records[0], answers[0], gal=output.gal)
 
     say("threshold of the durations: {level:.4g} m/s^2 ({origin})", level=level, origin=origin)
-    emit(answer, output, tables=tables, csv=lambda path: _write(path, records, answers), figure=figure)
+    emit(answer, output, tables=shown, csv=lambda path: _write(path, records, answers), figure=figure)
 
 
 def _threshold(

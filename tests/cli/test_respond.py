@@ -53,8 +53,8 @@ def test_the_document_keeps_the_contract():
 def test_the_first_line_says_what_happened_and_the_second_how_sure_that_is():
     """Verdict, share of versions, then the table."""
     lines = run("elcentro_1940_ns", *CABINET, "--mu", "0.1", "--runs", "20", "--quiet").stdout.splitlines()
-    assert lines[2].startswith("NS: slides ") and "never rocks" in lines[2] + lines[3]
-    assert any("20 plausible versions" in line for line in lines[3:6])
+    assert lines[0].startswith("NS: slides ") and "never rocks" in lines[0] + lines[1]
+    assert any("20 plausible versions" in line for line in lines[1:4])
 
 
 @pytest.mark.parametrize("words", [("--width", "60cm", "--height", "60cm", "--mu", "1.2"), ("--block", "gravestone")])
@@ -195,7 +195,7 @@ def test_a_fall_after_the_record_is_said(tmp_path):
     push.write_text("time,NS (m/s2)\n" + "\n".join(rows) + "\n")
     words = (push, "--width", "30cm", "--height", "100cm", "--mu", "0.6", "--runs", "0", "--quiet")
     assert re.search(r"NS: overturns to -NS at 2\.\d\d s, after the record", run(*words).stdout)
-    assert "record" not in run("elcentro_1940_ns", *CABINET, "--mu", "0.6", "--scale", "4", "--runs", "0", "--quiet").stdout.splitlines()[2]
+    assert "record" not in run("elcentro_1940_ns", *CABINET, "--mu", "0.6", "--scale", "4", "--runs", "0", "--quiet").stdout.splitlines()[0]
 
 
 def test_where_friction_meets_slenderness_it_slides():

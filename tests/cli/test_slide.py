@@ -197,3 +197,11 @@ def test_progress_is_told_to_the_end():
     seisblock.slide_study([0.1, 0.2, 0.3], motion, kappa=[0.5, 1.0], progress=lambda done, total: told.append((done, total)), workers=2)
     assert told[-1] == (6, 6)
     assert [done for done, _ in told] == sorted(done for done, _ in told)
+
+
+def test_the_answer_comes_first_and_of_several_records_the_record():
+    """One record: the verdict is the first line. Two: each begins with the line that says which it is."""
+    one = run("elcentro_1940_ns", "--mu", "0.2", "--quiet").stdout.splitlines()
+    assert one[0].startswith("NS: slides up to 3.25 mm") and one[2].startswith("elcentro_1940_ns")
+    two = run("elcentro_1940_ns", "synthetic_jma", "--mu", "0.2", "--component", "NS", "--quiet").stdout.splitlines()
+    assert [line[:3] for line in two if line.startswith(("elcentro", "SYN", "NS: "))] == ["elc", "NS:", "SYN", "NS:"]

@@ -6,14 +6,15 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from rich.text import Text
+
 from seisblock.bodies.library import edges
 from seisblock.criteria.card import ACCELERATION, Row, once_each
 from seisblock.present.files import write_table
 from seisblock.present.text.agreement import agreement_line
 from seisblock.present.text.respond import verdict as fate
 from seisblock.present.text.rock import verdict
-from seisblock.present.text.tables import acceleration_unit, line, number, record_line, table
-from seisblock.records import Record
+from seisblock.present.text.tables import acceleration_unit, answered, line, number, table
 from seisblock.studies.criteria_card import Card
 from seisblock.studies.standing.governing import Governing
 from seisblock.units import GAL, KINE
@@ -26,18 +27,20 @@ DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": 
 
 def tables(cards: Sequence[Card], *, gal: bool) -> Iterator[Any]:
     """Yield the record's line, then per component the simulated outcome, the tables, and how far the models of it are apart."""
-    last: Record | None = None
-    for card in cards:
-        if card.record is not last:
-            last = card.record
-            yield record_line(card.record)
-        yield line(simulated(card))
-        if card.governing is not None:
-            yield line(whole(card, card.governing))
-        yield from _tables(card, gal=gal)
-        if card.agreement is not None:
-            yield line(agreement_line(card.component, card.agreement))
-        yield line()
+    for opening, part in answered(cards, lambda card: card.record, _happens):
+        yield from opening
+        for card in part:
+            yield from _tables(card, gal=gal)
+            if card.agreement is not None:
+                yield line(agreement_line(card.component, card.agreement))
+            yield line()
+
+
+def _happens(card: Card) -> Iterator[Text]:
+    """Yield what the simulation says, and what governs."""
+    yield line(simulated(card))
+    if card.governing is not None:
+        yield line(whole(card, card.governing))
 
 
 def simulated(card: Card) -> str:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, table, under_records
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, answered, line, number, table
 from seisblock.records import Record
 from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.estimate import Interval, ShakingEstimate, place_and_kind
@@ -123,15 +123,16 @@ def _around(middle: float | None, interval: Interval) -> tuple[float | None, flo
 
 def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, moved: str) -> Iterator[Any]:
     """Yield what each component needs in a sentence, and its factors as a table; `moved` says what was observed."""
-    for heading, (_, each) in under_records(found, lambda each: each[0]):
-        yield from heading
-        yield line(_needs(each, moved, gal=gal))
-        if each.scale_factors:
+    for opening, part in answered(found, lambda each: each[0], lambda each: [line(_needs(each[1], moved, gal=gal))]):
+        yield from opening
+        for _, each in part:
             rows = [
                 (f"{f.scale:.4f}", acceleration(f.pga_m_s2, gal=gal), number(f.displacement_m), tell("leaps across") if f.leaps else "")
                 for f in each.scale_factors
             ]
-            yield table("", (tell("factor"), f"PGA ({acceleration_unit(gal=gal)})", tell("moved (m)"), ""), rows)
+            if rows:
+                headings = (tell("factor"), f"PGA ({acceleration_unit(gal=gal)})", tell("moved (m)"), "")
+                yield table(each.component if len(part) > 1 else "", headings, rows)
 
 
 def _needs(each: ScaleFactors, moved: str, *, gal: bool) -> str:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import acceleration, acceleration_unit, line, seconds, table, under_records
+from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.solvers.jump.solve import JumpOutcome
@@ -42,22 +42,27 @@ MOST_SHOWN = 6
 
 def tables(responses: Jumps, *, gal: bool, tenon: float | None) -> Iterator[Any]:
     """Yield, per component, what became of the block, and a table with a column per chain as in [Sugimoto2017]_ table 1."""
-    for heading, response in under_records(responses, lambda each: each.motion.record):
-        yield from heading
-        outcome = response.outcome
-        yield line(verdict(response))
-        shown = _shown(outcome.chains)
-        if shown:
-            title = tell(
-                "{name}: {body}, rocks above {threshold}",
-                name=response.motion.name,
-                body=tell(response.body.name),
-                threshold=f"{acceleration(outcome.rocking_threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}",
-            )
-            yield table(title, [tell("chain"), *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown]))
-        for sentence in sentences(response, tenon):
-            yield line(sentence)
-        yield line()
+    for opening, part in answered(responses, lambda each: each.motion.record, lambda each: [line(verdict(each))]):
+        yield from opening
+        for response in part:
+            yield from _details(response, gal=gal, tenon=tenon)
+
+
+def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None) -> Iterator[Any]:
+    """Yield the table of one component, and what there is to say of it."""
+    outcome = response.outcome
+    shown = _shown(outcome.chains)
+    if shown:
+        title = tell(
+            "{name}: {body}, rocks above {threshold}",
+            name=response.motion.name,
+            body=tell(response.body.name),
+            threshold=f"{acceleration(outcome.rocking_threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}",
+        )
+        yield table(title, [tell("chain"), *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown]))
+    for sentence in sentences(response, tenon):
+        yield line(sentence)
+    yield line()
 
 
 def _shown(chains: Sequence[Chain]) -> list[int]:

@@ -11,7 +11,7 @@ from rich.text import Text
 from seisblock.limits import check_curves
 from seisblock.measures import FilterRange, RecordMeasures, ground_history
 from seisblock.present.files import BLOCK, of_records
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, record_line, seconds, table
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, answered, line, number, seconds, table
 from seisblock.records import Record
 from seisblock.records.process import pick
 from seisblock.typing import FloatArray
@@ -19,20 +19,21 @@ from seisblock.units import KINE
 from seisblock.words import tell
 
 
-def measures_report(record: Record, answer: RecordMeasures, *, gal: bool) -> Iterator[Group | Text]:
-    """Yield what is printed for one record: which it is, its peaks, its frequencies and durations, its intensity.
+def tables(records: Sequence[Record], answers: Sequence[RecordMeasures], *, gal: bool) -> Iterator[Group | Text]:
+    """Yield what is printed for each record: how strong it is, which it is, its peaks, its frequencies and durations, its intensity.
 
     Parameters
     ----------
-    record, answer : Record, RecordMeasures
+    records, answers : sequences of Record and RecordMeasures
     gal : bool
         Accelerations in gal and velocities in kine, else SI.
     """
-    yield record_line(record)
-    yield line("\n".join(_sentences(answer, gal=gal)))
-    yield _peaks(answer, gal=gal)
-    yield _frequencies_and_durations(answer, gal=gal)
-    yield line("\n".join(_remarks(answer, gal=gal)))
+    both = zip(records, answers, strict=True)
+    for opening, ((_, answer),) in answered(both, lambda each: each[0], lambda each: [line("\n".join(_sentences(each[1], gal=gal)))]):
+        yield from opening
+        yield _peaks(answer, gal=gal)
+        yield _frequencies_and_durations(answer, gal=gal)
+        yield line("\n".join(_remarks(answer, gal=gal)))
 
 
 def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:

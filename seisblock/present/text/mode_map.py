@@ -7,10 +7,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from rich.text import Text
+
 from seisblock.present.files import write_table
 from seisblock.present.text.respond import percent
 from seisblock.present.text.spectrum import thinned
-from seisblock.present.text.tables import line, table, under_records
+from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.studies.standing.mode_map import GOVERNING, ModeMap
@@ -30,17 +32,26 @@ SHARES = {
 
 def tables(maps: Maps, worn: str = "") -> Iterator[Any]:
     """Yield, per component, what happens to how many, the limits of initiation, and a map of at most 20 bodies and 60 frictions."""
-    for heading, (motion, found) in under_records(maps, lambda each: each[0].record):
-        yield from heading
-        yield line(verdict(motion, found), "bold")
-        yield line("  " + limits(found))
-        rows, columns = thinned(found.size_m.size, MOST_ROWS)[::-1], thinned(found.mu.size, MOST_COLUMNS)
-        cells = [[told(found, i), "".join(LETTERS[GOVERNING[found.governing[i, j]]] for j in columns)] for i in rows]
-        first, last = f"{found.mu[0]:.3g}", f"{found.mu[-1]:.3g}"
-        across = f"{first}{last:>{max(columns.size - len(first), 1)}}" if columns.size > 1 else first
-        yield table(_title(motion, found) + tell(worn), [f"{symbol(found)} \\ μ", across], cells)
-        yield line(tell(". stands still, s slides, r rocks, b slides and rocks, f leaves the ground, # falls"), "dim")
-        yield line()
+    for opening, part in answered(maps, lambda each: each[0].record, lambda each: _happens(*each)):
+        yield from opening
+        yield from (shown for each in part for shown in _drawn(*each, worn))
+
+
+def _happens(motion: Motion, found: ModeMap) -> Iterator[Text]:
+    """Yield what happens to how many, and below which limits nothing does."""
+    yield line(verdict(motion, found), "bold")
+    yield line("  " + limits(found))
+
+
+def _drawn(motion: Motion, found: ModeMap, worn: str) -> Iterator[Any]:
+    """Yield the map of one component, and what its letters mean."""
+    rows, columns = thinned(found.size_m.size, MOST_ROWS)[::-1], thinned(found.mu.size, MOST_COLUMNS)
+    cells = [[told(found, i), "".join(LETTERS[GOVERNING[found.governing[i, j]]] for j in columns)] for i in rows]
+    first, last = f"{found.mu[0]:.3g}", f"{found.mu[-1]:.3g}"
+    across = f"{first}{last:>{max(columns.size - len(first), 1)}}" if columns.size > 1 else first
+    yield table(_title(motion, found) + tell(worn), [f"{symbol(found)} \\ μ", across], cells)
+    yield line(tell(". stands still, s slides, r rocks, b slides and rocks, f leaves the ground, # falls"), "dim")
+    yield line()
 
 
 def verdict(motion: Motion, found: ModeMap) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.present.text.agreement import rates_line
 from seisblock.present.text.measure import usual_filters
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, line, number, record_line, table
+from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, answered, line, number, table
 from seisblock.records import Record
 from seisblock.studies.cemetery.judgement import CemeteryRate
 from seisblock.studies.cemetery.rate import CurvePoint
@@ -52,10 +52,10 @@ def tables(
     dowelled = int(cemetery.reinforced.sum())
     title = tell("{name}: {stones} stones", name=cemetery.name, stones=cemetery.size)
     title += tell(", {stones} reinforced", stones=dowelled) if dowelled else ""
-    for record, results in groups:
-        if record is not None:
-            yield record_line(record)
-        yield from (line(sentence) for sentence in verdicts(cemetery.name, results, gal=gal))
+    for opening, ((_, results),) in answered(
+        groups, lambda group: group[0], lambda group: map(line, verdicts(cemetery.name, group[1], gal=gal))
+    ):
+        yield from opening
         yield _rates(title, results, gal=gal, confidence=confidence)
         yield from (line(sentence) for sentence in (*_filters(results, gal=gal), *_models(results), *_dowels(results)))
     if not groups:

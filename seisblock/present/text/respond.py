@@ -6,7 +6,9 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import by_record, line, number, record_line, seconds, table
+from rich.text import Text
+
+from seisblock.present.text.tables import answered, line, number, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.probability import Probability
@@ -24,19 +26,22 @@ FEWEST = 20
 
 def tables(responses: Responds, extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Iterator[Any]:
     """Yield, per record, its line, what happened and how sure it is, a table with a column per component, and the notes."""
-    for record, part in by_record(zip(responses, extras, strict=True), lambda pair: pair[0].motion.record):
-        if record is not None:
-            yield record_line(record)
-        for response, extra in part:
-            yield line(verdict(response), "bold")
-            if "probability" in extra:
-                yield line("  " + share(extra["probability"]))
-            if "directions" in extra:
-                yield line("  " + around(extra["directions"]))
+    both = zip(responses, extras, strict=True)
+    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: _happened(*each)):
+        yield from opening
         yield _table([r for r, _ in part], gal=gal)
         if any("probability" in extra for _, extra in part):
             yield line(varied(next(extra["probability"] for _, extra in part if "probability" in extra)), "dim")
         yield line()
+
+
+def _happened(response: Response[RespondOutcome], extra: Mapping[str, Any]) -> Iterator[Text]:
+    """Yield what happened, and how sure that is."""
+    yield line(verdict(response), "bold")
+    if "probability" in extra:
+        yield line("  " + share(extra["probability"]))
+    if "directions" in extra:
+        yield line("  " + around(extra["directions"]))
 
 
 def verdict(response: Response[RespondOutcome]) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.bodies.library import edges
 from seisblock.present.text.agreement import agreement_line, chance_lines
-from seisblock.present.text.tables import acceleration, acceleration_unit, by_record, line, number, record_line, seconds, table
+from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, number, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome, friction_suffices
 from seisblock.studies.rocking.margin import Margin
@@ -31,11 +31,9 @@ def tables(responses: Rockings, extras: Sequence[Mapping[str, Any]], *, gal: boo
     mu : float or None
         The friction there is, where it was said.
     """
-    for record, part in by_record(zip(responses, extras, strict=True), lambda pair: pair[0].motion.record):
-        if record is not None:
-            yield record_line(record)
-        for response, _ in part:
-            yield line(first_line(response, mu))
+    both = zip(responses, extras, strict=True)
+    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: [line(first_line(each[0], mu))]):
+        yield from opening
         yield _table([r for r, _ in part], gal=gal)
         for response, extra in part:
             for sentence in sentences(response, extra):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import NOTHING, by_record, fixed, line, record_line, seconds, table
+from seisblock.present.text.tables import NOTHING, answered, fixed, line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
 from seisblock.studies.sliding import SlidePoint
@@ -27,11 +27,8 @@ def millimetres(value: float | None) -> str:
 
 def tables(responses: Slides, sweep: Sequence[SlidePoint] = ()) -> Iterator[Any]:
     """Yield, for each record, its line and one row per direction; then the sweep of directions when there was one."""
-    for record, mine in by_record(responses, lambda response: response.motion.record):
-        if record is not None:
-            yield record_line(record)
-        for response in mine:
-            yield line(sentence(response))
+    for opening, mine in answered(responses, lambda response: response.motion.record, lambda response: [line(sentence(response))]):
+        yield from opening
         yield table(
             tell("Sliding, {setting}", setting=setting(mine[0])),
             [tell(heading) for heading in COLUMNS],

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from rich.text import Text
 
 from seisblock.present.documents.slide import SLIDE_POINT, point_entry
 from seisblock.present.files import of_records
 from seisblock.present.text.slide import millimetres
-from seisblock.present.text.tables import NOTHING, line, record_line, table
+from seisblock.present.text.tables import NOTHING, answered, line, table
 from seisblock.records import Record
 from seisblock.studies.sliding import SlidePoint
 from seisblock.words import noted, tell
@@ -55,11 +56,9 @@ def study_columns(records: Sequence[Record], studies: Sequence[Points]) -> tuple
 
 def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any]:
     """Yield, for each record and direction, the largest slip and, with vertical motion, the ratio beta as in [Fujino1978]_ fig. 9."""
-    for record, points in zip(records, studies, strict=True):
-        yield record_line(record)
+    for opening, ((_, points),) in answered(zip(records, studies, strict=True), lambda each: each[0], lambda each: _verdicts(each[1])):
+        yield from opening
         arrangement = Arrangement.of(points)
-        for title, part in panels_of(points, arrangement):
-            yield line(verdict(title, part))
         for title, part in panels_of(points, arrangement):
             yield _pivot(tell("{name}: largest slip (mm)", name=title), part, arrangement, lambda point: millimetres(point.max_slip_m))
             if any(point.beta is not None for point in part):
@@ -69,6 +68,12 @@ def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any
                     arrangement,
                     lambda point: NOTHING if point.beta is None else f"{point.beta:.3f}",
                 )
+
+
+def _verdicts(points: Points) -> Iterator[Text]:
+    """Yield how far the object slides, by direction."""
+    for title, part in panels_of(points, Arrangement.of(points)):
+        yield line(verdict(title, part))
 
 
 def verdict(name: str, points: Points) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.present.files import write_table
-from seisblock.present.text.tables import line, number, table, under_records
+from seisblock.present.text.tables import answered, line, number, table
 from seisblock.records import Motion
 from seisblock.studies.sliding import SlidePoint
 from seisblock.words import noted, tell
@@ -22,17 +22,20 @@ MOST_ROWS = 25
 
 def tables(curves: Curves) -> Iterator[Any]:
     """Yield, per component, a table of at most 25 frictions."""
-    for heading, (motion, points) in under_records(curves, lambda each: each[0].record):
-        yield from heading
-        yield line(verdict(motion.name or "x", points))
-        chosen = np.unique(np.linspace(0, len(points) - 1, min(len(points), MOST_ROWS)).round().astype(int))
-        rows = [
-            [f"{points[i].mu:.4g}", number(_millimetres(points[i].max_slip_m)), number(_millimetres(points[i].residual_slip_m))]
-            for i in chosen
-        ]
-        title = tell("{name}: sliding against friction", name=motion.name)
-        yield table(title, ["μ", tell("largest slip (mm)"), tell("residual slip (mm)")], rows)
-        yield line()
+    for opening, part in answered(curves, lambda each: each[0].record, lambda each: [line(verdict(each[0].name or "x", each[1]))]):
+        yield from opening
+        yield from (shown for each in part for shown in _slips(*each))
+
+
+def _slips(motion: Motion, points: Sequence[SlidePoint]) -> Iterator[Any]:
+    """Yield the table of one component."""
+    chosen = np.unique(np.linspace(0, len(points) - 1, min(len(points), MOST_ROWS)).round().astype(int))
+    rows = [
+        [f"{points[i].mu:.4g}", number(_millimetres(points[i].max_slip_m)), number(_millimetres(points[i].residual_slip_m))] for i in chosen
+    ]
+    title = tell("{name}: sliding against friction", name=motion.name)
+    yield table(title, ["μ", tell("largest slip (mm)"), tell("residual slip (mm)")], rows)
+    yield line()
 
 
 def verdict(name: str, points: Sequence[SlidePoint]) -> str:

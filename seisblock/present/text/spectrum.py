@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.present.files import write_table
-from seisblock.present.text.tables import line, record_line, table
+from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
 from seisblock.studies.rocking.spectra import RockingSpectrum
 from seisblock.typing import IntArray
@@ -25,20 +25,26 @@ FALLS = noted("falls")
 
 def tables(spectra: Spectra, kind: str, worn: str = "") -> Iterator[Any]:
     """Yield, per component, a table of at most 12 sizes and 9 slendernesses, and the share that falls; `worn` tells of the edges."""
-    last = None
-    for motion, found in spectra:
-        if motion.record is not None and motion.record is not last:
-            last = motion.record
-            yield record_line(motion.record)
-        rows, columns = thinned(found.size_m.size, MOST_ROWS), thinned(found.slenderness_rad.size, MOST_COLUMNS)
-        what = tell("overturning") if kind == "overturning" else tell("largest lean over alpha")
-        heads = [f"{1 / math.tan(found.slenderness_rad[j]):.2f}" for j in columns]
-        cells = [[f"{found.size_m[i]:.3g}", *(_cell(found, i, j, kind) for j in columns)] for i in rows]
-        falls, every = int(found.overturned.sum()), found.overturned.size
-        yield line(tell("{name}: {falls} of {all} blocks overturn.", name=motion.name, falls=falls, all=every))
-        title = tell("{name}: {what}; down 2R (m), across H/B", name=motion.name, what=what) + tell(worn)
-        yield table(title, ["2R \\ H/B", *heads], cells)
-        yield line()
+    for opening, part in answered(spectra, lambda each: each[0].record, lambda each: [line(verdict(*each))]):
+        yield from opening
+        yield from (shown for each in part for shown in _shares(*each, kind, worn))
+
+
+def verdict(motion: Motion, found: RockingSpectrum) -> str:
+    """Return how many of the blocks overturn."""
+    falls, every = int(found.overturned.sum()), found.overturned.size
+    return tell("{name}: {falls} of {all} blocks overturn.", name=motion.name, falls=falls, all=every)
+
+
+def _shares(motion: Motion, found: RockingSpectrum, kind: str, worn: str) -> Iterator[Any]:
+    """Yield the table of one component."""
+    rows, columns = thinned(found.size_m.size, MOST_ROWS), thinned(found.slenderness_rad.size, MOST_COLUMNS)
+    what = tell("overturning") if kind == "overturning" else tell("largest lean over alpha")
+    heads = [f"{1 / math.tan(found.slenderness_rad[j]):.2f}" for j in columns]
+    cells = [[f"{found.size_m[i]:.3g}", *(_cell(found, i, j, kind) for j in columns)] for i in rows]
+    title = tell("{name}: {what}; down 2R (m), across H/B", name=motion.name, what=what) + tell(worn)
+    yield table(title, ["2R \\ H/B", *heads], cells)
+    yield line()
 
 
 def _cell(found: RockingSpectrum, i: int, j: int, kind: str) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from seisblock.bodies.pile.stone import GROUND
 from seisblock.present.text.agreement import agreement_line
-from seisblock.present.text.tables import fixed, line, seconds, table, under_records
+from seisblock.present.text.tables import answered, fixed, line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
 from seisblock.studies.agreement import Agreement
@@ -23,17 +23,22 @@ Stacks = Sequence[Response[StackOutcome]]
 
 def tables(responses: Stacks, agreements: Sequence[Agreement | None]) -> Iterator[Any]:
     """Yield the record, a row per stone, a sentence per run, and how far the models of the top stone are apart."""
-    for heading, (response, found) in under_records(zip(responses, agreements, strict=True), lambda each: each[0].motion.record):
-        yield from heading
-        columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), tell("slip (mm)"), tell("turn (deg)")]
-        title = tell("{name}: {what}", name=f"+x = {response.motion.name}", what=tell(response.body.name))
-        yield line(verdict(response))
-        yield table(title, columns, (_row(stone) for stone in reversed(response.outcome.stones)))
-        yield line(books(response))
-        if found is not None:
-            top = tell("{stone}, {name}", stone=tell(response.body.names[-1]), name=response.motion.name)
-            yield line(agreement_line(top, found))
-        yield line()
+    both = zip(responses, agreements, strict=True)
+    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: [line(verdict(each[0]))]):
+        yield from opening
+        yield from (shown for each in part for shown in _details(*each))
+
+
+def _details(response: Response[StackOutcome], found: Agreement | None) -> Iterator[Any]:
+    """Yield the table of one run, its energies, and how far the models of the top stone are apart."""
+    columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), tell("slip (mm)"), tell("turn (deg)")]
+    title = tell("{name}: {what}", name=f"+x = {response.motion.name}", what=tell(response.body.name))
+    yield table(title, columns, (_row(stone) for stone in reversed(response.outcome.stones)))
+    yield line(books(response))
+    if found is not None:
+        top = tell("{stone}, {name}", stone=tell(response.body.names[-1]), name=response.motion.name)
+        yield line(agreement_line(top, found))
+    yield line()
 
 
 def _row(stone: StoneFate) -> list[str]:

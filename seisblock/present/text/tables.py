@@ -121,20 +121,29 @@ def acceleration_unit(*, gal: bool) -> str:
     return "gal" if gal else "m/s²"
 
 
-def by_record(items: Iterable[Item], record_of: Callable[[Item], Record | None]) -> Iterator[tuple[Record | None, list[Item]]]:
-    """Yield each record with what belongs to it, in the order in which they come.
+def answered(
+    items: Iterable[Item], record_of: Callable[[Item], Record | None], verdict_of: Callable[[Item], Iterable[Text]]
+) -> Iterator[tuple[list[Text], list[Item]]]:
+    """Yield, record by record, what the answer begins with, and what belongs to it.
+
+    The answer to what was asked comes first, then the line of the record that it is about; several records begin with their lines.
 
     Parameters
     ----------
     items : sequence
     record_of : callable
         Returns the record of an item, None where it has none.
+    verdict_of : callable
+        Returns the lines that say what happened.
     """
     parts: dict[int, tuple[Record | None, list[Item]]] = {}
     for item in items:
         record = record_of(item)
         parts.setdefault(id(record), (record, []))[1].append(item)
-    yield from parts.values()
+    for record, mine in parts.values():
+        verdicts = [told for item in mine for told in verdict_of(item)]
+        heading = [] if record is None else [record_line(record)]
+        yield heading + verdicts if len(parts) > 1 else verdicts + heading, mine
 
 
 def record_line(record: Record) -> Text:
@@ -171,16 +180,6 @@ def _earthquake_line(record: Record, earthquake: Earthquake) -> str:
     if earthquake.origin_time is not None:
         parts.append(told_time(record, earthquake.origin_time))
     return listed(parts)
-
-
-def under_records(items: Iterable[Item], record_of: Callable[[Item], Record | None]) -> Iterator[tuple[list[Text], Item]]:
-    """Yield each item with what stands above it: the line of its record above the first item of each record, else nothing."""
-    shown: set[int] = set()
-    for item in items:
-        record = record_of(item)
-        is_new = record is not None and id(record) not in shown
-        shown.add(id(record))
-        yield [record_line(record)] if is_new and record is not None else [], item
 
 
 def history(record: Record) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.present.text.tables import fixed, line, seconds, table, under_records
+from seisblock.present.text.tables import answered, fixed, line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.uplift.outcome import SMALL, UpliftOutcome
 from seisblock.words import noted, strung, tell
@@ -23,19 +23,23 @@ PLACES = ("1 (+x,+y)", "2 (+x,-y)", "3 (-x,+y)", "4 (-x,-y)")
 
 def tables(responses: Uplifts, *, gal: bool) -> Iterator[Any]:
     """Yield the record, and for each component a table of the corners and what happened in words."""
-    for heading, response in under_records(responses, lambda each: each.motion.record):
-        yield from heading
-        outcome = response.outcome
-        yield line(sentence(response))
-        yield table(f"+x = {response.motion.name}", [tell("corner"), *PLACES], _rows(response))
-        yield line(
-            tell(
-                "Natural frequencies {frequencies} Hz; at rest it sinks by {settlement:.2f} mm.",
-                frequencies=[f"{f:.3g}" for f in outcome.natural_frequencies_hz],
-                settlement=outcome.static_settlement_m * 1e3,
-            )
+    for opening, part in answered(responses, lambda each: each.motion.record, lambda each: [line(sentence(each))]):
+        yield from opening
+        yield from (shown for response in part for shown in _details(response))
+
+
+def _details(response: Response[UpliftOutcome]) -> Iterator[Any]:
+    """Yield the table of one component, and how its springs move."""
+    outcome = response.outcome
+    yield table(f"+x = {response.motion.name}", [tell("corner"), *PLACES], _rows(response))
+    yield line(
+        tell(
+            "Natural frequencies {frequencies} Hz; at rest it sinks by {settlement:.2f} mm.",
+            frequencies=[f"{f:.3g}" for f in outcome.natural_frequencies_hz],
+            settlement=outcome.static_settlement_m * 1e3,
         )
-        yield line()
+    )
+    yield line()
 
 
 def _rows(response: Response[UpliftOutcome]) -> Iterator[list[str]]:
