@@ -88,6 +88,11 @@ def sample_path(name: str = DEFAULT_SAMPLE) -> Path:
     ------
     RecordNotFoundError
         If there is no such sample; the message lists those there are.
+
+    Examples
+    --------
+    >>> sample_path("aoyama").name
+    'aoyama.csv'
     """
     found = find_sample(name)
     if found is None:

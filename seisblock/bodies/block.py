@@ -220,6 +220,11 @@ def from_slenderness(slenderness: float, frequency_parameter: float, gravity: fl
     frequency_parameter : float, rad/s
         p = sqrt(3 g/(4 R)), positive.
     gravity : float, m/s^2
+
+    Examples
+    --------
+    >>> round(from_slenderness(0.3, 2.5).height, 3)
+    2.248
     """
     checks.positive("the slenderness", slenderness, "rad", error=BodyError)
     checks.positive("the frequency parameter", frequency_parameter, "rad/s", error=BodyError)

@@ -81,6 +81,12 @@ def overturning_card(
     ------
     ParameterError
         If a peak is negative or not a number.
+
+    Examples
+    --------
+    >>> first = overturning_card(Block(0.24, 0.8), 4.0, 0.5, {"pga_pgv": 1.3})[0]
+    >>> first.criterion, round(first.threshold, 2), first.overturns
+    ('West, static', 2.94, True)
     """
     checks.instance(block, Block)
     checks.not_negative("the PGA", pga, "m/s^2")

@@ -114,6 +114,12 @@ def jma_intensity(record: Record) -> float | None:
     float or None
         None when the intensity is not defined: a component is missing, the record is shorter than 0.3 s, or so still that the scale says
         nothing (below -3, 0.01 gal: an offset alone would give -26). :func:`why_no_intensity` tells which.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> round(jma_intensity(read("synthetic_jma.csv")), 1)
+    6.6
     """
     checks.instance(record, Record)
     needed = _samples_needed(record)

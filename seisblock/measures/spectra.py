@@ -85,6 +85,13 @@ def response_spectrum(
     ------
     ParameterError
         If a period is not positive or the damping outside its range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = 4.0 * np.sin(np.linspace(0.0, np.pi, 101))
+    >>> response_spectrum(pulse, 0.01, [1.0]).sa_m_s2.round(3)
+    array([6.495])
     """
     if isinstance(acceleration, (Motion, Record)):
         found = type(acceleration).__name__

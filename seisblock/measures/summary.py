@@ -167,6 +167,13 @@ def measure(
         If the record has no such component.
     ParameterError
         If the threshold or a convention is out of range.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> found = measure(read("synthetic_jma.csv"))
+    >>> found.jma_class, found.components[1].component, round(found.components[1].pga_m_s2, 2)
+    ('7', 'EW', 9.62)
     """
     checks.instance(record, Record)
     rules = conventions or Conventions()

@@ -106,6 +106,11 @@ def read_all(
     ------
     InputError
         As `read` does.
+
+    Examples
+    --------
+    >>> [record.codes for record in read_all(["synthetic_jma.csv", "elcentro_1940_ns.csv"])]
+    [('NS', 'EW', 'UD'), ('NS',)]
     """
     options = Options(format, units, dt, station, level)
     groups: list[list[Opened]] = []

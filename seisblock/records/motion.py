@@ -168,6 +168,13 @@ def motion_of(record: Record, component: str) -> Motion:
     ------
     ComponentError
         If there is no such component, or an azimuth is asked of a record without two oriented horizontals.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> motion = motion_of(read("synthetic_jma.csv"), "EW")
+    >>> motion.name, motion.samples, motion.dt
+    ('EW', 6000, 0.01)
     """
     checks.instance(record, Record)
     component = str(component)

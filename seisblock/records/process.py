@@ -28,10 +28,11 @@ def demean(record: Record) -> Record:
     record : Record
         Any record; cut a window after this, not before, if the offset of the whole is meant.
 
-    Returns
-    -------
-    Record
-        With the means removed and named in ``history``.
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> demean(read("synthetic_knet.EW")).history
+    ('mean of the whole record removed (NS -0.138679, EW 0.0913371, UD 0.222668 m/s^2)',)
     """
     checks.instance(record, Record)
     means = {c.code: float(c.acceleration.mean()) for c in record.components}
@@ -55,6 +56,13 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
     ------
     RecordError
         If the window lies outside the record or holds fewer than two samples.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> part = crop(read("synthetic_jma.csv"), 20.0, 30.0)
+    >>> part.samples, part.offset_s
+    (1001, 20.0)
     """
     checks.instance(record, Record)
     first, last = record.offset_s, record.offset_s + record.duration_s
@@ -90,15 +98,16 @@ def scale(record: Record, factor: float) -> Record:
     factor : float
         Finite.
 
-    Returns
-    -------
-    Record
-        With the factor named in ``history``.
-
     Raises
     ------
     ParameterError
         If the factor is not a finite number.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> scale(read("synthetic_jma.csv"), 0.5).history
+    ('scaled by 0.5',)
     """
     checks.instance(record, Record)
     checks.finite("the scale factor", factor)
@@ -123,6 +132,13 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
         If the target is not positive, or the components are zero throughout.
     ComponentError
         If there is no such component.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> east = scale_to_pga(read("synthetic_jma.csv"), 4.0, "EW").component("EW")
+    >>> round(float(abs(east.acceleration).max()), 12)
+    4.0
     """
     checks.instance(record, Record)
     checks.positive("the target PGA", target, "m/s^2")
@@ -204,6 +220,13 @@ def highpass(record: Record, hz: float) -> Record:
     ------
     ParameterError
         If the corner lies outside that range, or so low that it needs more padding than is allowed.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> low = highpass(read("synthetic_jma.csv"), 0.1)
+    >>> bool(abs(low.component("EW").acceleration.mean()) < 1e-4)
+    True
     """
     checks.instance(record, Record)
     text = "high-pass {hz:g} Hz (Butterworth order {order} forwards and backwards, line through the ends removed, mirrored ends)"
@@ -225,6 +248,12 @@ def towards(record: Record, azimuth_deg: float) -> Component:
     ------
     ComponentError
         If the record lacks those two.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> towards(read("synthetic_jma.csv"), 45.0).azimuth_deg
+    45.0
     """
     checks.instance(record, Record)
     if isinstance(azimuth_deg, str) or not np.isfinite(azimuth_deg):
@@ -246,6 +275,12 @@ def rotate(record: Record, azimuth_deg: float) -> Record:
     ------
     ComponentError
         If the record lacks those two.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> rotate(read("synthetic_jma.csv"), 30.0).codes
+    ('30', '120', 'UD')
     """
     pair = [towards(record, azimuth_deg), towards(record, azimuth_deg + 90.0)]
     vertical = [] if record.vertical is None else [record.vertical]

@@ -128,6 +128,12 @@ def criterion_study(
         If a list is empty, or `resume` belongs to another study.
     RecordFormatError
         If `resume` cannot be read.
+
+    Examples
+    --------
+    >>> from seisblock.bodies.pile.toml import load_pile
+    >>> criterion_study(load_pile("wagata"), frequencies=(1.0,), pgas=(6.0,), ratios=(2.0, 4.0), points=2, duration=1.0).levels
+    {1.0: 24.0}
     """
     checks.instance(body, Pile)
     if not (frequencies and pgas and ratios):

@@ -104,6 +104,13 @@ def slide_study(
     ------
     ParameterError
         If a value lies outside its range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> [round(point.max_slip_m, 2) for point in slide_study([0.1, 0.2], pulse)]
+    [0.82, 0.44]
     """
     several = isinstance(motions, Iterable) and not isinstance(motions, (str, np.ndarray))
     chosen: list[Motion] = list(motions) if several else [motions]  # type: ignore[arg-type, list-item]

@@ -25,6 +25,7 @@ OF_MOTIONS = {
     "find_margin": lambda motion: sb.find_margin(BLOCK, motion),
     "rocking_spectrum": lambda motion: sb.rocking_spectrum([1.0], [0.2], motion),
     "slid": lambda motion: sb.slid(0.2, motion),
+    "jumped": lambda motion: sb.jumped(LAYERS, motion, contact=sb.load_contact("chozusha")),
 }
 OF_RECORDS = {
     "demean": sb.demean,

@@ -1,6 +1,8 @@
 """The rules of the house that a machine can check: citations, docstrings, imports, the size of files."""
 
 import ast
+import builtins
+import doctest
 import graphlib
 import inspect
 import re
@@ -165,6 +167,18 @@ def test_the_public_api_says_what_goes_in_and_what_comes_out(name):
         assert missing == []
     says = "Returns\n-------" in text or re.search(r"\b[Rr]eturns?\b|\bYield", text) or function.__annotations__.get("return") is not None
     assert says, f"{name} does not say what it returns"
+
+
+@pytest.mark.parametrize("name", [name for name in seisblock.__all__ if inspect.isfunction(getattr(seisblock, name))])
+def test_the_public_api_has_examples_that_a_reader_can_copy(name):
+    """Every function shows one call, in public names and what the example itself imports: pasted into a session, it runs."""
+    examples = doctest.DocTestParser().get_examples(inspect.getdoc(getattr(seisblock, name)))
+    assert examples, f"{name} has no example"
+    nodes = list(ast.walk(ast.parse("".join(example.source for example in examples))))
+    names = [node for node in nodes if isinstance(node, ast.Name)]
+    made = {node.id for node in names if isinstance(node.ctx, ast.Store)} | {node.arg for node in nodes if isinstance(node, ast.arg)}
+    brought = {alias.asname or alias.name for node in nodes if isinstance(node, (ast.Import, ast.ImportFrom)) for alias in node.names}
+    assert {node.id for node in names} - made - brought - set(seisblock.__all__) - set(dir(builtins)) == set()
 
 
 def test_no_circle_of_imports():

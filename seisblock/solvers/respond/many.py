@@ -89,6 +89,15 @@ def respond_many(
     settle_s : float, s
     workers : int or None
         Threads; None: one per core. The answer does not depend on it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.bodies.block import Block
+    >>> from seisblock.solvers.respond.solve import make_setting
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> respond_many([make_setting(Block(0.24, 0.8), mu=0.5)] * 2, pulse, gains=[(0.5, 0.0, 0.0), (1.0, 0.0, 0.0)]).overturned.tolist()
+    [False, True]
     """
     check_motion(motion)
     check_settling(settle_s)

@@ -178,6 +178,11 @@ def make_setting(
         If a number lies outside its range.
     BodyError
         If the centre of gravity does not lie above the base.
+
+    Examples
+    --------
+    >>> make_setting(Block(0.24, 0.8), mu=0.5).mu_kinetic
+    0.5
     """
     checks.instance(block, TwoLayerBlock if isinstance(block, TwoLayerBlock) else Block)
     return Setting(

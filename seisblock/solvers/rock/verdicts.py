@@ -50,6 +50,13 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options:
     -------
     Verdict
         The ratio is pi/2 over alpha when it overturns.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> [rock_verdict(Block(0.24, 0.8), pulse, scale=scale).overturned for scale in (0.5, 1.0)]
+    [False, True]
     """
     checks.finite("the scale factor", scale)
     one = rocker(block, motion, **options)

@@ -99,6 +99,14 @@ def solve_stack(
         If `step` is too coarse to be stable or finer than does any good, or an option is out of range.
     SolverError
         If the run created energy or left the finite numbers.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.bodies.pile.toml import load_pile
+    >>> pulse = Motion.from_arrays(2.0 * np.sin(np.linspace(0.0, np.pi, 11)), 0.01)
+    >>> solve_stack(load_pile("wagata"), pulse, points=2).outcome.overturned
+    ()
     """
     check_call(body, Pile, motion)
     contact = PileContact() if contact is None else checks.instance(contact, PileContact)

@@ -51,6 +51,7 @@ def solve_uplift(
 
     Examples
     --------
+    >>> import numpy as np
     >>> shaking = 4.0 * np.sin(2 * np.pi * 1.5 * 0.01 * np.arange(400))
     >>> block = SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=10.0, beta=0.707)
     >>> solve_uplift(block, Motion.from_arrays(shaking, 0.01)).outcome.uplifts

@@ -164,6 +164,12 @@ def rate_curve(
     -------
     tuple of CurvePoint
         Frequency by frequency, PGA in the order given.
+
+    Examples
+    --------
+    >>> from seisblock.bodies.cemetery.table import read_cemetery
+    >>> [point.rate for point in rate_curve(read_cemetery("aoyama.csv"), [7.25], [2.75])]
+    [0.35]
     """
     checks.instance(cemetery, Cemetery)
     grid = np.atleast_1d(np.asarray(pga, dtype=np.float64))

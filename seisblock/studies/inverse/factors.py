@@ -18,7 +18,7 @@ from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
-from seisblock.records.given import check_motion
+from seisblock.records.given import check_call, check_motion
 from seisblock.solvers.jump.solve import solve_jump
 from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.runs import in_threads
@@ -180,12 +180,23 @@ def jumped(
         The first chain of the record counts, else all are added up. A chain in which the block topples counts as no displacement.
     options
         Its ``drop``, ``spin``, ``direction``, ``landing``, ``windows`` and ``gravity``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.bodies.two_layer import load_contact, load_two_layer
+    >>> pulse = Motion.from_arrays(np.concatenate([6.0 * np.sin(np.linspace(0.0, np.pi, 101)), np.zeros(200)]), 0.01)
+    >>> displacement = jumped(load_two_layer("chozusha"), pulse, contact=load_contact("chozusha"))
+    >>> displacement(0.1), displacement(1.0) > 0.01
+    (0.0, True)
     """
+    check_call(block, TwoLayerBlock, motion)
+    checks.instance(contact, Contact)
     key = "jump_displacement_m" if flight_only else "total_displacement_m"
 
     def displacement(factor: float) -> float:
         found = solve_jump(block, scaled(motion, factor), contact=contact, first=first, **options)
-        return abs(sum(getattr(chain, key) or 0.0 for chain in found.outcome.chains))
+        return abs(sum((getattr(chain, key) or 0.0 for chain in found.outcome.chains), 0.0))
 
     return displacement
 
@@ -208,6 +219,14 @@ def slid(base: SlidingBase | float, motion: Motion, *, largest: bool = False, **
         If a coefficient lies outside its range.
     ComponentError
         If the vertical motion is asked of a record without one.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> displacement = slid(0.2, pulse)
+    >>> round(displacement(1.0), 2), displacement(0.1)
+    (0.44, 0.0)
     """
     solve_slide(base, motion, **options)  # what cannot be solved is refused here, where the record is still known
 

@@ -97,6 +97,13 @@ def marked_survey(cemetery: Cemetery) -> Survey:
     ------
     BodyError
         If no stone is marked.
+
+    Examples
+    --------
+    >>> from seisblock.bodies.cemetery.cemetery import Stone
+    >>> survey = marked_survey(Cemetery((Stone(2.5, fallen=False), Stone(3.0, fallen=True), Stone(3.5, fallen=True), Stone(4.0))))
+    >>> survey.fell, survey.judged
+    (2, 3)
     """
     checks.instance(cemetery, Cemetery)
     if not cemetery.surveyed:
@@ -124,6 +131,13 @@ def counted_survey(cemetery: Cemetery, fallen: int, stones: int) -> Survey:
     ------
     ParameterError
         If the counts make no sense.
+
+    Examples
+    --------
+    >>> from seisblock.bodies.cemetery.table import read_cemetery
+    >>> survey = counted_survey(read_cemetery("aoyama.csv"), 35, 100)
+    >>> survey.fell, survey.judged
+    (35, 100)
     """
     checks.instance(cemetery, Cemetery)
     whole = isinstance(fallen, Integral) and isinstance(stones, Integral)

@@ -107,6 +107,13 @@ def find_margin(
     ------
     ParameterError
         If limit or step are not positive, the step exceeds the limit, or an option is out of range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> round(find_margin(Block(0.24, 0.8), pulse, limit=1.0, step=0.05).first_fall, 4)
+    0.889
     """
     if not (0.0 < step <= limit < float("inf")):
         raise ParameterError("the scan needs 0 < step <= limit, found step {step} and limit {limit}", step=step, limit=limit)

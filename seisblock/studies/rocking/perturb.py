@@ -113,6 +113,14 @@ def perturb(
     ------
     ParameterError
         If there are no runs, or an option is out of range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> found = perturb(Block(0.24, 0.8), pulse, 20)
+    >>> found.runs, found.overturned
+    (20, 20)
     """
     checks.instance(spread, Spread)
     if runs < 1:

@@ -74,6 +74,13 @@ def rocking_spectrum(
     ------
     ParameterError
         If a size, a slenderness or an option is out of range, or there is none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> rocking_spectrum([1.0, 2.0], [0.3], pulse).max_rotation_ratio.round(2).tolist()
+    [[5.24], [0.43]]
     """
     diagonal = _grid(sizes, noted("size 2R"), "m", math.inf)
     alpha = _grid(slendernesses, noted("slenderness"), "rad", math.pi / 2)

@@ -62,6 +62,14 @@ def respond_directions(
     options
         ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``gravity``, ``tenon`` as in
         :func:`~seisblock.solvers.respond.solve.solve_respond`, and ``settle_s``.
+
+    Examples
+    --------
+    >>> from seisblock.bodies.library import load_block
+    >>> from seisblock.readers import read
+    >>> worst = respond_directions(load_block("gravestone"), read("synthetic_jma.csv"), mu=0.5, step_deg=45.0)[0]
+    >>> worst.azimuth_deg
+    90.0
     """
     checks.instance(block, Block)
     checks.instance(record, Record)

@@ -113,6 +113,14 @@ def mode_map(
     ------
     ParameterError
         If a number is out of its range, or there are no or too many cells.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> found = mode_map([0.2, 0.6], [1.0], [0.2], pulse)
+    >>> found.share("slide"), found.share("overturned")
+    (0.5, 0.5)
     """
     mu = np.array([checks.not_negative(noted("the friction coefficient mu"), value) for value in np.atleast_1d(frictions)])
     blocks = _blocks(sizes, slendernesses, inset)

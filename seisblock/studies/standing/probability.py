@@ -141,6 +141,13 @@ def respond_probability(
     ------
     ParameterError
         If there are no runs, or a number lies outside its range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulse = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
+    >>> respond_probability(Block(0.24, 0.8), pulse, mu=0.5, runs=20).overturned
+    1.0
     """
     check_call(block, Block, motion)
     checks.instance(versions, Versions)
