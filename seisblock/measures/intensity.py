@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from seisblock import checks
+from seisblock.measures.circular import add_filtered_square, weights_of
 from seisblock.records.motion import motion_of
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
@@ -125,17 +126,12 @@ def jma_intensity(record: Record) -> float | None:
     needed = _samples_needed(record)
     if record.vertical is None or len(record.horizontals) != 2 or needed > record.samples:
         return None
-    weight = _jma_filter(np.asarray(np.fft.rfftfreq(record.samples, record.dt), dtype=np.float64))
+    weights = weights_of(record.samples, record.dt, _jma_filter)
     squared = np.zeros(record.samples)
     for acceleration in _perpendicular(record):
-        spectrum = np.fft.rfft(acceleration / GAL)
-        spectrum *= weight
-        row = np.fft.irfft(spectrum, record.samples)
-        row *= row
-        squared += row
-        del spectrum, row
+        add_filtered_square(squared, acceleration, weights)
     squared.partition(record.samples - needed)
-    a0_squared = float(squared[record.samples - needed])
+    a0_squared = float(squared[record.samples - needed]) / GAL**2
     intensity = math.log10(a0_squared) + 0.94 if a0_squared > 0 else -math.inf
     return intensity if intensity >= LEAST_INTENSITY else None
 

@@ -2,58 +2,89 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
+import tracemalloc
 
 import numpy as np
 import obspy
 import pytest
 
 from seisblock.errors import ParameterError
+from seisblock.measures import jma_intensity, measure
 from seisblock.readers import read, sample_path
+from seisblock.records import Component, Record
 from seisblock.records.process import highpass
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ru_maxrss is in KiB")
+SHORTER, LONGER = 2**19, 2**20
+"""Samples of each of three components; pieces are smaller than these."""
 
-MEASURE = """
-import resource, sys
-from seisblock.cli import main
-try:
-    main(["measure", sys.argv[1], "--units", "mm/s2", "--quiet", "--json"])
-except SystemExit as end:
-    print(end.code or 0, 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=sys.stderr)
-"""
-
-SHORTER, LONGER = 1_500_000, 3_000_000
-"""Samples of each of three components: two hours and four at 200 Hz; below a million, pieces are not yet smaller than the whole."""
-
-BYTES = 90.0
-"""Of each sample of three components, 24 of which are the record itself: 1.5 GB for a day; it was 294."""
+BYTES_READ, BYTES_MEASURED = 48.0, 32.0
+"""Of each sample of three components: what reading takes, 24 of which are the record itself, and what measuring takes besides; in a day
+0.83 GB, and 0.55 GB above the record's 0.41 GB."""
 
 
-def written(path, samples):
-    """Write a miniSEED of three components: a burst of shaking among noise of some counts."""
+@pytest.fixture(autouse=True)
+def many_pieces(monkeypatch):
+    """Let both lengths count as long."""
+    for size in ("measures.circular.LONG", "measures.spectra.LONG", "records.jumps._BLOCK"):
+        monkeypatch.setattr(f"seisblock.{size}", 2**18)
+
+
+def shaking(samples):
+    """Return three components, m/s^2: a burst among noise of some counts of 1 mm/s^2."""
     dice = np.random.default_rng(samples)
     place = np.arange(samples)
     burst = 3000.0 * np.exp(-(((place - samples / 2) / 4000.0) ** 2)) * np.sin(0.0628 * place)
-    stream = obspy.Stream()
-    for letter in "NEZ":
-        header = {"station": "DAY", "channel": f"HN{letter}", "delta": 0.005, "starttime": obspy.UTCDateTime(2020, 1, 1)}
-        stream.append(obspy.Trace((burst + dice.integers(-3, 4, samples)).astype(np.int32), header))
-    stream.write(str(path), format="MSEED", encoding="STEIM2")
-    return path
+    return [np.rint(burst + dice.integers(-3, 4, samples)) / 1000.0 for _ in range(3)]
 
 
-def test_memory_per_sample_of_measure(tmp_path):
-    """The slope between two lengths, in processes of their own: what imports and buffers cost cancels out."""
+def per_sample(make, use):
+    """Return how many bytes more a sample takes at the peak: the slope between two lengths, in which what does not grow cancels out."""
+    use(make(2000))  # imports
     peaks = []
     for samples in (SHORTER, LONGER):
-        path = written(tmp_path / f"{samples}.mseed", samples)
-        done = subprocess.run([sys.executable, "-c", MEASURE, str(path)], capture_output=True, text=True, check=True)
-        code, peak = done.stderr.splitlines()[-1].split()
-        assert code == "0"
-        peaks.append(float(peak))
-    assert (peaks[1] - peaks[0]) / (LONGER - SHORTER) < BYTES
+        given = make(samples)
+        tracemalloc.start()
+        try:
+            assert use(given) is not None
+            peaks.append(tracemalloc.get_traced_memory()[1])
+        finally:
+            tracemalloc.stop()
+    return (peaks[1] - peaks[0]) / (LONGER - SHORTER)
+
+
+def recorded(samples):
+    """Return a record of three components."""
+    return Record(tuple(Component(code, row) for code, row in zip(("NS", "EW", "UD"), shaking(samples), strict=True)), 0.005)
+
+
+def test_memory_per_sample_of_reading(tmp_path):
+    """A miniSEED file in integers: its samples once as they are, once in m/s^2."""
+
+    def written(samples):
+        stream = obspy.Stream()
+        for letter, row in zip("NEZ", shaking(samples), strict=True):
+            header = {"station": "DAY", "channel": f"HN{letter}", "delta": 0.005, "starttime": obspy.UTCDateTime(2020, 1, 1)}
+            stream.append(obspy.Trace(np.rint(1000.0 * row).astype(np.int32), header))
+        path = tmp_path / f"{samples}.mseed"
+        stream.write(str(path), format="MSEED", encoding="STEIM2")
+        return path
+
+    assert per_sample(written, lambda path: read(path, units="mm/s2")) < BYTES_READ
+
+
+def test_memory_per_sample_of_measure():
+    """Above the record itself; the transform of a whole component, of the intensity, is what takes most."""
+    assert per_sample(recorded, measure) < BYTES_MEASURED
+
+
+@pytest.mark.parametrize("samples", [2**18, 2**18 + 5, 3**11 * 5, 2 * 131101], ids=str)
+def test_no_intensity_depends_on_the_order_of_a_transform(samples, monkeypatch):
+    """As a table of as many lines as columns, of a few columns, of one (no divisor) and at once: to the round-off."""
+    record = recorded(samples)
+    in_pieces = jma_intensity(record)
+    monkeypatch.setattr("seisblock.measures.circular.LONG", 2**21)
+    monkeypatch.setattr("seisblock.measures.circular.BLOCK", 2**21)
+    assert in_pieces == pytest.approx(jma_intensity(record), rel=1e-13)
 
 
 def test_a_corner_that_would_take_gigabytes_is_refused():

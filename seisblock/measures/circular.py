@@ -1,0 +1,84 @@
+"""A filter without delay over the frequencies of a whole record, whose end goes on into its beginning; long ones in little memory."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from seisblock.typing import FloatArray
+
+LONG = 2**20
+"""Samples beyond which a transform is made of shorter ones."""
+
+BLOCK = 2**18
+"""Samples that are transformed at a time: a day-long record needs one spectrum and no further memory of its size."""
+
+
+def weights_of(samples: int, dt: float, gain: Callable[[FloatArray], FloatArray]) -> FloatArray:
+    """Return the factors of a filter at the frequencies of so many samples, in the order in which :func:`add_filtered_square` meets them.
+
+    Parameters
+    ----------
+    samples : int
+        Of the whole record.
+    dt : float, s
+        Sampling interval.
+    gain : callable
+        Factors at an array of frequencies in Hz, none negative.
+    """
+    width = _width(samples)
+    height = samples // width
+    weights = np.empty((height // 2 + 1, width))
+    for lines in _blocks(len(weights), width):
+        number = np.arange(len(weights))[lines, None] + height * np.arange(width)
+        weights[lines] = gain(np.minimum(number, samples - number) / (samples * dt))
+    return weights
+
+
+def add_filtered_square(total: FloatArray, samples: FloatArray, weights: FloatArray) -> None:
+    """Add to a row, in its place, the squares of samples that were weighed frequency by frequency.
+
+    A long row is read as a table, line after line: its transform is made of those of the columns, turned, and those of the lines. The
+    weights come in the order in which the frequencies then lie, so that nothing is sorted. Where the number of samples has no divisor
+    (or the row is short) the table has one column, whose transform is that of the whole.
+
+    Parameters
+    ----------
+    total : (n,) array
+        Contiguous; changed.
+    samples : (n,) array
+        To be filtered.
+    weights : array
+        From :func:`weights_of`.
+    """
+    width = weights.shape[1]
+    table, sums = samples.reshape(-1, width), total.reshape(-1, width)
+    spectrum = np.empty(weights.shape, dtype=np.complex128)
+    for columns in _blocks(width, len(table)):
+        spectrum[:, columns] = np.fft.rfft(table[:, columns], axis=0)
+    for lines in _blocks(len(spectrum), width):
+        if width == 1:
+            spectrum[lines] *= weights[lines]
+            continue
+        turn = np.exp(-2j * math.pi / samples.size * (np.arange(len(spectrum))[lines, None] * np.arange(width)))
+        weighed = np.fft.fft(spectrum[lines] * turn, axis=1)
+        weighed *= weights[lines]
+        np.multiply(np.fft.ifft(weighed, axis=1), np.conj(turn, out=turn), out=spectrum[lines])
+    for columns in _blocks(width, len(table)):
+        filtered = np.fft.irfft(spectrum[:, columns], len(table), axis=0)
+        filtered *= filtered
+        sums[:, columns] += filtered
+
+
+def _width(samples: int) -> int:
+    """Return the largest divisor up to the root of a long row's length; 1 of a short one."""
+    return next(k for k in range(math.isqrt(samples), 0, -1) if samples % k == 0) if samples > LONG else 1
+
+
+def _blocks(count: int, length: int) -> Iterator[slice]:
+    """Yield so many lines or columns of a length that a block of samples is in them."""
+    step = max(BLOCK // length, 1)
+    for begin in range(0, count, step):
+        yield slice(begin, begin + step)
