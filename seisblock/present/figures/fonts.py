@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
@@ -129,9 +129,9 @@ def set_letters(figure: Figure, spoken: str) -> Iterator[None]:
     spoken : "en" or "ja"
         In Japanese all letters are of one family; in English a Japanese name gets its own.
     """
-    numbers = _numbers(figure)
-    for text in figure.findobj(Text):
-        assert isinstance(text, Text)
+    parts = figure.findobj()
+    numbers = _numbers(axis for axis in parts if isinstance(axis, Axis))
+    for text in (part for part in parts if isinstance(part, Text)):
         if id(text) not in numbers:
             text.set_parse_math(False)
         if spoken != "en" or is_wide(text.get_text()):
@@ -148,9 +148,8 @@ def set_letters(figure: Figure, spoken: str) -> Iterator[None]:
         remarks.setLevel(before)
 
 
-def _numbers(figure: Figure) -> set[int]:
+def _numbers(axes: Iterable[Axis]) -> set[int]:
     """Return which texts are the numbers along an axis: matplotlib writes powers of ten as formulas; names along an axis are none."""
-    axes: list[Axis] = [axis for panel in figure.findobj(Axis) if isinstance(axis := panel, Axis)]
     marks = [axis for axis in axes if not isinstance(axis.get_major_formatter(), (StrCategoryFormatter, FixedFormatter))]
     ticks = [tick for axis in marks for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks())]
     return {id(label) for tick in ticks for label in (tick.label1, tick.label2)} | {id(axis.get_offset_text()) for axis in marks}
