@@ -147,3 +147,13 @@ def test_what_did_not_happen_has_no_panel():
     assert [axis.get_ylabel() for axis in axes] == ["", "a (gal)"]
     with_names = [text.get_text() for axis in axes if axis.get_legend() for text in axis.get_legend().get_texts()]
     assert with_names == ["rests within ± g tan α"]
+
+
+@pytest.mark.parametrize("height", [0.7, 0.74, 0.78, 0.82, 0.9, 2.4])
+def test_the_edge_of_falling_is_named_where_it_is_in_sight(height):
+    """F3: the phase plane of a block that leans a little shows no edge, and its legend names none."""
+    figure = figure_of([solve_rock(Block(0.3, height), motion())])
+    plane = next(axis for axis in figure.axes if axis.get_ylabel() == "θ'/(p α)")
+    named = [line for line in plane.get_lines() if not line.get_label().startswith("_")]
+    assert all(line.get_path().transformed(line.get_transform()).intersects_bbox(plane.bbox, filled=False) for line in named)
+    assert (plane.get_legend() is not None) == bool(named)

@@ -17,9 +17,6 @@ from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.words import tell
 
-FAR = 0.2
-"""Angular velocity over p alpha below which the edge of falling is far away."""
-
 LEAST_LEAN = 1e-4
 """Lean over alpha that is drawn: what is less, a hair's breadth in a block of a metre, is no motion that one sees."""
 
@@ -123,10 +120,10 @@ def _draw_plane(axis: Any, response: Response[RockOutcome]) -> None:
     lean, rate = response["rotation"] / alpha, response["angular_velocity"] / (p * alpha)
     reach = min(float(np.abs(lean).max()) * 1.1, 1.8)
     high = float(np.abs(rate[np.abs(lean) <= reach]).max()) * 1.1
-    if high > FAR:
-        # the edge is in sight
-        u = np.linspace(0.0, 2.0, 60)
-        edge = np.abs(1 - u) if response.options["linear"] else 2 * np.abs(np.sin(alpha * (1 - u) / 2)) / alpha
+    u = np.linspace(0.0, 2.0, 201)
+    edge = np.abs(1 - u) if response.options["linear"] else 2 * np.abs(np.sin(alpha * (1 - u) / 2)) / alpha
+    if np.any((u <= reach) & (edge <= high)):
+        # some of the edge is in sight
         for sign in (1, -1):
             inward = np.where(u < 1, edge, -edge)
             label = tell("edge of falling, unshaken") if sign > 0 else None
