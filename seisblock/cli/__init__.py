@@ -130,7 +130,7 @@ class SeisblockGroup(click.Group):
         _jit.announce = say
         forget()
         try:
-            with ending_in_order(), ledger():
+            with ending_in_order(), ledger(sys.stdout):
                 result = super().invoke(ctx)
                 sys.stdout.flush()
                 return result

@@ -70,6 +70,8 @@ def checked_target(path: Path | str) -> Path:
         If it may not, in one sentence.
     """
     target = Path(path)
+    if target.exists() and not (target.is_file() or target.is_dir()):
+        return target  # a name such as /dev/fd/63 leads to a pipe, which has no other
     real = target.resolve()
     if real.is_dir():
         raise OutputError("{target} is a directory: give a file name", target=target)

@@ -181,3 +181,13 @@ def test_a_last_line_cut_short_is_doubted(table):
     rows = "".join(f"{i / 100:.2f},{(-1) ** i * 1.25:.4f}\n" for i in range(20))
     assert [doubt.kind for doubt in read(table("time,NS (gal)\n" + rows[:-4])).doubts] == ["cut"]
     assert [doubt.kind for doubt in read(table("time,NS (gal)\n" + rows[:-1])).doubts] == []
+
+
+def test_a_missing_interval_is_told_before_the_numbers_are_read(tmp_path):
+    """A table of a day has no minute to lose: what its header lacks is said at once, whatever its last line is."""
+    path = tmp_path / "day.csv"
+    path.write_text("NS (gal),EW (gal)\n1,2\n3,4\n5,x\n")
+    with pytest.raises(ParameterError, match="no time column"):
+        read(path)
+    with pytest.raises(RecordFormatError, match="line 4"):
+        read(path, dt=0.01)

@@ -225,3 +225,26 @@ def test_names_that_are_not_utf_8(tmp_path):
         file.write(sample_path("elcentro_1940_ns").read_bytes())
     done = subprocess.run([*map(os.fsencode, PROGRAM), b"measure", name], capture_output=True, check=False)
     assert done.returncode == 0 and b"Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("words", ["--csv out.csv --json > out.csv", "--plot out.png >> out.png", "--json >> in.csv"])
+def test_a_file_that_stdout_goes_to_is_no_other_output_and_no_input(words, folder):
+    """What stdout holds would be lost behind the new file; the record would grow by an answer."""
+    before = (folder / "in.csv").read_bytes()
+    done = subprocess.run(
+        ["bash", "-c", f"{sys.executable} -m seisblock slide in.csv --mu 0.2 --quiet {words}"],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 3 and "stdout goes to" in done.stderr
+    assert (folder / "in.csv").read_bytes() == before
+
+
+def test_a_nameless_pipe_is_written_through(folder):
+    """A shell's process substitution is a name such as /dev/fd/63; so is /dev/stdout where it is a pipe."""
+    line = f"{sys.executable} -m seisblock slide in.csv --mu 0.2 --quiet --json --csv >(cat > got.csv) > got.json; wait $!"
+    done = subprocess.run(["bash", "-c", line], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and (folder / "got.json").read_text().startswith("{")
+    assert (folder / "got.csv").read_text().startswith("component,")

@@ -85,6 +85,8 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
         body = mapped(body, partial(_QUOTED.sub, r"\1"))
     named = any(layout.names)
     told = columns_of_header(blob.name, layout.names, units) if named else _unnamed(len(layout.names))
+    if named and dt is None and not any(column.code == TIME for column in told.read):
+        raise _without_interval(blob.name)  # before a day of numbers is read
     labels = {c.label if layout.names.count(c.label) == 1 else f"number {c.index + 1}": c.index for c in told.read}
     rows = columns_of(blob.name, body, layout.body + 1, labels, len(layout.names), layout.separator)
     if not named:
@@ -97,7 +99,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
             if row[0]:
                 metadata["first_time_s"] = float(row[0]) * column.seconds
     if dt is None:
-        raise ParameterError("{name} has no time column: give the sampling interval, `dt`, for example 0.01 s", name=blob.name)
+        raise _without_interval(blob.name)
     components = [Component(c.code, turned_si(row, c.unit, c.sign), c.azimuth_deg) for c, row in pairs if c.code != TIME]
     if not components:
         raise RecordFormatError(
@@ -108,6 +110,11 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     clocked = any(column.code == TIME for column in told.read)
     doubts = _doubts(lines, layout.body, clocked=clocked) + doubts_of_decimals(body, layout.body + 1, layout.separator)
     return Record(tuple(components), dt, source=blob.name, format=FORMAT, history=told.remarks, metadata=metadata, doubts=doubts)
+
+
+def _without_interval(name: str) -> ParameterError:
+    """Return the error of a table that does not say how far apart its samples are."""
+    return ParameterError("{name} has no time column: give the sampling interval, `dt`, for example 0.01 s", name=name)
 
 
 def _doubts(lines: Sequence[str], body: int, *, clocked: bool) -> tuple[Doubt, ...]:

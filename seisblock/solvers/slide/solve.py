@@ -19,6 +19,7 @@ from seisblock.references import papers
 from seisblock.results import Channel, Event, Histories, Phase, Response, Status
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
+from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import Said, noted, said
 
@@ -196,13 +197,13 @@ def _outcome(trajectory: Trajectory, motion: Motion, p: tuple[float, ...]) -> Sl
 
 
 def _length(trajectory: Trajectory) -> float:
-    """Return the length of the path slid, m: between samples and events the slip does not turn."""
-    total, reached = 0.0, np.empty(0)
+    """Return the length of the path slid, m: between samples and events the slip does not turn. Rounded once, whatever its pieces."""
+    ways, reached = list[FloatArray](), np.empty(0)
     for path in trajectory.walk():
         slip = np.concatenate([reached, path.table()[1][:, SLIP]])
-        total += float(np.abs(np.diff(slip)).sum())
-        reached = slip[-1:]
-    return total
+        way, reached = np.abs(np.diff(slip)), slip[-1:]
+        ways.append(way[way > 0.0])
+    return math.fsum(each for part in ways for each in part.tolist())
 
 
 def _slides(mode: int) -> bool:
