@@ -42,18 +42,19 @@ def even_dt(name: str, times: FloatArray, written: Callable[[], Sequence[str]] |
     RecordFormatError
         If there are fewer than two times, or one lies off its even place.
     """
-    seconds = times * unit
+    seconds = times if unit == 1.0 else times * unit
     count = seconds.size
     if count < 2:
         raise RecordFormatError("{name}: a record needs at least 2 samples, found {count}", name=name, count=count)
     dt = float(seconds[-1] - seconds[0]) / (count - 1)
     # the interval that most rows have shows which row is wrong; the mean only that one is
     usual = float(np.median(np.diff(seconds), overwrite_input=True))
-    off = dt * np.arange(count)
+    off = np.arange(count, dtype=np.float64)
+    off *= dt
     off += seconds[0]
     off -= seconds
     np.abs(off, out=off)
-    if usual > 0.0 and off.max() <= TOLERANCE * (1.0 + 1e-3) + 4.0 * np.finfo(float).eps * abs(seconds).max():
+    if usual > 0.0 and off.max() <= TOLERANCE * (1.0 + 1e-3) + 4.0 * np.finfo(float).eps * max(seconds.max(), -seconds.min()):
         return next((plain for plain in _plain(dt) if abs(plain - dt) * (count - 1) <= TOLERANCE), dt)
     if written is not None and dt > 0.0:
         slack = unit * half_units(written())

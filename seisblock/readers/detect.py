@@ -16,7 +16,7 @@ OBSPY = "OBSPY"
 
 def format_of(blob: Blob) -> str:
     """Return ``BUNDLE``, a format of ours, or ``OBSPY`` for whatever else there is."""
-    head = blob.data[:4096]
+    head = blob.held[:4096]
     if bundle.is_bundle(head):
         return BUNDLE
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):

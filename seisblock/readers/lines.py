@@ -10,11 +10,9 @@ from typing import overload
 import numpy as np
 
 from seisblock.errors import RecordFormatError
-from seisblock.readers.source import Blob, decode, is_binary
+from seisblock.readers import source
+from seisblock.readers.source import Blob, FileBytes, decode, is_binary
 from seisblock.typing import IntArray
-
-LARGE = 2**25
-"""Bytes beyond which a text is taken piece by piece."""
 
 PIECE = 2**16
 """Lines that are held at a time."""
@@ -26,7 +24,7 @@ class Lines(Sequence[str]):
 
     Parameters
     ----------
-    data : bytes
+    data : bytes or FileBytes
         Of the whole file.
     encoding : str
     marks : (m,) array of int
@@ -37,7 +35,7 @@ class Lines(Sequence[str]):
         What is done to each, in this order.
     """
 
-    data: bytes
+    data: bytes | FileBytes
     encoding: str
     marks: IntArray
     begin: int
@@ -90,11 +88,10 @@ def lines_of(blob: Blob) -> Sequence[str]:
     RecordFormatError
         If the bytes are not text.
     """
-    data = blob.data
-    plain = data.count(b"\r") == data.count(b"\r\n") and not data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
-    if len(data) < LARGE or not plain or is_binary(data):
+    data = blob.held
+    if len(data) < source.LARGE or not _is_plain(blob):
         return decode(blob).split("\n")
-    marks, count = _marks(data)
+    marks, count = _marks(blob)
     for encoding in ("utf-8", "cp932"):
         found = Lines(data, encoding, marks, 0, count)
         try:
@@ -116,14 +113,21 @@ def pieces_of(lines: Sequence[str]) -> Iterator[Sequence[str]]:
     yield from lines.pieces() if isinstance(lines, Lines) else (lines,)
 
 
-def _marks(data: bytes) -> tuple[IntArray, int]:
+def _is_plain(blob: Blob) -> bool:
+    """Return whether bytes are those of a text whose lines end in LF or CR LF, in an encoding that leaves these single bytes."""
+    head = blob.held[:65536]
+    if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or is_binary(head):
+        return False
+    return all(piece.count(b"\r", 0, source.LARGE) == piece.count(b"\r\n") for piece in blob.pieces())
+
+
+def _marks(blob: Blob) -> tuple[IntArray, int]:
     """Return where every ``PIECE``-th line begins and where the data end, and how many lines there are."""
-    bom = len(codecs.BOM_UTF8) if data.startswith(codecs.BOM_UTF8) else 0
-    found, count = [bom], 0
-    for begin in range(0, len(data), LARGE):
-        ends = np.flatnonzero(np.frombuffer(data, dtype=np.uint8, count=min(LARGE, len(data) - begin), offset=begin) == ord("\n"))
+    found, count = [len(codecs.BOM_UTF8) if blob.held[:3] == codecs.BOM_UTF8 else 0], 0
+    for begin, piece in zip(range(0, len(blob.held), source.LARGE), blob.pieces(), strict=True):
+        ends = np.flatnonzero(np.frombuffer(piece, dtype=np.uint8)[: source.LARGE] == ord("\n"))
         # line number k begins after k ends of lines
         first = -(count + 1) % PIECE
         found += (begin + 1 + ends[first::PIECE]).tolist()
         count += int(ends.size)
-    return np.array([*found, len(data)], dtype=np.int64), count + 1
+    return np.array([*found, len(blob.held)], dtype=np.int64), count + 1

@@ -23,9 +23,9 @@ def with_siblings(blob: Blob, budget: Budget, level: str | None = None) -> list[
     """
     if blob.path is None:
         return [blob]
-    if is_knet(blob.data[:64]):
+    if is_knet(blob.held[:64]):
         return _of_knet(blob, blob.path, level, budget)
-    if is_at2(blob.data[:4096]):
+    if is_at2(blob.held[:4096]):
         return _of_at2(blob, blob.path, budget)
     return [blob]
 
@@ -63,8 +63,8 @@ def _of_at2(blob: Blob, path: Path, budget: Budget) -> list[Blob]:
 
 def _signature(blob: Blob) -> tuple[bytes, bytes | None]:
     """Return what the headers of one AT2 set share: title without direction, DT."""
-    lines = blob.data[:2000].splitlines()
-    interval = re.search(rb"DT\s*=\s*0*([\d.]+)", blob.data[:2000])
+    lines = blob.held[:2000].splitlines()
+    interval = re.search(rb"DT\s*=\s*0*([\d.]+)", blob.held[:2000])
     return (lines[1].rpartition(b",")[0] if len(lines) > 1 else b"", interval[1].rstrip(b"0") if interval else None)
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import codecs
 import hashlib
+import os
 import stat
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -26,13 +27,66 @@ LONGEST_SHOWN = 200
 """How much of a text from outside a message shows at most."""
 
 
+LARGE = 2**25
+"""Bytes beyond which a file, or a text, is taken piece by piece."""
+
+
+@dataclass(frozen=True)
+class FileBytes:
+    """The bytes of a large file, read where they are looked at, so that no memory of its size is needed.
+
+    Parameters
+    ----------
+    path : Path
+    name : str
+        What messages call it.
+    stamp : tuple of int
+        Which file it was and when it was written last.
+    """
+
+    path: Path
+    name: str
+    stamp: tuple[int, ...]
+
+    def __len__(self) -> int:
+        return self.stamp[0]
+
+    def __getitem__(self, part: slice) -> bytes:
+        begin, stop, _ = part.indices(len(self))
+        try:
+            with self.path.open("rb") as stream:
+                stream.seek(begin)
+                found = stream.read(max(stop - begin, 0))
+                unchanged = stamp_of(os.fstat(stream.fileno())) == self.stamp
+        except OSError as error:
+            raise RecordError("{name} cannot be read: {reason}", name=self.name, reason=reason(error)) from error
+        if not unchanged:
+            raise RecordError("{name} changed while it was read: read it again when it is complete", name=self.name)
+        return found
+
+
+def stamp_of(info: os.stat_result) -> tuple[int, ...]:
+    """Return what tells a file from another, or from what it was before: its size first."""
+    return info.st_size, info.st_mtime_ns, info.st_dev, info.st_ino
+
+
 @dataclass(frozen=True)
 class Blob:
     """The bytes of one file, or of one member of a bundle, and the name they go by in messages."""
 
     name: str
-    data: bytes
+    held: bytes | FileBytes
     path: Path | None = None
+
+    @property
+    def data(self) -> bytes:
+        """All of the bytes."""
+        return self.held if isinstance(self.held, bytes) else self.held[:]
+
+    def pieces(self) -> Iterator[bytes]:
+        """Yield the bytes, many at a time, each with the one that follows it."""
+        for begin in range(0, len(self.held), LARGE):
+            yield self.held[begin : begin + LARGE + 1]
 
     @property
     def basename(self) -> str:
@@ -63,13 +117,13 @@ def fetch(source: Location, budget: Budget) -> Blob:
     else:
         path = locate(source)
         blob = Blob(name, read_bytes(path, name, budget), path)
-    if not blob.data.strip():
+    if not any(not piece.isspace() for piece in blob.pieces()):
         raise RecordError("{name} is empty: expected a strong-motion record", name=blob.name)
     return blob
 
 
-def read_bytes(path: Path, name: str, budget: Budget) -> bytes:
-    """Return the bytes of a file, or of a pipe, as far as the budget goes.
+def read_bytes(path: Path, name: str, budget: Budget) -> bytes | FileBytes:
+    """Return the bytes of a file, or of a pipe, as far as the budget goes; those of a large file stay there.
 
     Parameters
     ----------
@@ -90,12 +144,14 @@ def read_bytes(path: Path, name: str, budget: Budget) -> bytes:
         if stat.S_ISCHR(info.st_mode) or stat.S_ISBLK(info.st_mode):
             raise RecordError("{name} is a device, not a record: name a file, or - for the standard input", name=name)
         budget.announce_bytes(name, info.st_size)
-        with path.open("rb") as stream:
-            data = budget.read(name, stream)
         reading(path)
+        if stat.S_ISREG(info.st_mode) and info.st_size > LARGE:
+            budget.bytes_spent += info.st_size
+            return FileBytes(path, name, stamp_of(info))
+        with path.open("rb") as stream:
+            return budget.read(name, stream)
     except OSError as error:
         raise RecordError("{name} cannot be read: {reason}", name=name, reason=reason(error)) from error
-    return data
 
 
 def locate(source: Location) -> Path:
@@ -125,7 +181,8 @@ def digest(blobs: Iterable[Blob]) -> str:
     """Return the SHA-256 of the bytes, one after the other."""
     total = hashlib.sha256()
     for blob in blobs:
-        total.update(blob.data)
+        for piece in blob.pieces():
+            total.update(memoryview(piece)[:LARGE])
     return total.hexdigest()
 
 
@@ -137,15 +194,16 @@ def decode(blob: Blob) -> str:
     RecordFormatError
         If the bytes are not text.
     """
-    if blob.data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+    data = blob.data
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         encodings = ["utf-16"]
-    elif is_binary(blob.data):
+    elif is_binary(data):
         encodings = []
     else:
         encodings = ["utf-8-sig", "cp932"]
     for encoding in encodings:
         try:
-            return blob.data.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
+            return data.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
         except UnicodeDecodeError:
             continue
     raise RecordFormatError("{name} is not text (neither UTF-8 nor Shift-JIS): expected a record in a text format", name=blob.name)

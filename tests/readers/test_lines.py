@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import astuple
 
 import numpy as np
 import pytest
 
-from seisblock.errors import RecordFormatError
+from seisblock.errors import RecordError, RecordFormatError
 from seisblock.readers import lines as pieces
-from seisblock.readers import read, sample_path
+from seisblock.readers import read, sample_path, source
+from seisblock.readers.budget import budget
 from seisblock.readers.lines import Lines, lines_of, mapped
-from seisblock.readers.source import Blob, decode
+from seisblock.readers.source import Blob, FileBytes, decode, digest, fetch
 
 TEXTS = {
     "no end": "a\nb\nc",
@@ -26,7 +28,7 @@ TEXTS = {
 @pytest.fixture(params=[1, 3, 7])
 def small_pieces(request, monkeypatch):
     """Let every text count as large, and a piece be so many lines."""
-    monkeypatch.setattr(pieces, "LARGE", 4)
+    monkeypatch.setattr(source, "LARGE", 4)
     monkeypatch.setattr(pieces, "PIECE", request.param)
 
 
@@ -71,7 +73,7 @@ def test_a_table_in_pieces_is_the_same_record(text, tmp_path, monkeypatch):
     options = {} if "gal" in text else {"units": "gal"}
     options |= {} if "time" in text else {"dt": 0.01}
     whole = read(path, **options)
-    monkeypatch.setattr(pieces, "LARGE", 4)
+    monkeypatch.setattr(source, "LARGE", 4)
     monkeypatch.setattr(pieces, "PIECE", 7)
     same(read(path, **options), whole)
 
@@ -80,7 +82,7 @@ def test_no_line_is_looked_for_one_by_one(tmp_path, monkeypatch):
     """A table is gone through some ten times, from piece to piece, and never line by line from the beginning of a piece."""
     path = tmp_path / "record.csv"
     path.write_text("NS (gal)\n" + "".join(f"{k % 7}.5\n" for k in range(1000)), encoding="utf-8")
-    monkeypatch.setattr(pieces, "LARGE", 4)
+    monkeypatch.setattr(source, "LARGE", 4)
     monkeypatch.setattr(pieces, "PIECE", 100)
     made = []
     original = Lines._piece
@@ -92,7 +94,7 @@ def test_no_line_is_looked_for_one_by_one(tmp_path, monkeypatch):
 def test_a_file_of_jma_in_pieces_is_the_same_record(monkeypatch):
     """Samples, header and doubts."""
     whole = read(sample_path("synthetic_jma.csv"))
-    monkeypatch.setattr(pieces, "LARGE", 4)
+    monkeypatch.setattr(source, "LARGE", 4)
     monkeypatch.setattr(pieces, "PIECE", 999)
     same(read(sample_path("synthetic_jma.csv")), whole)
 
@@ -125,3 +127,36 @@ def test_columns_in_several_units_are_each_taken_in_their_own(tmp_path):
     record = read(path, dt=0.01)
     assert [float(component.acceleration[0]) for component in record.components] == [1.0, 2.0]
     assert record.history == ("the columns state several units, and each was taken in its own ('NS (gal)': gal, 'EW (m/s2)': m/s2)",)
+
+
+def test_bytes_of_a_large_file_stay_in_it(tmp_path, monkeypatch):
+    """Read where they are looked at: all of them, parts of them, their digest; counted by the budget like any others."""
+    monkeypatch.setattr(source, "LARGE", 4)
+    path = tmp_path / "x.csv"
+    path.write_bytes(bytes(range(32, 59)))
+    spent = budget()
+    blob = fetch(path, spent)
+    assert isinstance(blob.held, FileBytes) and spent.bytes_spent == 27
+    assert blob.data == path.read_bytes() and blob.held[3:9] == path.read_bytes()[3:9] and blob.held[-2:] == path.read_bytes()[-2:]
+    assert digest([blob]) == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@pytest.mark.parametrize("spoil", [lambda path: path.write_bytes(b"NS (gal)\n"), lambda path: path.unlink()], ids=["written", "gone"])
+def test_a_large_file_that_changes_while_it_is_read_is_refused(spoil, tmp_path, monkeypatch):
+    """A download that goes on, another file in its place: no record of two halves."""
+    monkeypatch.setattr(source, "LARGE", 4)
+    path = tmp_path / "x.csv"
+    path.write_text("NS (gal)\n1\n2\n")
+    blob = fetch(path, budget())
+    spoil(path)
+    with pytest.raises(RecordError, match=r"changed while it was read|cannot be read"):
+        lines_of(blob)
+
+
+def test_a_large_file_of_blanks_is_empty(tmp_path, monkeypatch):
+    """As a small one is."""
+    monkeypatch.setattr(source, "LARGE", 4)
+    path = tmp_path / "x.csv"
+    path.write_text(" \n" * 20)
+    with pytest.raises(RecordError, match="is empty"):
+        fetch(path, budget())

@@ -25,7 +25,7 @@ BYTES_READ, BYTES_MEASURED = 48.0, 32.0
 @pytest.fixture(autouse=True)
 def many_pieces(monkeypatch):
     """Let both lengths count as long."""
-    for size in ("measures.circular.LONG", "measures.spectra.LONG", "records.jumps._BLOCK"):
+    for size in ("measures.circular.LONG", "measures.spectra.LONG", "records.jumps._BLOCK", "readers.source.LARGE"):
         monkeypatch.setattr(f"seisblock.{size}", 2**18)
 
 
@@ -37,11 +37,11 @@ def shaking(samples):
     return [np.rint(burst + dice.integers(-3, 4, samples)) / 1000.0 for _ in range(3)]
 
 
-def per_sample(make, use):
+def per_sample(make, use, shorter=SHORTER, longer=LONGER):
     """Return how many bytes more a sample takes at the peak: the slope between two lengths, in which what does not grow cancels out."""
     use(make(2000))  # imports
     peaks = []
-    for samples in (SHORTER, LONGER):
+    for samples in (shorter, longer):
         given = make(samples)
         tracemalloc.start()
         try:
@@ -49,7 +49,7 @@ def per_sample(make, use):
             peaks.append(tracemalloc.get_traced_memory()[1])
         finally:
             tracemalloc.stop()
-    return (peaks[1] - peaks[0]) / (LONGER - SHORTER)
+    return (peaks[1] - peaks[0]) / (longer - shorter)
 
 
 def recorded(samples):
@@ -70,6 +70,23 @@ def test_memory_per_sample_of_reading(tmp_path):
         return path
 
     assert per_sample(written, lambda path: read(path, units="mm/s2")) < BYTES_READ
+
+
+def test_memory_per_sample_of_a_table(tmp_path, monkeypatch):
+    """A plain table with its times: four columns, and nothing of the text, which stays in the file."""
+    for name, value in {"source.LARGE": 2**14, "lines.PIECE": 2**8, "cells._BLOCK": 2**12}.items():
+        monkeypatch.setattr(f"seisblock.readers.{name}", value)
+    monkeypatch.setattr("seisblock.records.jumps._BLOCK", 2**12)
+
+    def written(samples):
+        path = tmp_path / f"{samples}.csv"
+        rows = zip(0.005 * np.arange(samples), *shaking(samples), strict=True)
+        path.write_text(
+            "time (s),NS (m/s2),EW (m/s2),UD (m/s2)\n" + "".join(",".join(f"{value:.3f}" for value in row) + "\n" for row in rows)
+        )
+        return path
+
+    assert per_sample(written, read, 2**14, 2**15) < BYTES_READ
 
 
 def test_memory_per_sample_of_measure():
