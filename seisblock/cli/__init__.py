@@ -22,6 +22,8 @@ from seisblock.cli.help import Context, rows_of
 from seisblock.cli.language import answering
 from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, printable
 from seisblock.cli.meant import asking, nearest, suggested
+from seisblock.cli.progress import progress
+from seisblock.cli.quiet import quietly
 from seisblock.cli.talk import forget, say
 from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import ledger
@@ -130,7 +132,7 @@ class SeisblockGroup(click.Group):
         _jit.announce = say
         forget()
         try:
-            with ending_in_order(), ledger(sys.stdout):
+            with ending_in_order(), ledger(sys.stdout), quietly("--quiet" in ctx.obj or None), progress("working"):
                 result = super().invoke(ctx)
                 sys.stdout.flush()
                 return result

@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from seisblock.cli.command import Command, argument, option
+from seisblock.cli.talk import answer, show
 from seisblock.references import CITED
 
 
@@ -25,13 +26,10 @@ def cite(command: str | None, bibtex: bool, as_json: bool) -> None:
         from seisblock.present.documents.library import cite_document
         from seisblock.present.documents.write import to_json
 
-        click.echo(to_json(cite_document(command, chosen, keys)))
+        answer(to_json(cite_document(command, chosen, keys)))
     elif bibtex:
-        click.echo("\n\n".join(reference.bibtex() for reference in chosen))
+        answer("\n\n".join(reference.bibtex() for reference in chosen))
     else:
         from seisblock.present.text.cite import listing
-        from seisblock.present.text.tables import console
 
-        screen = console()
-        for part in listing(chosen):
-            screen.print(part)
+        show(listing(chosen))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from seisblock.cli.command import Command, argument
+from seisblock.cli.talk import answer
 from seisblock.words import said
 
 VARIABLE = "_SEISBLOCK_COMPLETE"
@@ -27,5 +28,5 @@ def completion(ctx: click.Context, shell: str) -> None:
 
     kind = get_completion_class(shell)
     assert kind is not None
-    click.echo(kind(ctx.find_root().command, {}, "seisblock", VARIABLE).source())
+    answer(kind(ctx.find_root().command, {}, "seisblock", VARIABLE).source())
     say(WHERE[shell])

@@ -9,10 +9,9 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import click
-
 from seisblock.cli.options import Output
-from seisblock.cli.talk import say, warn
+from seisblock.cli.progress import end, progress
+from seisblock.cli.talk import answer, say, show, warn
 from seisblock.errors import OutputError
 from seisblock.present.documents.kind import Document
 from seisblock.present.documents.write import to_json
@@ -78,7 +77,8 @@ def emit(
         if output.csv == STDOUT:
             _to_stdout(write)
             return
-        write(output.csv)
+        with progress("writing {file}", file=str(output.csv)):
+            write(output.csv)
         say("wrote {file}", file=str(output.csv))
     if output.animate is not None and animation is not None:
         _animate(animation, output)
@@ -90,13 +90,9 @@ def emit(
         say("wrote {path}", path=output.plot)
     # stdout comes last: a reader that goes away (| head) takes no file with it
     if output.json:
-        click.echo(to_json(document))
+        answer(to_json(document))
     else:
-        from seisblock.present.text.tables import console
-
-        screen = console()
-        for part in tables():
-            screen.print(part)
+        show(tables())
 
 
 def _check_stdout(output: Output) -> None:
@@ -116,6 +112,7 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
     with tempfile.TemporaryDirectory(prefix="seisblock-") as directory:
         path = Path(directory) / "table.csv"
         write(path)
+        end()
         with path.open(encoding="utf-8", newline="") as stream:
             shutil.copyfileobj(stream, sys.stdout)
 
@@ -129,16 +126,17 @@ def _draw(figure: Callable[[], Figure], target: Path, output: Output) -> None:
         raise OutputError("--plot - writes a .png to stdout, which is a terminal: send it to a file or a viewer, or give a file name")
     if drawable() != language():
         say(MISSING)
-    made = fitted(drawn(figure), size=output.size, dpi=output.dpi, title=output.title)
-    if target == STDOUT:
-        save_png(made, sys.stdout.buffer)
-    else:
-        save(made, target)
+    with progress("drawing"):
+        made = fitted(drawn(figure), size=output.size, dpi=output.dpi, title=output.title)
+        if target != STDOUT:
+            save(made, target)
+            return
+    end()
+    save_png(made, sys.stdout.buffer)
 
 
 def _animate(animation: Callable[[Path, Filming], None], output: Output) -> None:
     """Write an animation, with a bar while its pictures are drawn."""
-    from seisblock.cli.progress import progress
     from seisblock.present.figures.fonts import MISSING, drawable
     from seisblock.present.films.animation import Filming
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 from seisblock.cli.options import Source
-from seisblock.cli.talk import insist, is_quiet, say, warn
+from seisblock.cli.progress import progress
+from seisblock.cli.quiet import is_quiet
+from seisblock.cli.talk import insist, say, warn
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.records import Motion, Preparation, Record, motion_of
 
@@ -30,8 +33,9 @@ def load(source: Source, *, vertical_counts: bool = False, whole: bool = False) 
     if not names:
         names = (DEFAULT_SAMPLE,)
         say("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
-    records = read_all(names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level)
-    prepared = [_prepared(record, source, vertical_counts=vertical_counts, whole=whole) for record in records]
+    with progress("reading {names}", names=[Path(name).name for name in names]):
+        records = read_all(names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level)
+        prepared = [_prepared(record, source, vertical_counts=vertical_counts, whole=whole) for record in records]
     _tell_doubts(prepared, strict=source.strict)
     return prepared
 

@@ -13,7 +13,7 @@ import click
 from seisblock import checks
 from seisblock.cli import offered
 from seisblock.cli.command import argument, option
-from seisblock.cli.talk import quietly
+from seisblock.cli.quiet import quietly
 from seisblock.cli.types import SIZE, WINDOW
 from seisblock.errors import ParameterError
 from seisblock.units import STANDARD_GRAVITY

@@ -1,46 +1,188 @@
-"""A bar on stderr for work that lasts over a second; silent with ``--quiet`` and when nobody watches."""
+"""A line on stderr that tells what takes so long: after a second in silence, where somebody watches, and gone when there is news.
+
+A run has one line. A thread paints it, so that neither compiled code nor a library that draws need know of it; what is being done, and
+how much of it, is told by :func:`progress`, and of a single motion by the solver between its slices.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import math
+import os
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
-from seisblock import words
-from seisblock.cli import talk
+from seisblock.cli.quiet import is_quiet
+from seisblock.dynamics.halt import hearing
+from seisblock.words import tell
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar
 
 PATIENCE_S = 1.0
-"""Work that is done sooner shows no bar."""
+"""Silence that is borne: work that is done sooner shows nothing."""
+
+TICK_S = 0.1
+"""From one painting to the next."""
+
+STALE_S = 1.0
+"""A motion of which nothing was heard for so long is followed no more."""
+
+MOST_COUNTED = 100_000
+"""What there is more of is told as a share."""
+
+
+@dataclass(eq=False)
+class Work:
+    """What is being done, and how much of it; a total of None: nobody knows."""
+
+    text: str
+    done: int = 0
+    total: int | None = None
+
+    def advance(self, done: int, total: int) -> None:
+        """Take note of the number done and the number in all."""
+        self.done, self.total = done, total
+
+    def told(self) -> str:
+        """Return how much is done."""
+        if self.total is None:
+            return ""
+        return f"{self.done}/{self.total}" if self.total <= MOST_COUNTED else f"{self.done / self.total:.0%}"
+
+
+class StatusLine:
+    """The line of one run, and the thread that paints it."""
+
+    def __init__(self) -> None:
+        self.works: list[Work] = []
+        self._followed = Work(tell("following the motion"))
+        self._news, self._heard = time.monotonic(), -math.inf
+        self._shown: tuple[Work, bool] | None = None
+        self._bar: Bar | None = None
+        self._lock, self._ended = threading.Lock(), threading.Event()
+        self._painter = threading.Thread(target=self._watch, daemon=True)
+
+    @contextlib.contextmanager
+    def watched(self) -> Iterator[None]:
+        """Paint inside the block; nothing is left behind."""
+        self._painter.start()
+        try:
+            yield
+        finally:
+            self.end()
+            self._painter.join()
+
+    @contextlib.contextmanager
+    def hushed(self) -> Iterator[None]:
+        """Leave the screen to what is said inside the block; patience begins anew after it."""
+        with self._lock:
+            self._clear()
+            yield
+            self._news = time.monotonic()
+
+    def end(self) -> None:
+        """Leave the screen for good."""
+        self._ended.set()
+        with self._lock:
+            self._clear()
+
+    def hear(self, done: int, total: int) -> None:
+        """Take note of how far a single motion was followed; shown where nothing else is."""
+        self._followed.advance(done, total)
+        self._heard = time.monotonic()
+
+    def _watch(self) -> None:
+        """Paint again and again, until the end."""
+        while not self._ended.wait(TICK_S):
+            with self._lock:
+                if time.monotonic() - self._news > PATIENCE_S and not self._ended.is_set():
+                    self._paint(self._present())
+
+    def _present(self) -> Work:
+        """Return what is done last, or the motion that is being followed."""
+        followed = len(self.works) == 1 and time.monotonic() - self._heard < STALE_S
+        return self._followed if followed else self.works[-1]
+
+    def _paint(self, work: Work) -> None:
+        """Show what is being done."""
+        known = work.total is not None
+        if self._bar is None or self._shown != (work, known):
+            self._clear()
+            self._bar, self._shown = _bar(known=known), (work, known)
+            self._bar.add_task(work.text, total=work.total, told=work.told())
+            self._bar.start()
+        self._bar.update(self._bar.task_ids[0], description=work.text, completed=work.done, total=work.total, told=work.told())
+        self._bar.refresh()
+
+    def _clear(self) -> None:
+        """Take the line off the screen."""
+        if self._bar is not None:
+            self._bar.stop()
+            self._bar = None
+
+
+_line: StatusLine | None = None
+"""The line of the run, while it lasts and somebody watches."""
 
 
 @contextlib.contextmanager
 def progress(what: str, /, **values: Any) -> Iterator[Callable[[int, int], None]]:
-    """Give a function to call with the number done and the number in all; the bar, with a text that is told, goes when the block ends."""
-    if talk.is_quiet() or not sys.stderr.isatty():
-        yield lambda done, total: None
-        return
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    """Say what is being done inside the block, a text that is told; give a function to call with the number done and the number in all.
+
+    The outermost block of a run has the line; inside it, what is done last is what is shown.
+    """
+    global _line
+    with contextlib.ExitStack() as stack:
+        if _line is None and _is_watched():
+            _line = StatusLine()
+            stack.callback(_forget)
+            stack.enter_context(hearing(_line.hear))
+            work = Work(tell(what, **values))
+            _line.works.append(work)
+            stack.enter_context(_line.watched())
+        elif _line is not None:
+            work = Work(tell(what, **values))
+            _line.works.append(work)
+            stack.callback(_line.works.remove, work)
+        else:
+            work = Work(what)
+        yield work.advance
+
+
+def hushed() -> contextlib.AbstractContextManager[None]:
+    """Leave the screen to a text that is said inside the block."""
+    return contextlib.nullcontext() if _line is None else _line.hushed()
+
+
+def end() -> None:
+    """Clear the line for the rest of the run: its answer is about to be shown, or silence was asked for."""
+    if _line is not None:
+        _line.end()
+
+
+def _forget() -> None:
+    """Let the next run have a line of its own."""
+    global _line
+    _line = None
+
+
+def _is_watched() -> bool:
+    """Whether stderr is a terminal that can clear a line, and nobody asked for silence."""
+    return not is_quiet() and sys.stderr.isatty() and os.environ.get("TERM", "") not in ("", "dumb", "unknown")
+
+
+def _bar(*, known: bool) -> Bar:
+    """Return what rich paints: a bar that fills and the time that is left, or one that only moves and the time that has passed."""
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     from seisblock.present.text.tables import console
 
-    began = time.monotonic()
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    bar = Progress(*columns, console=console(stderr=True), transient=True)
-    task = bar.add_task(words.tell(what, **values))
-    started = False
-
-    def tell(done: int, total: int) -> None:
-        """Move the bar, once there is reason to show it."""
-        nonlocal started
-        if not started and time.monotonic() - began > PATIENCE_S:
-            bar.start()
-            started = True
-        bar.update(task, completed=done, total=total)
-
-    try:
-        yield tell
-    finally:
-        if started:
-            bar.stop()
+    columns = TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.fields[told]}", markup=False)
+    clock = TimeRemainingColumn() if known else TimeElapsedColumn()
+    screen = console(stderr=True)
+    return Progress(*columns, clock, console=screen, transient=True, auto_refresh=False, redirect_stdout=False, redirect_stderr=False)

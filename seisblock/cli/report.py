@@ -11,7 +11,8 @@ from seisblock.cli import offered
 from seisblock.cli.bodies.options import side_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, record_options
-from seisblock.cli.talk import quietly, say, warn
+from seisblock.cli.quiet import quietly
+from seisblock.cli.talk import say, warn
 from seisblock.cli.types import LENGTH
 from seisblock.errors import InputError
 from seisblock.words import language
@@ -100,5 +101,7 @@ def report(
             found = assess(records[0], subjects, components=components(records[0], source), drop=drop, gravity=gravity, progress=advance)
         for message in found.warnings:
             warn(message)
-        write_text(output, page(found, command=shlex.join(["seisblock", *click.get_current_context().obj])))
+        with progress("drawing"):
+            made = page(found, command=shlex.join(["seisblock", *click.get_current_context().obj]))
+        write_text(output, made)
         say("wrote {path}", path=output)

@@ -8,7 +8,8 @@ import click
 
 from seisblock.cli import offered
 from seisblock.cli.command import Command, argument, option
-from seisblock.cli.talk import quietly, say
+from seisblock.cli.quiet import quietly
+from seisblock.cli.talk import answer, say, show
 
 
 @click.command(cls=Command, examples=("seisblock samples", "seisblock samples --copy synthetic_knet"))
@@ -45,13 +46,9 @@ def samples(name: tuple[str, ...], target: str | None, overwrite: bool, as_json:
         from seisblock.present.documents.library import samples_document
         from seisblock.present.documents.write import to_json
 
-        click.echo(to_json(samples_document(chosen, directory)))
+        answer(to_json(samples_document(chosen, directory)))
     elif directory is None:
-        from seisblock.present.text.tables import console
-
-        screen = console()
-        for part in shown.listing(chosen):
-            screen.print(part)
+        show(shown.listing(chosen))
 
 
 def _destination(target: str, names: tuple[str, ...]) -> tuple[Path, tuple[str, ...]]:

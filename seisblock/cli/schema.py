@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from seisblock.cli.command import Command, argument
+from seisblock.cli.talk import answer
 from seisblock.present.documents.catalogue import KINDS, schema_of
 from seisblock.present.documents.versions import VERSIONS, schema_name
 
@@ -17,8 +18,8 @@ def schema(command: str | None) -> None:
     Each key says what it means and in which unit. The number at the end of a schema's name grows when a key goes or changes.
     """
     if command is None:
-        click.echo("\n".join(map(schema_name, VERSIONS)))
+        answer("\n".join(map(schema_name, VERSIONS)))
         return
     import json
 
-    click.echo(json.dumps(schema_of(command), ensure_ascii=False, indent=2))
+    answer(json.dumps(schema_of(command), ensure_ascii=False, indent=2))

@@ -1,56 +1,61 @@
-"""What the program says beside its answer: one line at a time, on stderr."""
+"""What the program says: its answer on stdout, and beside it one line at a time on stderr."""
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterable
 from typing import Any
 
 import click
 
+from seisblock.cli.progress import end, hushed
+from seisblock.cli.quiet import is_quiet
 from seisblock.words import plain_text, said, tell
 
-_quiet = False
 _warned: set[str] = set()
 """What was warned of in this run: nothing is warned of twice."""
 
 
-@contextlib.contextmanager
-def quietly(quiet: bool | None) -> Iterator[None]:
-    """Keep silent inside the block when asked to; None changes nothing."""
-    global _quiet
-    before = _quiet
-    _quiet = before if quiet is None else quiet
-    try:
-        yield
-    finally:
-        _quiet = before
-
-
-def is_quiet() -> bool:
-    """Whether the program was asked to keep silent."""
-    return _quiet
-
-
 def say(text: str, /, **values: Any) -> None:
     """Say one line on stderr: a template with its values, or a text that was said below."""
-    if not _quiet:
-        click.secho(plain_text(tell(text, **values)), dim=True, err=True)
+    if not is_quiet():
+        _write(tell(text, **values), dim=True)
 
 
 def warn(text: str, /, **values: Any) -> None:
     """Say one line that should not be overlooked, once."""
     message = said(text, **values) if values else text
-    if not _quiet and message not in _warned:
+    if not is_quiet() and message not in _warned:
         _warned.add(message)
-        click.secho(plain_text(tell("warning: {message}", message=message)), fg="yellow", err=True)
+        _write(tell("warning: {message}", message=message), fg="yellow")
 
 
 def insist(text: str, /, **values: Any) -> None:
     """Say one line although the program was asked to keep silent."""
-    click.secho(plain_text(tell("warning: {message}", message=said(text, **values) if values else text)), fg="yellow", err=True)
+    _write(tell("warning: {message}", message=said(text, **values) if values else text), fg="yellow")
 
 
 def forget() -> None:
     """Forget what was warned of: another run begins."""
     _warned.clear()
+
+
+def _write(text: str, **style: Any) -> None:
+    """Write one line, where the line of progress does not stand."""
+    with hushed():
+        click.secho(plain_text(text), err=True, **style)
+
+
+def answer(text: str) -> None:
+    """Write the answer on stdout, as a text."""
+    end()
+    click.echo(text)
+
+
+def show(tables: Iterable[Any]) -> None:
+    """Write the answer on stdout, as what rich prints."""
+    from seisblock.present.text.tables import console
+
+    screen, parts = console(), list(tables)
+    end()
+    for part in parts:
+        screen.print(part)

@@ -7,7 +7,8 @@ from pathlib import Path
 import click
 
 from seisblock.cli.command import Command, option
-from seisblock.cli.talk import quietly, say
+from seisblock.cli.quiet import quietly
+from seisblock.cli.talk import answer, say, show
 
 FAILED = 1
 
@@ -42,18 +43,16 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: boo
             from seisblock.present.files import write_text
             from seisblock.present.pages.gallery import gallery
 
-            write_text(html, gallery(results))
+            with progress("drawing"):
+                page = gallery(results)
+            write_text(html, page)
             say("wrote {path}", path=html)
     if as_json:
         from seisblock.present.documents.validate import document
         from seisblock.present.documents.write import to_json
 
-        click.echo(to_json(document(results, quick=quick)))
+        answer(to_json(document(results, quick=quick)))
     else:
-        from seisblock.present.text.tables import console
-
-        screen = console()
-        for part in shown.tables(results, every=every):
-            screen.print(part)
+        show(shown.tables(results, every=every))
     if counts(results)["fails"]:
         ctx.exit(FAILED)

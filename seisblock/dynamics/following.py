@@ -29,7 +29,7 @@ from seisblock.dynamics.arguments import (
     Ground,
     Kept,
 )
-from seisblock.dynamics.halt import heed
+from seisblock.dynamics.halt import heed, tell_samples
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.status import FAILURES, PAUSED, TOO_MANY_EVENTS
 from seisblock.dynamics.trajectory import BEGINNING, Change, Instant, Path, Trajectory
@@ -151,6 +151,7 @@ class _Course:
             heed()
             cursor.place[STEPS_LEFT] = SLICE
             status = hybrid.integrate(*self.model.pointers, ground, self.model.shape, self.p, cursor, kept)
+            tell_samples(int(cursor.place[SAMPLE]), self.motion.samples - 1)
         return int(status)
 
     def walk(self, start: Instant, mode: int, initial: FloatArray, changes: tuple[Change, ...]) -> Iterator[Path]:

@@ -1,4 +1,4 @@
-"""How a run in a thread learns that nobody waits for it any more: between the slices of compiled code it heeds an event."""
+"""What happens between the slices of compiled code: a run learns that nobody waits for it any more, and tells how far it is."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from threading import Event
 
+from seisblock.typing import Progress
+
 _events: ContextVar[tuple[Event, ...]] = ContextVar("what halts the runs of this thread", default=())
+_listener: ContextVar[Progress | None] = ContextVar("who hears how far the run of this thread is", default=None)
 
 
 def halting() -> tuple[Event, ...]:
@@ -18,12 +21,23 @@ def halting() -> tuple[Event, ...]:
 
 @contextmanager
 def heeding(events: tuple[Event, ...]) -> Iterator[None]:
-    """Let runs inside the block end when one of these events is set."""
-    before = _events.set(events)
+    """Let runs inside the block, one of many, end when one of these events is set; nobody hears how far each of them is."""
+    before, heard = _events.set(events), _listener.set(None)
     try:
         yield
     finally:
+        _listener.reset(heard)
         _events.reset(before)
+
+
+@contextmanager
+def hearing(listener: Progress) -> Iterator[None]:
+    """Let a run inside the block tell the intervals of the motion that it has passed, and those in all."""
+    before = _listener.set(listener)
+    try:
+        yield
+    finally:
+        _listener.reset(before)
 
 
 def heed() -> None:
@@ -36,3 +50,10 @@ def heed() -> None:
     """
     if any(event.is_set() for event in _events.get()):
         raise CancelledError
+
+
+def tell_samples(done: int, total: int) -> None:
+    """Tell whoever hears it how many intervals between the samples of a motion are passed."""
+    listener = _listener.get()
+    if listener is not None:
+        listener(done, total)

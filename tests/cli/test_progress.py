@@ -1,0 +1,124 @@
+"""Whatever takes more than a second says what it does, on a terminal, and leaves nothing behind."""
+
+import os
+import pty
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from seisblock import Motion, solve_slide
+from seisblock.dynamics.halt import hearing
+from seisblock.samples import sample_path
+
+COMMAND = """
+import sys
+from seisblock.cli import main
+shown = sys.modules["seisblock.cli.progress"]
+shown.PATIENCE_S, shown.TICK_S = 0.0, 0.001
+main(sys.argv[1:])
+"""
+"""A command whose user has no patience: what would be shown after a second is shown at once."""
+
+LONG_MOTION = """
+import numpy as np
+from seisblock import Motion, solve_slide
+from seisblock.cli.progress import progress
+motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(3e6)), 0.01)
+with progress("working"):
+    solve_slide(0.2, motion)
+"""
+
+WORKS = {
+    "working": ["measure", "record.csv"],
+    "reading record.csv": ["measure", "record.csv"],
+    "margin": ["rock", "record.csv", "--block", "gravestone", "--margin"],
+    "versions": ["respond", "record.csv", "--block", "gravestone", "--runs", "400"],
+    "drawing": ["slide", "record.csv", "--mu", "0.2", "--plot", "slide.png"],
+    "writing slide.csv": ["slide", "record.csv", "--mu", "0.2", "--csv", "slide.csv"],
+}
+"""What a line says, and a command that says so."""
+
+
+@pytest.fixture
+def workshop(tmp_path):
+    """A directory with a record."""
+    (tmp_path / "record.csv").write_bytes(sample_path("synthetic_jma.csv").read_bytes())
+    return tmp_path
+
+
+def on_a_terminal(script, words, cwd):
+    """Return what a script writes on a terminal that is its stderr."""
+    leader, follower = pty.openpty()
+    environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100", "NO_COLOR": "1", "LC_ALL": "C.UTF-8"}
+    command = [sys.executable, "-c", script, *words]
+    with subprocess.Popen(command, cwd=cwd, stdout=subprocess.DEVNULL, stderr=follower, env=environment) as process:
+        os.close(follower)
+        text = b""
+        while piece := read(leader):
+            text += piece
+    os.close(leader)
+    assert process.returncode == 0, text
+    return text.decode()
+
+
+def read(terminal):
+    """Return what is on a terminal, nothing at its end."""
+    try:
+        return os.read(terminal, 65536)
+    except OSError:
+        return b""
+
+
+def left(text):
+    """Return the lines that stand on a terminal in the end: a carriage return, one line up and clear to the end are all that bars use."""
+    lines, row = [""], 0
+    for piece in re.split(r"(\r?\n|\r|\x1b\[\??\d*[A-Za-z])", text):
+        if piece.endswith("\n"):
+            row += 1
+            lines += [""] * (row == len(lines))
+        elif piece == "\x1b[1A":
+            row -= 1
+        elif piece in ("\r", "\x1b[2K"):
+            lines[row] = "" if piece == "\x1b[2K" else lines[row]
+        elif piece and not piece.startswith("\x1b"):
+            lines[row] = piece
+    return [line for line in lines if line]
+
+
+@pytest.mark.parametrize("work", WORKS)
+def test_what_takes_long_is_said(work, workshop):
+    """While a command reads, computes, draws and writes, a line says so; in the end only what was said stands there."""
+    command = [sys.executable, "-c", COMMAND, *WORKS[work]]
+    subprocess.run(command, cwd=workshop, capture_output=True, check=True)  # compiles, and says so
+    said = subprocess.run(command, cwd=workshop, capture_output=True, text=True, check=True).stderr
+    text = on_a_terminal(COMMAND, WORKS[work], workshop)
+    assert re.search(rf"{work}[^\n]*━", text)
+    assert "━" not in said
+    assert left(text) == said.splitlines()
+
+
+def test_silence_is_kept(workshop):
+    """--quiet leaves a terminal empty."""
+    assert on_a_terminal(COMMAND, [*WORKS["drawing"], "--quiet"], workshop) == ""
+
+
+def test_a_single_long_motion_says_how_far_it_is(tmp_path):
+    """While the engine follows it, the line says which share of it is behind."""
+    text = on_a_terminal(LONG_MOTION, [], tmp_path)
+    shares = [int(share) for share in re.findall(r"following the motion[^\r]*?(\d+)%", text)]
+    assert len(set(shares)) > 2
+    assert left(text) == []
+
+
+def test_the_samples_that_are_told_grow_to_the_last_one():
+    """As it follows a motion for the verdict, the engine tells all of it; what follows are walks along the path."""
+    motion, told = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(300_000)), 0.01), []
+    with hearing(lambda done, total: told.append((done, total))):
+        solve_slide(0.2, motion)
+    assert {total for _, total in told} == {motion.samples - 1}
+    verdict = told[: told.index((motion.samples - 1, motion.samples - 1)) + 1]
+    assert verdict == sorted(verdict)
+    assert len(verdict) > 3
