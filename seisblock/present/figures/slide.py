@@ -21,33 +21,36 @@ COLOURS = {SLIDING[0]: "#f6dfcf", SLIDING[1]: "#a6b6dc", "flight": "#6f9f7e"}
 
 
 def figure(responses: Slides, *, gal: bool = True) -> Figure:
-    """Return the figure: a column per direction; acceleration with the friction band, both velocities, relative displacement."""
+    """Return the figure: a column per direction; acceleration with the friction band and, where it slides, velocities and displacement."""
     motions = [response.motion for response in responses]
-    made = canvas.titled(heading_of(motions), width=4.5 + 4.0 * len(responses), height=7.0)
-    columns = columns_of(made, motions, [stretch(r) for r in responses], 3)
+    rows = [3 if response.outcome.slips else 1 for response in responses]
+    made = canvas.titled(heading_of(motions), width=4.5 + 4.0 * len(responses), height=1.0 + 2.0 * max(rows))
+    columns = columns_of(made, motions, [stretch(r) for r in responses], rows)
     for panels, name, response in zip(columns, names_of(motions), responses, strict=True):
         _column(panels, name, response, gal=gal)
     return made
 
 
 def _column(panels: Sequence[Any], called: str, response: Response[SlideOutcome], *, gal: bool) -> None:
-    """Draw one direction's three panels."""
+    """Draw one direction's panels: the first alone where nothing slides."""
     unit, name = canvas.acceleration_unit(gal=gal)
     time, phases = response.time, response.phases
-    top, middle, bottom = panels
+    top, *below = panels
     lower, upper = response["lower_limit"], response["upper_limit"]
     curve(top, time, response["ground_acceleration"] / unit, color=canvas.INPUT)
     for index, limit in enumerate((lower, upper)):
         text = None if index else tell("limits of static friction")
         curve(top, time, limit / unit, color=canvas.THRESHOLD, linestyle=(0, (6, 2, 1, 2)), label=text)
-    block = response["ground_velocity"] + response["velocity"]
-    curve(middle, time, response["ground_velocity"], color="0.62", linewidth=1.6, label=tell("base"))
-    curve(middle, time, block, color=canvas.ACCENT, label=tell("object"))
-    curve(bottom, time, response["displacement"] * 1e3, color=canvas.ACCENT)
-    canvas.shade(middle, phases, COLOURS, names=True)
-    canvas.shade(bottom, phases, COLOURS)
-    bottom.axhline(0.0, color=canvas.INPUT, linewidth=0.6)
-    for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), tell("velocity (m/s)"), tell("x − z (mm)")), strict=True):
+    if below:
+        middle, bottom = below
+        block = response["ground_velocity"] + response["velocity"]
+        curve(middle, time, response["ground_velocity"], color="0.62", linewidth=1.6, label=tell("base"))
+        curve(middle, time, block, color=canvas.ACCENT, label=tell("object"))
+        curve(bottom, time, response["displacement"] * 1e3, color=canvas.ACCENT)
+        canvas.shade(middle, phases, COLOURS, names=True)
+        canvas.shade(bottom, phases, COLOURS)
+        bottom.axhline(0.0, color=canvas.INPUT, linewidth=0.6)
+    for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), tell("velocity (m/s)"), tell("x − z (mm)")), strict=False):
         canvas.label(panel, y=text)
         canvas.legend(panel)
     canvas.panel_title(top, tell("{name}: {what}", name=called, what=setting(response)))
