@@ -7,8 +7,10 @@ from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from contextvars import ContextVar
 from threading import Event
+from typing import TYPE_CHECKING
 
-from seisblock.typing import Progress
+if TYPE_CHECKING:
+    from seisblock.typing import Progress
 
 _events: ContextVar[tuple[Event, ...]] = ContextVar("what halts the runs of this thread", default=())
 _listener: ContextVar[Progress | None] = ContextVar("who hears how far the run of this thread is", default=None)
