@@ -2,9 +2,40 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
-from collections.abc import Callable
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from types import FrameType
 from typing import Any
+
+_interrupted = False
+"""Whether Ctrl-C was heard while a kernel was made."""
+
+
+@contextlib.contextmanager
+def _losing_no_interrupt() -> Iterator[None]:
+    """Raise KeyboardInterrupt after the block where one came and was lost: a compiler's finalizers swallow what is raised in them."""
+    global _interrupted
+    outermost = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if outermost:
+        signal.signal(signal.SIGINT, _hear)
+    try:
+        yield
+        if _interrupted:
+            raise KeyboardInterrupt
+    finally:
+        if outermost:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+            _interrupted = False
+
+
+def _hear(number: int, frame: FrameType | None) -> None:
+    """Take note of Ctrl-C, and do what Python does."""
+    global _interrupted
+    _interrupted = True
+    signal.default_int_handler(number, frame)
 
 
 class OnDemand:
@@ -33,7 +64,8 @@ class OnDemand:
         No lock is held while it is made: two threads may both make it, one of them from what the other one kept.
         """
         if self._compiled is None:
-            self._compiled = self._make()
+            with _losing_no_interrupt():
+                self._compiled = self._make()
         return self._compiled
 
     @property

@@ -35,11 +35,24 @@ os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])
 """
 """One core, so that one worker is to be stopped and processor time is time."""
 
+COMPILING = """
+from seisblock.solvers.slide.model import SLIDE
+print("go", flush=True)
+try:
+    SLIDE.pointers
+except KeyboardInterrupt:
+    print(time.process_time(), flush=True)
+    sys.exit(130)
+"""
+"""Compiles, for the kernels are nowhere yet."""
+
 COMMAND = """
+import contextlib, io
 from seisblock.cli import main
-import seisblock.solvers.slide.solve, seisblock.solvers.stack.solve, seisblock.studies.sliding
-import seisblock.solvers.respond.solve, seisblock.studies.standing.mode_map, seisblock.studies.standing.probability
-import seisblock.studies.rocking.perturb, seisblock.studies.inverse.factors
+brief = {"stack": [], "rock": ["--block", "gravestone"], "respond": ["--block", "gravestone", "--runs", "2"], "slide": ["--mu", "0.2,0.3"],
+         "spectrum": ["--kind", "modes", "--steps", "2"], "infer": ["--slid", "5cm", "--mu", "0.2", "--steps", "3"]}
+with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):
+    main([sys.argv[1], *brief[sys.argv[1]], "--quiet"])
 print("go", flush=True)
 try:
     main(sys.argv[1:])
@@ -93,6 +106,12 @@ def test_a_command_ends_at_once(words, tmp_path):
     code, said, took = interrupted(COMMAND, [*words, "--quiet"], tmp_path)
     assert (code, said) == (130, "seisblock: interrupted; no half-written file is left")
     assert took < AT_ONCE
+
+
+def test_an_interrupt_is_not_lost_while_kernels_are_compiled(tmp_path, monkeypatch):
+    """Finalizers of the compiler swallow exceptions; Ctrl-C ends the run at the next kernel all the same."""
+    monkeypatch.setenv("SEISBLOCK_CACHE_DIR", str(tmp_path / "kernels"))
+    assert interrupted(COMPILING, [], tmp_path)[0] == 130
 
 
 def test_a_call_of_the_library_ends_at_once(tmp_path):
