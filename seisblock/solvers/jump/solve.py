@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 
 from seisblock import checks
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
@@ -186,7 +186,7 @@ def solve_jump(
         outcome,
         motion,
         block,
-        cache(partial(curves_of, motion, block, parts)),
+        partial(curves_of, motion, block, parts),
         *phases_and_events_of(motion, parts),
         options,
         warnings=warnings_of(motion, chains, contact.mu),

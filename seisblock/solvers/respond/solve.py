@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache, partial
+from functools import partial
 
 from seisblock import checks
 from seisblock.bodies.block import Block
@@ -143,7 +143,7 @@ def solve_respond(
         outcome,
         motion,
         block,
-        cache(partial(_curves, found, setting, motion, factors)),
+        partial(_curves, found, setting, motion, factors),
         phases(outcome.events, outcome.end_s),
         event_log(found, motion.start_s),
         options,

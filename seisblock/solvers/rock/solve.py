@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import cache, partial
+from functools import partial
 
 from seisblock.bodies.block import Block, Restitution
 from seisblock.dynamics import Trajectory, follow
@@ -85,7 +85,7 @@ def solve_rock(
         outcome,
         motion,
         block,
-        cache(partial(_curves, one, motion, trajectory)),
+        partial(_curves, one, motion, trajectory),
         phases(trajectory, motion.start_s),
         tuple(Event(event_name(c), motion.start_s + c.time, c.before, c.after) for c in trajectory.changes),
         {"restitution": restitution, "linear": linear, "vertical": one.vertical, "gravity_m_s2": gravity},

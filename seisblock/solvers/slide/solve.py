@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from typing import NoReturn
 
 import numpy as np
@@ -145,7 +145,7 @@ def solve_slide(
         outcome,
         motion,
         base,
-        cache(partial(_curves, motion, base, gains[UP], gravity, trajectory)),
+        partial(_curves, motion, base, gains[UP], gravity, trajectory),
         _phases(trajectory, motion),
         _events(trajectory.changes, motion.start_s),
         options,

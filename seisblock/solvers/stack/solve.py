@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
-from functools import cache
 
 import numpy as np
 
@@ -142,7 +141,7 @@ def solve_stack(
         outcome=outcome,
         motion=motion,
         body=body,
-        make_histories=cache(lambda: Histories(motion.start_s + track.time, channels(pile, track))),
+        make_histories=lambda: Histories(motion.start_s + track.time, channels(pile, track)),
         phases=_phases(outcome, motion.start_s, motion.start_s + ended),
         events=_events(outcome),
         options={

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import partial
 
 from seisblock import checks
 from seisblock.bodies.spring_block import SpringBlock
@@ -74,7 +74,7 @@ def solve_uplift(
         outcome=gather(body, motion, trajectory, gravity, settlement / risen if risen > ROUND_OFF * settlement else None, rotation, lean),
         motion=motion,
         body=body,
-        make_histories=cache(partial(_curves, body, motion, trajectory)),
+        make_histories=partial(_curves, body, motion, trajectory),
         phases=phases(motion, trajectory),
         events=tuple(
             Event(f"corner {i + 1} {'lands' if c.target >> i & 1 else 'lifts'}", motion.start_s + c.time, c.before, c.after)
