@@ -11,6 +11,9 @@ import pytest
 
 import seisblock
 from seisblock import Block, Motion, SpringBlock, motion_of, read, scale_to_pga
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
 from seisblock.dynamics import follow_many
 from seisblock.solvers.rock import model as rocking
 from seisblock.solvers.rock.rocker import rocker
@@ -19,6 +22,9 @@ RECORD = scale_to_pga(read("synthetic_jma.csv"), 9.0)
 BLOCK = Block(0.24, 0.9)
 SPRINGS = SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.707)
 CHOZUSHA = seisblock.load_two_layer("chozusha")
+
+PILE = Pile("two stones", (PileStone("foot", 0.3, 0.3, 0.6), PileStone("head", 0.2, 0.2, 0.6, on="foot")), mu=0.4)
+SOFT = PileContact(stiffness=1e8)
 
 SOLVES = {
     "slide": lambda motion: seisblock.solve_slide(0.1, motion, vertical=True),
@@ -31,6 +37,7 @@ SOLVES = {
     "jump by friction": lambda motion: seisblock.solve_jump(
         CHOZUSHA, motion, contact=seisblock.load_contact("chozusha"), landing="friction"
     ),
+    "stack": lambda motion: seisblock.solve_stack(PILE, motion, points=2, contact=SOFT),
 }
 
 

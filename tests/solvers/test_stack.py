@@ -214,7 +214,7 @@ def test_where_the_run_pauses_changes_no_bit(points, monkeypatch):
     """Slices of one step, or of a few, end with the same state, rows and books as one slice; progress tells how far it is."""
     motion, body = sine(6.0, 2.0, 1.0), load_pile("wagata")
     whole = solve_stack(body, motion)
-    monkeypatch.setattr("seisblock.solvers.stack.solve.POINTS_AT_ONCE", points)
+    monkeypatch.setattr("seisblock.solvers.stack.course.POINTS_AT_ONCE", points)
     told = []
     parts = solve_stack(body, motion, progress=lambda done, total: told.append((done, total)))
     assert parts.outcome == whole.outcome

@@ -86,6 +86,8 @@ class PileSettings(NamedTuple):
         Most samples between rows.
     quiet : int
         Sample from which the run ends as soon as every stone is still.
+    last : int
+        Sample at which it ends at the latest.
     """
 
     gravity: float
@@ -95,6 +97,7 @@ class PileSettings(NamedTuple):
     moved: float
     longest_gap: int
     quiet: int
+    last: int
 
 
 class PileCursor(NamedTuple):
@@ -104,11 +107,11 @@ class PileCursor(NamedTuple):
     bodies: FloatArray
 
 
-SAMPLE, STEP, KEPT_ROWS, SINCE, FELL, STEPS_LEFT = range(6)
-"""A cursor's integers: sample, step in it, rows kept, samples since the last of them, whether a stone fell in this sample, and how many
-steps may be taken before the loop pauses."""
+SAMPLE, STEP, KEPT_ROWS, SINCE, FELL, STEPS_LEFT, BASE = range(7)
+"""A cursor's integers: sample, step in it, rows kept, samples since the last of them, whether a stone fell in this sample, how many
+steps may be taken before the loop pauses, and which sample of the motion is the first that the loop is given."""
 
-PLACE = 6
+PLACE = 7
 
 
 class PileKept(NamedTuple):
@@ -117,8 +120,8 @@ class PileKept(NamedTuple):
     Parameters
     ----------
     fates : (m, 6) array
-    rows : (samples, 1 + 7 m) array
-        Time, centres and quaternions where something has moved.
+    rows : (r, 1 + 7 m) array
+        Time, centres and quaternions where something has moved; where there is no room for all of them, the last ones share the last row.
     last_touch : (m + 1, m + 1) array, s
         When two bodies last touched; negative: never.
     books : (8,) array
@@ -148,6 +151,6 @@ LAYOUT = _t.NamedTuple(
     PileLayout,
 )
 MEMORY = _t.NamedTuple((FOURFOLD, FOURFOLD, FOURFOLD, INTEGERS, MATRIX, MATRIX, MATRIX), PileMemory)
-SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.float64, _t.int64, _t.int64), PileSettings)
+SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.float64, _t.int64, _t.int64, _t.int64), PileSettings)
 CURSOR = _t.NamedTuple((INTEGERS, MATRIX), PileCursor)
 KEPT = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR), PileKept)

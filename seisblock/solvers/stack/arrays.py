@@ -10,11 +10,13 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import Joint
 from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
 from seisblock.solvers.stack.arguments import PileLayout, PileMemory
 from seisblock.solvers.stack.contact import SLOT
 from seisblock.solvers.stack.frames import AT, BODY, BOX, INERT, INERTIA, INVERSE, MASS, Q, R, X
 from seisblock.solvers.stack.step import ALL_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH, SIGMA
 from seisblock.typing import FloatArray, IntArray
+from seisblock.words import noted
 
 GROUND_HALF = 50.0
 """Half size, m, of the box that is the ground."""
@@ -97,10 +99,11 @@ def pile_arrays(body: Pile, contact: PileContact, points: int) -> PileArrays:
     Raises
     ------
     ParameterError
-        If `points` is less than 2.
+        If `points` is less than 2, or more than may be looked at.
     """
     if points < 2:
         raise ParameterError("a joint needs at least 2 points along each side, found {points}", points=points)
+    check_budget(noted("points along each side of a joint"), points, "SEISBLOCK_PILE_POINTS")
     members = tuple(body.bodies())
     centres = np.array(body.centres())
     bodies, inert, owner = _bodies(body, members, centres)

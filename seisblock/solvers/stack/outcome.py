@@ -9,7 +9,7 @@ import numpy as np
 
 from seisblock.bodies.pile.stone import GROUND
 from seisblock.errors import SolverError
-from seisblock.results import Channel
+from seisblock.results import Channel, Status
 from seisblock.solvers.stack.arguments import PileKept
 from seisblock.solvers.stack.arrays import PileArrays
 from seisblock.solvers.stack.frames import AT, MASS, V
@@ -103,6 +103,31 @@ class Track:
     quaternions: FloatArray
 
 
+@dataclass(frozen=True, eq=False)
+class End:
+    """How the course of a pile ended.
+
+    Parameters
+    ----------
+    status : Status
+    time : float, s
+        After the motion's first sample.
+    bodies : (m + 1, 31) array
+    kept : PileKept
+    rows : int
+        How many there were to keep.
+    track : Track
+        Of those that were kept: all of them, or the first and the last.
+    """
+
+    status: Status
+    time: float
+    bodies: FloatArray
+    kept: PileKept
+    rows: int
+    track: Track
+
+
 def stone_track(pile: PileArrays, rows: FloatArray) -> Track:
     """Return the way of each stone from the rows that were kept; stones of a body move together, fixed ones stay."""
     stones = len(pile.body.stones)
@@ -172,17 +197,7 @@ def channels(pile: PileArrays, track: Track) -> tuple[Channel, ...]:
     return tuple(made)
 
 
-def stack_outcome(
-    pile: PileArrays,
-    track: Track,
-    kept: PileKept,
-    bodies: FloatArray,
-    *,
-    start: float,
-    ended: float,
-    gravity: float,
-    step: float,
-) -> StackOutcome:
+def stack_outcome(pile: PileArrays, end: End, *, start: float, gravity: float, step: float) -> StackOutcome:
     """Return the outcome of a run.
 
     Raises
@@ -190,7 +205,7 @@ def stack_outcome(
     SolverError
         If the run created energy.
     """
-    masses, books = pile.inert[:, MASS], kept.books
+    masses, books = pile.inert[:, MASS], end.kept.books
     tall = max(centre[2] + 0.5 * stone.height for centre, stone in zip(pile.body.centres(), pile.body.stones, strict=True))
     scale = float(masses.sum()) * gravity * tall
     if books[CREATED] > CREATED_AT_MOST * scale:
@@ -201,8 +216,8 @@ def stack_outcome(
             name=pile.body.name,
             energy=books[CREATED],
         )
-    momentum = masses @ bodies[:-1, V : V + 3] - books[IMPULSE : IMPULSE + 3]
-    stones = tuple(_fate(pile, track, i, kept, start, ended) for i in range(len(pile.body.stones)))
+    momentum = masses @ end.bodies[:-1, V : V + 3] - books[IMPULSE : IMPULSE + 3]
+    stones = tuple(_fate(pile, end, i, start) for i in range(len(pile.body.stones)))
     fallen = [stone for stone in stones if stone.state == "fallen"]
     return StackOutcome(
         overturned=tuple(stone.name for stone in fallen),
@@ -214,16 +229,16 @@ def stack_outcome(
         ground_work_j=float(books[WORK]),
         lost_j=float(books[LOST]),
         created_j=float(books[CREATED]),
-        momentum_error=float(np.linalg.norm(momentum) / (masses.sum() * gravity * max(ended, step))),
+        momentum_error=float(np.linalg.norm(momentum) / (masses.sum() * gravity * max(end.time, step))),
         step_s=step,
     )
 
 
-def _fate(pile: PileArrays, track: Track, i: int, kept: PileKept, start: float, ended: float) -> StoneFate:
+def _fate(pile: PileArrays, end: End, i: int, start: float) -> StoneFate:
     """Return what became of one stone."""
-    slip, turn = _slip(pile, track, i)[-1], turn_of(track, i)
+    slip, turn = _slip(pile, end.track, i)[-1], turn_of(end.track, i)
     b = int(pile.owner[i])
-    fates = kept.fates
+    fates = end.kept.fates
     turned = float(turn[-1] - turn[0])
     if b == len(pile.members):
         return StoneFate(pile.body.names[i], "standing", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None, None, None)
@@ -236,14 +251,14 @@ def _fate(pile: PileArrays, track: Track, i: int, kept: PileKept, start: float, 
         name=pile.body.names[i],
         state=state,
         max_tilt_rad=float(math.acos(min(1.0, max(-1.0, fates[b, LEAST_COSINE])))),
-        residual_tilt_rad=float(tilt_of(track, i)[-1]),
+        residual_tilt_rad=float(tilt_of(end.track, i)[-1]),
         residual_slip_m=distance,
         residual_slip_x_m=float(slip[0]),
         residual_slip_y_m=float(slip[1]),
         residual_turn_rad=float(math.remainder(turned, 2.0 * math.pi)),
         fell_at_s=float(start + fates[b, FALL_TIME]) if fell else None,
         fell_towards_deg=float(math.degrees(math.atan2(fates[b, FALL_Y], fates[b, FALL_X]))) if fell else None,
-        fell_onto=_lies_on(pile, b, kept.last_touch, ended) if fell else None,
+        fell_onto=_lies_on(pile, b, end.kept.last_touch, end.time) if fell else None,
     )
 
 

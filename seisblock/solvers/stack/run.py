@@ -14,6 +14,7 @@ from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, READ_ONLY_MATRIX, VECTOR
 from seisblock.dynamics.status import NOT_FINITE, PAUSED, RECORD_ENDED, STOPPED
 from seisblock.solvers.stack.arguments import (
+    BASE,
     CURSOR,
     FELL,
     KEPT,
@@ -124,13 +125,14 @@ def _keep_sample(sample, n, last, settings, memory, cursor, kept):
     """Keep a row at a sample if it is due, and the time of each touch."""
     place, bodies = cursor
     time = sample * settings.dt
+    room = kept.rows.shape[0] - 1
     if (
         sample == 0
         or last
         or place[SINCE] >= settings.longest_gap
-        or _moved(n, bodies, kept.rows[max(place[KEPT_ROWS] - 1, 0)], settings.moved)
+        or _moved(n, bodies, kept.rows[min(max(place[KEPT_ROWS] - 1, 0), room)], settings.moved)
     ):
-        _keep(n, bodies, time, kept.rows[place[KEPT_ROWS]])
+        _keep(n, bodies, time, kept.rows[min(place[KEPT_ROWS], room)])
         place[KEPT_ROWS] += 1
         place[SINCE] = 0
     place[SINCE] += 1
@@ -147,15 +149,15 @@ def run(motion, settings, pile, memory, cursor, kept):
 
     Parameters
     ----------
-    motion : (3, n) array, m/s^2
-        Ground acceleration along, across, up.
+    motion : (3, k) array, m/s^2
+        Ground acceleration along, across, up, from the sample on that the cursor names; at its end the loop pauses.
     settings, pile, memory, cursor, kept : named tuples
         See :mod:`seisblock.solvers.stack.arguments`.
     """
     place, bodies = cursor
     inert, books = pile.inert, kept.books
     n = bodies.shape[0] - 1
-    last = motion.shape[1] - 1
+    last = settings.last
     g = settings.gravity
     dt = settings.dt / settings.steps
     look = max(int(LOOK_EVERY / dt), 1)
@@ -164,6 +166,9 @@ def run(motion, settings, pile, memory, cursor, kept):
         total_mass += inert[i, MASS]
     while place[SAMPLE] <= last:
         s = place[SAMPLE]
+        given = s - place[BASE]
+        if s < last and given + 1 >= motion.shape[1]:
+            return PAUSED
         inner = settings.steps if s < last else 1
         while place[STEP] < inner:
             if place[STEPS_LEFT] <= 0:
@@ -171,7 +176,7 @@ def run(motion, settings, pile, memory, cursor, kept):
             place[STEPS_LEFT] -= 1
             k = place[STEP]
             part = k / settings.steps
-            a0, a1, a2 = _ground(motion, s, part)
+            a0, a1, a2 = _ground(motion, given, part)
             springs = press_all(bodies, dt, k % look == 0, pile, memory)
             books[IMPULSE] -= dt * (bodies[n, F] + total_mass * a0)
             books[IMPULSE + 1] -= dt * (bodies[n, F + 1] + total_mass * a1)

@@ -2,44 +2,25 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
+from functools import partial
 
 import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
-from seisblock.dynamics.halt import heed
-from seisblock.errors import ParameterError, SolverError
+from seisblock.errors import SolverError
 from seisblock.records.given import Factor, check_call, vertical_gain
-from seisblock.records.motion import ACROSS, UP, Motion
+from seisblock.records.motion import Motion
 from seisblock.references import papers
 from seisblock.results import Event, Histories, Phase, Response, Status
-from seisblock.solvers.stack.arguments import KEPT_ROWS, PLACE, SAMPLE, STEPS_LEFT, PileCursor, PileKept, PileMemory, PileSettings
-from seisblock.solvers.stack.arrays import PileArrays, pile_arrays
-from seisblock.solvers.stack.frames import Q, X, orient
-from seisblock.solvers.stack.outcome import StackOutcome, channels, stack_outcome, stone_track
-from seisblock.solvers.stack.rest import sink, steps_per_sample
-from seisblock.solvers.stack.run import BOOKS, FALL_TIME, FATE, FLOOR, LEAN, LEAST_COSINE, run
-from seisblock.typing import FloatArray
+from seisblock.solvers.stack.arrays import pile_arrays
+from seisblock.solvers.stack.course import Course
+from seisblock.solvers.stack.outcome import End, StackOutcome, channels, stack_outcome
+from seisblock.solvers.stack.rest import steps_per_sample
 from seisblock.units import STANDARD_GRAVITY
-
-FALLEN_TILT = math.radians(60.0)
-"""A stone that leans more than this, and more than its own critical angle, has fallen."""
-
-FALLEN_DROP = 0.5
-"""A stone whose centre has sunk by this part of its smallest size has fallen."""
-
-AFTERWARDS = 10.0
-"""Seconds that the ground may stand still after the record, until every stone is still."""
-
-MOVED = 1e-5
-LONGEST_GAP = 0.1
-
-POINTS_AT_ONCE = 2_500_000
-"""Contact points that are looked at before Python may be interrupted: 0.05 s or so."""
 
 
 def solve_stack(
@@ -112,37 +93,21 @@ def solve_stack(
     checks.gravity(gravity)
     pile = pile_arrays(body, contact, points)
     steps = steps_per_sample(pile, motion.dt, step)
-    quiet = math.ceil(AFTERWARDS / motion.dt)
-    shaking = np.zeros((3, motion.samples + quiet))
-    shaking[:, : motion.samples] = motion.acceleration
     up = vertical_gain(motion, vertical)
-    shaking[[ACROSS, UP]] *= np.array([[float(across)], [up]])
-    memory = pile.memory()
-    cursor = PileCursor(np.zeros(PLACE, dtype=np.int64), pile.bodies.copy())
-    sink(pile, gravity, cursor.bodies, memory.stretches)
-    kept = PileKept(
-        fates=_fates(pile, cursor.bodies),
-        rows=np.zeros((shaking.shape[1], 1 + 7 * len(pile.members))),
-        last_touch=np.full((len(cursor.bodies), len(cursor.bodies)), -1.0),
-        books=np.zeros(BOOKS),
-    )
-    for name, angle in (tilts or {}).items():
-        _lean(pile, cursor.bodies, name, angle)
-    gap = max(1, round(LONGEST_GAP / motion.dt))
-    settings = PileSettings(gravity, motion.dt, steps, stop_at_fall, MOVED, gap, motion.samples - 1)
-    status = _run(shaking, settings, pile, memory, cursor, kept, progress)
-    ended = float(cursor.place[SAMPLE]) * motion.dt
-    if status == Status.NOT_FINITE:
-        raise SolverError("the pile {name} left the finite numbers at {ended:.3f} s: give a finer time step", name=body.name, ended=ended)
-    track = stone_track(pile, kept.rows[: cursor.place[KEPT_ROWS]])
-    outcome = stack_outcome(pile, track, kept, cursor.bodies, start=motion.start_s, ended=ended, gravity=gravity, step=motion.dt / steps)
+    course = Course(pile, motion, (float(across), up), gravity, steps, stop_at_fall, tilts or {})
+    end = course.follow(progress=progress)
+    if end.status == Status.NOT_FINITE:
+        raise SolverError(
+            "the pile {name} left the finite numbers at {ended:.3f} s: give a finer time step", name=body.name, ended=end.time
+        )
+    outcome = stack_outcome(pile, end, start=motion.start_s, gravity=gravity, step=motion.dt / steps)
     return Response(
         model="stack",
         outcome=outcome,
         motion=motion,
         body=body,
-        make_histories=lambda: Histories(motion.start_s + track.time, channels(pile, track)),
-        phases=_phases(outcome, motion.start_s, motion.start_s + ended),
+        make_histories=partial(_curves, course, end),
+        phases=_phases(outcome, motion.start_s, motion.start_s + end.time),
         events=_events(outcome),
         options={
             "points": points,
@@ -153,60 +118,15 @@ def solve_stack(
             "step_s": motion.dt / steps,
             "contact": asdict(contact),
         },
-        status=status,
+        status=end.status,
         citations=papers("pile"),
     )
 
 
-def _run(
-    shaking: FloatArray,
-    settings: PileSettings,
-    pile: PileArrays,
-    memory: PileMemory,
-    cursor: PileCursor,
-    kept: PileKept,
-    progress: Callable[[int, int], None] | None,
-) -> Status:
-    """Follow the pile to the end, in slices between which Python may be interrupted."""
-    slice_ = max(1, POINTS_AT_ONCE // (pile.grids.shape[0] * pile.points**2 + pile.pairs.shape[0]))
-    layout = pile.layout
-    shaking.flags.writeable = False
-    while True:
-        heed()
-        cursor.place[STEPS_LEFT] = slice_
-        status = Status(run(shaking, settings, layout, memory, cursor, kept))
-        if status != Status.PAUSED:
-            return status
-        if progress is not None:
-            progress(min(int(cursor.place[SAMPLE]), settings.quiet), settings.quiet)
-
-
-def _fates(pile: PileArrays, bodies: FloatArray) -> FloatArray:
-    """Return the rows in which the kernel notes the fate of each body."""
-    fates = np.zeros((len(pile.members), FATE))
-    fates[:, LEAST_COSINE] = 1.0
-    fates[:, FALL_TIME] = -1.0
-    for b, group in enumerate(pile.members):
-        boxes = pile.boxes[list(group), :3]
-        foot, rise = boxes[0, :2].max(), bodies[b, X + 2] - (pile.boxes[group[0], 5] + bodies[b, X + 2] - boxes[0, 2])
-        fates[b, LEAN] = math.cos(max(FALLEN_TILT, math.atan2(foot, rise) + 0.1))
-        fates[b, FLOOR] = bodies[b, X + 2] - FALLEN_DROP * 2.0 * boxes.min()
-    return fates
-
-
-def _lean(pile: PileArrays, bodies: FloatArray, name: str, angle: float) -> None:
-    """Lean a body about y, over the outermost point of its lower joint."""
-    if name not in pile.body.names or pile.owner[pile.body.names.index(name)] == len(pile.members):
-        raise ParameterError("no free stone is called {name!r}; there are {names}", name=name, names=list(pile.body.names))
-    b = int(pile.owner[pile.body.names.index(name)])
-    box = pile.boxes[pile.members[b][0]]
-    inset = 0.0 if pile.points == 2 else 1.0 / pile.points
-    pivot = np.array([math.copysign(box[0] * (1.0 - inset), angle), 0.0, -box[2]]) + box[3:]
-    turned = np.array([math.cos(angle), math.sin(angle)])
-    moved = np.array([turned[0] * pivot[0] + turned[1] * pivot[2], 0.0, -turned[1] * pivot[0] + turned[0] * pivot[2]])
-    bodies[b, X : X + 3] += pivot - moved
-    bodies[b, Q : Q + 4] = (math.cos(0.5 * angle), 0.0, math.sin(0.5 * angle), 0.0)
-    orient(bodies[b])
+def _curves(course: Course, end: End) -> Histories:
+    """Return tilt, slip and place of every stone against time."""
+    track = course.track(end)
+    return Histories(course.motion.start_s + track.time, channels(course.pile, track))
 
 
 def _events(outcome: StackOutcome) -> tuple[Event, ...]:
