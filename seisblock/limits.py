@@ -1,10 +1,11 @@
-"""How much may be read, unpacked and kept, and the environment variables that lift each limit."""
+"""How much may be read, kept and computed at once, and the environment variables that lift each limit."""
 
 from __future__ import annotations
 
 import os
 
-from seisblock.errors import ParameterError
+from seisblock.errors import InputError, ParameterError
+from seisblock.words import said
 
 MIB = 2**20
 
@@ -14,9 +15,16 @@ LIMITS = {
     "SEISBLOCK_READ_NESTING": 5,
     "SEISBLOCK_READ_SAMPLES": 200_000_000,
     "SEISBLOCK_CURVES_MIB": 1024,
+    "SEISBLOCK_RUNS": 100_000,
+    "SEISBLOCK_VALUES": 1_000_000,
+    "SEISBLOCK_CELLS": 1_000_000,
+    "SEISBLOCK_STONES": 1_000_000,
+    "SEISBLOCK_PILE_STONES": 200,
+    "SEISBLOCK_PILE_POINTS": 25,
 }
 """The environment variables that lift a limit, and the limits without them: MiB read and unpacked, members of archives, archives within
-archives, samples of all components; MiB of the curves of one answer."""
+archives, samples of all components; MiB of the curves of one answer; versions of one body and factors on one motion; values of one option;
+combinations of one study; stones of a cemetery and of a pile, each pair of which is looked at, and points along a side of its joints."""
 
 
 def limit(variable: str) -> int:
@@ -31,6 +39,45 @@ def limit(variable: str) -> int:
     if text and not (text.isascii() and text.isdigit() and int(text) > 0):
         raise ParameterError("{variable} must be a positive whole number, found {text!r}", variable=variable, text=text[:40])
     return int(text) if text else LIMITS[variable]
+
+
+def check_budget(what: str, found: int, variable: str, *, where: str = "", error: type[InputError] = ParameterError) -> None:
+    """Refuse more than may be computed at once.
+
+    Parameters
+    ----------
+    what : str
+        What there are so many of, as it follows the number.
+    found : int
+        How many are asked for.
+    variable : str
+        Of the limit.
+    where : str
+        The file that asks for them.
+    error : class
+        Raised instead of :class:`ParameterError`.
+
+    Raises
+    ------
+    ParameterError
+        If so; the message says how many are asked for, how many are allowed, and what lifts the limit.
+
+    Examples
+    --------
+    >>> check_budget("versions", 10**9, "SEISBLOCK_RUNS")
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: 1000000000 versions, and 100000 are allowed: ask for fewer, or set SEISBLOCK_RUNS to allow more
+    """
+    most = limit(variable)
+    if found > most:
+        text = said(
+            "{found} {what}, and {most} are allowed: ask for fewer, or set {variable} to allow more",
+            found=found,
+            what=said(what),
+            most=most,
+            variable=variable,
+        )
+        raise error(said("{where}: {text}", where=where, text=text) if where else text)
 
 
 def check_curves(samples: int, columns: int) -> None:

@@ -15,7 +15,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
-from seisblock.cli.types import FLOATS, INSET, LENGTH
+from seisblock.cli.types import FLOATS, INSET, LENGTH, Count
 from seisblock.words import noted, said, tell
 
 DEFAULT_BLOCK = "chozusha"
@@ -96,7 +96,13 @@ FORMS = noted("--cemetery (with --rate, or with a column fallen), --slid or --ju
 @landing_option("jumped: how a foot that lands is stopped, whatever friction that takes, or by what friction can bear.")
 @option("--spin", default="momentum", show_default=True, metavar="momentum|printed|ratio=Q", help="jumped: spin after the impact.")
 @option("--limit", type=float, default=3.0, show_default=True, help="slid, jumped: largest factor on a record.")
-@option("--steps", type=click.IntRange(1, 100_000), default=300, show_default=True, help="slid, jumped: steps of the scan up to it.")
+@option(
+    "--steps",
+    type=Count(noted("factors"), "SEISBLOCK_RUNS"),
+    default=300,
+    show_default=True,
+    help="slid, jumped: steps of the scan up to it.",
+)
 @gravity_option
 @output_options(histories=False, film=False)
 def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str | None, **asked: Any) -> None:

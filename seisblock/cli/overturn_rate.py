@@ -16,8 +16,9 @@ from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, checked, gravity_option, output_options, record_options
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
-from seisblock.cli.types import FLOATS, INSET, LENGTH
-from seisblock.words import said, tell
+from seisblock.cli.types import FLOATS, INSET, LENGTH, Count
+from seisblock.limits import check_budget
+from seisblock.words import noted, said, tell
 
 if TYPE_CHECKING:
     from seisblock.studies.cemetery.shaking import FrequencyKind
@@ -65,7 +66,7 @@ def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
 @option("--both", is_flag=True, section="Body", help="Compare with every stone reinforced, and say how many that saves.")
 @option(
     "--most-fragile",
-    type=click.IntRange(min=1),
+    type=Count(noted("gravestones"), "SEISBLOCK_STONES"),
     metavar="K",
     section="Body",
     help="Compare with the K most slender stones reinforced. [default: none]",
@@ -212,6 +213,7 @@ def _groups(source: Source, asked: dict[str, Any]) -> list[tuple[Any, list[Any]]
 
     pga, frequency = asked["pga"], asked["frequency"]
     if not source.record:
+        check_budget(noted("shakings"), len(pga or ()) * len(frequency or FREQUENCIES), "SEISBLOCK_CELLS")
         return [(None, [Shaking(a / 100.0, f) for a in pga for f in frequency or FREQUENCIES])] if pga else []
     if pga:
         raise click.UsageError(tell("give either RECORD or --pga; --target-pga scales a record"))

@@ -15,7 +15,8 @@ from seisblock.cli.inputs import load, motions
 from seisblock.cli.offered import ALL_AZIMUTHS
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
-from seisblock.cli.types import LENGTH
+from seisblock.cli.types import LENGTH, Count
+from seisblock.words import noted
 
 if TYPE_CHECKING:
     from seisblock.bodies.block import Block
@@ -40,7 +41,11 @@ VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth_deg")
     help="Whether the vertical component acts. [default: where the record has one]",
 )
 @option(
-    "--runs", type=click.IntRange(0, 100_000), default=200, show_default=True, help="Plausible versions behind the probability; 0 for none."
+    "--runs",
+    type=Count(noted("versions"), "SEISBLOCK_RUNS", least=0),
+    default=200,
+    show_default=True,
+    help="Plausible versions behind the probability; 0 for none.",
 )
 @option("--moved", type=LENGTH, default=0.01, help="Displacement beyond which it counts as moved, m or with a unit. [default: 1cm]")
 @option("--vary-size", type=float, default=0.05, show_default=True, help="Versions: half width of the size, a share.")

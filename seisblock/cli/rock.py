@@ -14,8 +14,9 @@ from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
+from seisblock.cli.types import Count
 from seisblock.errors import ComponentError, ParameterError
-from seisblock.words import tell
+from seisblock.words import noted, tell
 
 if TYPE_CHECKING:
     from seisblock.records import Motion
@@ -37,7 +38,12 @@ VERSIONS = 200
 @option("--mu", type=float, section="Body", help="Friction of the ground, 1: say whether rocking needs more. [default: not looked at]")
 @option("--margin", is_flag=True, help="Find from which factor on the record on it falls, and how likely it falls at 1.")
 @option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest factor of that search, 1.")
-@option("--perturb", type=click.IntRange(1, 100_000), metavar="N", help="Repeat N times with small changes: probability of overturning.")
+@option(
+    "--perturb",
+    type=Count(noted("versions"), "SEISBLOCK_RUNS"),
+    metavar="N",
+    help="Repeat N times with small changes: probability of overturning.",
+)
 @option(
     "--spread",
     type=float,

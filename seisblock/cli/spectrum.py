@@ -14,9 +14,9 @@ from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.rock import along, need_vertical
-from seisblock.cli.types import FLOATS, INSET, LENGTHS
+from seisblock.cli.types import FLOATS, INSET, LENGTHS, Count
 from seisblock.errors import ParameterError
-from seisblock.words import said
+from seisblock.words import noted, said
 
 KINDS = ("rocking", "overturning", "sliding", "modes")
 
@@ -74,7 +74,13 @@ SMALLEST_REACH, LARGEST_REACH = 0.2, 1.5
     section="Body",
     help="How far in from each side the blocks' worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm). [default: 0]",
 )
-@option("--steps", type=click.IntRange(2, 1000), default=40, show_default=True, help="Points of each axis that is left to its default.")
+@option(
+    "--steps",
+    type=Count(noted("cells"), "SEISBLOCK_CELLS", least=2, power=2),
+    default=40,
+    show_default=True,
+    help="Points of each axis that is left to its default.",
+)
 @rocking_options
 @gravity_option
 @output_options(histories=False, film=False, accelerations=False)

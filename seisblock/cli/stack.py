@@ -13,12 +13,16 @@ from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
-from seisblock.words import said
+from seisblock.cli.types import Count
+from seisblock.words import noted, said
 
 if TYPE_CHECKING:
     from seisblock.bodies.pile.pile import Pile
 
 DEFAULT_PILE = "wagata"
+
+COARSEST = 29
+"""Of the heights of the study one is left."""
 
 
 @click.command(
@@ -54,7 +58,7 @@ DEFAULT_PILE = "wagata"
 @option("--mu", type=float, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
 @option(
     "--points",
-    type=click.IntRange(2, 25),
+    type=Count(noted("points along each side of a joint"), "SEISBLOCK_PILE_POINTS", least=2),
     default=5,
     show_default=True,
     help="Contact points along each side of a joint: 2 stand at its corners, 3 and more at segment centres.",
@@ -80,7 +84,13 @@ DEFAULT_PILE = "wagata"
     is_flag=True,
     help="The criterion study of Furukawa2009 section 3(3), over sines, and over each RECORD given, scaled; long work.",
 )
-@option("--grid", type=click.IntRange(min=1), default=1, show_default=True, help="--criterion: take every so many-th amplitude and height.")
+@option(
+    "--grid",
+    type=click.IntRange(1, COARSEST),
+    default=1,
+    show_default=True,
+    help="--criterion: take every so many-th amplitude and height.",
+)
 @option(
     "--resume",
     type=click.Path(path_type=Path, dir_okay=False),

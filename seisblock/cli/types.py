@@ -9,15 +9,41 @@ import click
 
 from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.errors import InputError
+from seisblock.limits import check_budget
 from seisblock.units import parse_length, parse_mass
-from seisblock.words import said, tell
-
-MOST_VALUES = 1_000_000
-"""Longest range that is taken for what the user meant."""
-
+from seisblock.words import noted, said, tell
 
 SMALLEST_SIDE, LARGEST_SIDE = 0.04, 1.2
 """Of a figure, m."""
+
+
+class Count(click.ParamType):  # type: ignore[type-arg]
+    """How many of something: a whole number within a limit of :mod:`seisblock.limits`.
+
+    Parameters
+    ----------
+    what : str
+        What is counted, see :func:`seisblock.limits.check_budget`.
+    variable : str
+        Of the limit.
+    least : int
+    power : int
+        How often the number counts: as many points on two axes make the square of it.
+    """
+
+    name = "integer"
+
+    def __init__(self, what: str, variable: str, *, least: int = 1, power: int = 1) -> None:
+        self.what, self.variable, self.least, self.power = what, variable, least, power
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number."""
+        count: int = click.IntRange(min=self.least).convert(value, param, ctx)
+        try:
+            check_budget(self.what, count**self.power, self.variable)
+        except InputError as error:
+            self.fail(tell(error.said), param, ctx)
+        return count
 
 
 class Length(click.ParamType):  # type: ignore[type-arg]
@@ -90,9 +116,11 @@ class Floats(click.ParamType):  # type: ignore[type-arg]
         first, last, step = pieces
         if step == 0 or (last - first) * step < 0:
             self.fail(tell("{text!r}: the step does not lead from the first value to the last", text=text), param, ctx)
-        count = math.floor((last - first) / step + 1e-9) + 1
-        if count > MOST_VALUES:
-            self.fail(tell("{text!r} has {count} values; at most {most}", text=text, count=count, most=MOST_VALUES), param, ctx)
+        count = math.floor(min((last - first) / step, 1e18) + 1e-9) + 1
+        try:
+            check_budget(noted("values"), count, "SEISBLOCK_VALUES", where=repr(text))
+        except InputError as error:
+            self.fail(tell(error.said), param, ctx)
         return [round(first + i * step, 12) for i in range(count)]
 
     def _number(self, text: str) -> float:

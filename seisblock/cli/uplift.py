@@ -103,9 +103,10 @@ def uplift(source: Source, output: Output, gravity: float, harmonic: bool, figur
 
 def _harmonic(source: Source, output: Output, figure: int | None, given: dict[str, Any]) -> None:
     """Answer for harmonic shaking."""
+    from seisblock.cli.progress import progress
     from seisblock.present.documents.uplift import harmonic_document
     from seisblock.present.text import uplift_harmonic as shown
-    from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_region
+    from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_regions
 
     if source.record:
         raise ParameterError(
@@ -124,7 +125,8 @@ def _harmonic(source: Source, output: Output, figure: int | None, given: dict[st
         frequency_vertical=given["frequency_vertical"] or 1.0,
         **({} if given["mass"] is None else {"mass": given["mass"]}),
     )
-    regions = [uplift_region(body, ratios, phi_deg=phi, rho_deg=rho, corner=given["corner"], between=between) for body, phi, rho in blocks]
+    with progress("uplift regions") as advance:
+        regions = uplift_regions(blocks, ratios, corner=given["corner"], between=between, progress=advance)
     emit(
         harmonic_document(regions),
         output,

@@ -13,6 +13,7 @@ import numpy as np
 from seisblock.bodies.sliding_base import SlidingBase, holds_at_rest, sliding_base
 from seisblock.dynamics import follow_many
 from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
 from seisblock.records.given import Factor, check_motion
 from seisblock.records.motion import Motion
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, STICK, UNDEFINED, parameters
@@ -21,6 +22,7 @@ from seisblock.solvers.slide.solve import check, refuse_lift_off
 from seisblock.studies.runs import cores, in_threads
 from seisblock.typing import Progress
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
 
 SLIDING_MODES = [FORWARD, BACKWARD, LEVEL + FORWARD, LEVEL + BACKWARD]
 
@@ -119,6 +121,8 @@ def slide_study(
     if mu_kinetic is not None and kappa is not None:
         raise ParameterError("give the kinetic friction coefficient or kappa, its ratio to the static one, not both")
     scales = tuple(float(value) for value in _values(vertical))
+    choices = len(scales) * math.prod(len(_values(given)) for given in (mu, mu_kinetic, kappa, slope_deg))
+    check_budget(noted("combinations"), len(chosen) * choices, "SEISBLOCK_CELLS")
     for motion, scale in itertools.product(chosen, scales):
         check(motion, scale, gravity)
     bases = [

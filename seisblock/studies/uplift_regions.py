@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,11 +13,13 @@ import numpy as np
 from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
 from seisblock.bodies.spring_choice import spring_block
 from seisblock.errors import BodyError
+from seisblock.limits import check_budget
 from seisblock.records.record import frozen
 from seisblock.solvers.uplift.harmonic import uplift_thresholds
 from seisblock.solvers.uplift.minima import UpliftMinimum, least_uplift, uplift_minima
 from seisblock.solvers.uplift.modes import Modes, natural_modes
-from seisblock.typing import ArrayLike, FloatArray
+from seisblock.typing import ArrayLike, FloatArray, Progress
+from seisblock.words import noted
 
 PAPER_RATIOS: dict[str, tuple[float, ...]] = {
     "alpha": (1.0,),
@@ -130,6 +133,46 @@ def uplift_region(
     )
 
 
+def uplift_regions(
+    blocks: Iterable[tuple[SpringBlock, float, float]],
+    frequency_ratio: ArrayLike,
+    *,
+    corner: int | None = None,
+    between: tuple[float, float] | None = None,
+    progress: Progress | None = None,
+) -> list[UpliftRegion]:
+    """Return the uplift regions of several blocks and directions, see :func:`uplift_region`.
+
+    Parameters
+    ----------
+    blocks : iterable of (SpringBlock, phi, rho)
+        As :func:`harmonic_blocks` yields them, degrees.
+    frequency_ratio, corner, between
+        The same for all.
+    progress : callable
+        Told the number of regions done and the number in all.
+
+    Raises
+    ------
+    ParameterError
+        If their curves have more points than may be computed at once.
+
+    Examples
+    --------
+    >>> regions = uplift_regions(harmonic_blocks({"alpha": [1.0, 2.0]}), [0.5, 1.0])
+    >>> [round(region.minimum.acceleration_ratio, 3) for region in regions]
+    [0.087, 0.047]
+    """
+    chosen, ratio = list(blocks), np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
+    check_budget(noted("points of curves"), len(chosen) * ratio.size, "SEISBLOCK_CELLS")
+    regions = []
+    for body, phi, rho in chosen:
+        regions.append(uplift_region(body, ratio, phi_deg=phi, rho_deg=rho, corner=corner, between=between))
+        if progress is not None:
+            progress(len(regions), len(chosen))
+    return regions
+
+
 def harmonic_blocks(
     ratios: Mapping[str, Sequence[float] | None],
     *,
@@ -155,6 +198,8 @@ def harmonic_blocks(
     ------
     BodyError
         If sizes come together with alpha or gamma, or a block is not possible.
+    ParameterError
+        If there are more combinations than may be computed at once.
     """
     given = {name: values for name, values in ratios.items() if values is not None}
     every = {**PAPER_RATIOS, **(PAPER_FIGURES[figure] if figure is not None else {}), **given}
@@ -162,6 +207,7 @@ def harmonic_blocks(
         if "alpha" in given or "gamma" in given:
             raise BodyError("alpha and gamma are ratios of the sizes: give sizes or ratios, not both")
         every["alpha"] = every["gamma"] = (float("nan"),)
+    check_budget(noted("combinations"), math.prod(len(values) for values in every.values()), "SEISBLOCK_CELLS")
     for values in itertools.product(*every.values()):
         chosen = dict(zip(every, values, strict=True))
         alpha, gamma, phi, rho = (chosen.pop(name) for name in ("alpha", "gamma", "phi", "rho"))

@@ -9,6 +9,7 @@ import pytest
 
 import seisblock
 from seisblock.cli import COMMANDS, main
+from seisblock.cli.types import Count
 from seisblock.present.documents.units import unit_of
 
 UNIT = r"(?:N/m\^3|N/m|kg\sm\^2|kg/m\^3|kg|m/s\^[23]|m/s|m\^2|1/s\^2|1/s|1/m|rad/s|rad|deg(?:rees)?|Hz|gal|kine|Pa|J|N|m|s|1)"
@@ -20,7 +21,7 @@ DIMENSION = re.compile(
 )
 """A unit where the house writes units, or the word for a number that has none."""
 
-COUNTS = (click.IntRange, type(click.INT))
+COUNTS = (click.IntRange, type(click.INT), Count)
 """Options that count something: their type says so."""
 
 

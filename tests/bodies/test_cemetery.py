@@ -84,7 +84,7 @@ def test_units(table, height):
         ("H/B\ntall\n", "line 2: height_over_width must be a number, found 'tall'"),
         ("H/B,fallen\n2.5,maybe\n", "line 2: fallen must be 0, 1, yes, no, 転倒 or 残存, found 'maybe'"),
         ("H/B,reinforced\n2.5,steel\n", "line 2: reinforced must be 0, 1, yes or no, found 'steel'"),
-        ("H/B,count\n2.5,0\n", "line 2: count must be a whole number of stones, 1 to 100000, found 0"),
+        ("H/B,count\n2.5,0\n", "line 2: count must be a whole number of stones, 1 or more, found 0"),
         ("H/B,count\n2.5,1.5\n", "line 2: count must be a whole number"),
         ("H/B,count\n2.5,inf\n", "line 2: count must be a whole number"),
         ("H/B,azimuth\n2.5,NE\n", "line 2: azimuth_deg must be a number, found 'NE'"),

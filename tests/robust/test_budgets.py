@@ -4,28 +4,121 @@ from __future__ import annotations
 
 import time
 
+import click
 import pytest
 from click.testing import CliRunner
 
-from seisblock.cli import main
+import seisblock
+from seisblock import Block, Motion
+from seisblock.cli import COMMANDS, main
+from seisblock.cli.stack import COARSEST
+from seisblock.cli.types import Count
+from seisblock.errors import ParameterError
+from seisblock.studies.gravestone_criterion import PGAS, RATIOS
+from seisblock.studies.inverse.factors import scale_factors
+from seisblock.studies.standing.azimuths import respond_directions
 
 SOON_S = 90.0
 """Processor time, s, within which anything is refused, a compilation of the kernels included."""
 
 ASKED = {
-    "factors of a margin": (["rock", "--block", "gravestone", "--margin", "--margin-limit", "1e9"], 3, "tries 5e+11 factors, and 100000"),
-    "versions of a stone": (["rock", "--block", "gravestone", "--perturb", "1000000000"], 2, "not in the range 1<=x<=100000"),
-    "versions of a body": (["respond", "--block", "gravestone", "--runs", "1000000000"], 2, "not in the range 0<=x<=100000"),
-    "steps of a scan": (["infer", "--slid", "5cm", "--mu", "0.2", "--steps", "1000000000"], 2, "not in the range 1<=x<=100000"),
-    "values of a list": (["slide", "--mu", "0.1:0.5:1e-7"], 2, "has 4000001 values; at most 1000000"),
-    "points of a spectrum": (["spectrum", "--steps", "100000"], 2, "not in the range 2<=x<=1000"),
-    "points of a pile": (["stack", "--points", "100000"], 2, "not in the range 2<=x<=25"),
+    "factors of a margin": (
+        ["rock", "--block", "gravestone", "--margin", "--margin-limit", "1e9"],
+        3,
+        "500000000000 factors",
+    ),
+    "values of a list": (["slide", "--mu", "0.1:0.5:1e-7"], 2, "4000001 values, and 1000000 are allowed"),
+    "a list without end": (["slide", "--mu", "0:1e308:1e-308"], 2, "values, and 1000000 are allowed"),
+    "blocks of a spectrum": (["spectrum", "--sizes", "1:9:1e-3", "--height-over-width", "1:9:1e-3"], 3, "64016001 cells, and 1000000"),
+    "cells of a map": (["spectrum", "--kind", "modes", "--mu", "0.1:1:1e-4", "--height-over-width", "1:9:1e-3"], 3, "72017001 cells"),
+    "bases of a study": (["slide", "--mu", "0.1:0.9:1e-3", "--kappa", "0.1:0.9:1e-3", "--slope", "0:5:1"], 3, "combinations, and 1000000"),
+    "uplift regions": (
+        ["uplift", "--harmonic", "--phi", "0:90:0.1", "--rho", "0:90:0.1", "--beta", "1,2"],
+        3,
+        "1623602 combinations",
+    ),
+    "points of regions": (["uplift", "--harmonic", "--phi", "0:90:0.1", "--alpha", "1,2"], 3, "1081200 points of curves, and 1000000"),
+    "shakings": (["overturn-rate", "--cemetery", "aoyama.csv", "--pga", "1:1e5:1", "--frequency", "1:9:0.1"], 3, "8100000 shakings"),
     "steps of a pile": (["stack", "--step", "1e-12"], 3, "finer than does any good"),
     "time to settle": (["respond", "--block", "gravestone", "--settle", "1e9"], 3, "between 0 and 3600 s"),
     "padding of a filter": (["measure", "--highpass", "1e-6"], 3, "samples of padding"),
-    "stones of a cemetery": (["overturn-rate", "--cemetery", "huge.csv"], 3, "200000000 gravestones, and at most 1000000"),
+    "stones of a cemetery": (["overturn-rate", "--cemetery", "huge.csv"], 3, "200000000 gravestones, and 1000000 are allowed"),
     "bytes of a device": (["measure", "/dev/zero"], 3, "is a device"),
 }
+
+
+COUNTED = {
+    "measure": [],
+    "respond": ["--block", "gravestone", "--mu", "0.5"],
+    "rock": ["--block", "gravestone"],
+    "infer": ["--slid", "5cm", "--mu", "0.2"],
+    "overturn-rate": ["--cemetery", "aoyama.csv"],
+    "uplift": ["--harmonic"],
+    "slide": ["--mu", "0.2"],
+}
+"""What commands need besides."""
+
+COSTS_NOTHING = {"--seed"}
+"""Whole numbers that may be as large as they like."""
+
+COUNTS = {
+    f"{name} {option.opts[0]}": (name, option.opts[0])
+    for name in COMMANDS
+    for option in main.get_command(None, name).params
+    if isinstance(option.type, (Count, click.types.IntParamType)) and option.opts[0] not in COSTS_NOTHING
+}
+"""Every whole number that a command takes."""
+
+
+def test_every_whole_number_is_looked_at():
+    """The walk below meets the options that are known to be counts."""
+    assert {"respond --runs", "rock --perturb", "infer --steps", "spectrum --steps", "stack --points", "stack --grid"} <= set(COUNTS)
+    assert {"overturn-rate --most-fragile", "uplift --corner", "measure --dpi"} <= set(COUNTS)
+
+
+@pytest.mark.parametrize("what", COUNTS)
+def test_a_thousand_million_of_anything_is_refused(what):
+    """Before anything is read or computed: exit 2, the option and the number in one sentence."""
+    name, option = COUNTS[what]
+    start = time.process_time()
+    done = CliRunner().invoke(main, [name, *COUNTED.get(name, []), option, "1000000000"])
+    assert time.process_time() - start < 1.0
+    told = " ".join(done.stderr.split())
+    assert (done.exit_code, done.stdout) == (2, ""), told
+    assert option in told and "1000000000" in told
+
+
+def test_a_limit_is_lifted_by_its_variable(monkeypatch):
+    """What the sentence names does it, on the command line and in the library."""
+    words = ["rock", "--block", "gravestone", "--perturb", "4"]
+    monkeypatch.setenv("SEISBLOCK_RUNS", "3")
+    done = CliRunner().invoke(main, words)
+    assert done.exit_code == 2 and "4 versions, and 3 are allowed: ask for fewer, or set SEISBLOCK_RUNS" in " ".join(done.stderr.split())
+    monkeypatch.setenv("SEISBLOCK_RUNS", "4")
+    assert CliRunner().invoke(main, words).exit_code == 0
+
+
+PULSE = Motion.from_arrays([0.0, 1.0, 0.0], 0.01)
+TOO_MUCH = {
+    "versions of a stone": lambda: seisblock.perturb(Block(0.2, 0.8), PULSE, 10**9),
+    "versions of a body": lambda: seisblock.respond_probability(Block(0.2, 0.8), PULSE, mu=0.5, runs=10**9),
+    "factors of a margin": lambda: seisblock.find_margin(Block(0.2, 0.8), PULSE, step=1e-9),
+    "factors of a scan": lambda: scale_factors(abs, 1.0, PULSE, steps=10**9),
+    "points of a joint": lambda: seisblock.solve_stack(seisblock.load_pile("wagata"), PULSE, points=10**9),
+    "directions": lambda: respond_directions(Block(0.2, 0.8), seisblock.read("synthetic_jma.csv"), mu=0.5, step_deg=1e-9),
+}
+
+
+@pytest.mark.parametrize("call", TOO_MUCH.values(), ids=TOO_MUCH)
+def test_the_library_refuses_it_too(call):
+    """Before it computes."""
+    with pytest.raises(ParameterError, match="are allowed: ask for fewer, or set SEISBLOCK_"):
+        call()
+
+
+def test_the_coarsest_grid_of_the_criterion_study_leaves_one_height():
+    """The option's ceiling is that of the study."""
+    assert len(RATIOS) == COARSEST >= len(PGAS)
 
 
 @pytest.mark.parametrize("what", ASKED)

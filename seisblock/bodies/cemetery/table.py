@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
@@ -12,6 +13,7 @@ from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.errors import BodyError, InputError, reason
 from seisblock.ledger import reading
+from seisblock.limits import check_budget
 from seisblock.samples import find_sample, list_samples
 from seisblock.units import LENGTH_UNITS, parse_length
 from seisblock.words import noted, said
@@ -53,12 +55,6 @@ _UNIT = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
 
 LARGEST = 20.0
 """A stone beyond this, m, is taken for a number whose unit was forgotten."""
-
-MOST_ALIKE = 100_000
-"""Most stones that one row stands for."""
-
-MOST_STONES = 1_000_000
-"""Most stones of one table: each is kept and judged by itself."""
 
 DISAGREEMENT = 0.05
 """Largest relative difference between a ratio written down and that of the sizes beside it."""
@@ -116,13 +112,7 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
         (at, what), others = wrong[0], _others([number for number, _ in wrong[1:]])
         raise BodyError("{source}, line {line}: {what}{others}", source=source, line=at, what=what, others=others)
     size = sum(stone.count for stone in stones)
-    if size > MOST_STONES:
-        raise BodyError(
-            "{source}: {size} gravestones, and at most {most} are judged at once: split the table",
-            source=source,
-            size=size,
-            most=MOST_STONES,
-        )
+    check_budget(noted("gravestones"), size, "SEISBLOCK_STONES", where=source, error=BodyError)
     notes = tuple(line.lstrip("# ").rstrip() for number, line in lines if number < header_line and line.startswith("#"))
     return Cemetery(tuple(stones), Path(source).stem, source, notes)
 
@@ -275,8 +265,9 @@ def _count(row: Mapping[str, str]) -> int:
     value = _number(row, "count")
     if value is None:
         return 1
-    if not (1 <= value <= MOST_ALIKE and value == int(value)):
-        raise BodyError("count must be a whole number of stones, 1 to {most}, found {count}", most=MOST_ALIKE, count=row["count"])
+    if not (1 <= value < math.inf and value == int(value)):
+        raise BodyError("count must be a whole number of stones, 1 or more, found {count}", count=row["count"])
+    check_budget(noted("gravestones"), int(value), "SEISBLOCK_STONES", error=BodyError)
     return int(value)
 
 

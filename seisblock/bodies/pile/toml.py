@@ -11,10 +11,8 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import GRANITE, GROUND, PileStone
 from seisblock.bodies.toml import length, lengths, number, of_kind, read_table, refuse_unknown, source_of, text, text_groups, texts
 from seisblock.errors import BodyError
-from seisblock.words import said
-
-MOST_STONES = 200
-"""Stones of the largest pile that is taken for what was meant: every pair of them is looked at."""
+from seisblock.limits import check_budget
+from seisblock.words import noted, said
 
 _PILE_KEYS = {"name", "kind", "mu", "density", "reinforced", "fixed", "stone", "note"}
 _STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "bottom"}
@@ -51,8 +49,7 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     entries = table.get("stone")
     if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
         raise BodyError("{source}: a pile needs at least one [[stone]] table", source=source)
-    if len(entries) > MOST_STONES:
-        raise BodyError("{source}: {count} stones, and a pile has at most {most}", source=source, count=len(entries), most=MOST_STONES)
+    check_budget(noted("stones of a pile"), len(entries), "SEISBLOCK_PILE_STONES", where=source, error=BodyError)
     stones: list[PileStone] = []
     for rank, entry in enumerate(entries, start=1):
         below = stones[-1].name if stones else GROUND

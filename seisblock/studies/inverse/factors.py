@@ -17,12 +17,14 @@ from seisblock import checks
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
 from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import check_call, check_motion
 from seisblock.solvers.jump.solve import solve_jump
 from seisblock.solvers.slide.solve import solve_slide
 from seisblock.studies.runs import in_threads
 from seisblock.typing import Progress
+from seisblock.words import noted
 
 LIMIT = 3.0
 """Default largest factor."""
@@ -135,6 +137,7 @@ def scale_factors(
     checks.positive("the largest factor", limit)
     if steps < 1:
         raise ParameterError("the scan needs at least one step, found {steps}", steps=steps)
+    check_budget(noted("factors"), steps, "SEISBLOCK_RUNS")
     grid = [limit * i / steps for i in range(steps + 1)]
     values = [0.0, *in_threads(displacement, grid[1:], progress=progress)]
     peak = float(np.abs(motion.horizontal).max())

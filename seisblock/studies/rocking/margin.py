@@ -7,6 +7,7 @@ than the step of the scan are missed, below the first fall found as above it.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Unpack
@@ -15,16 +16,14 @@ import numpy as np
 
 from seisblock.bodies.block import Block
 from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
 from seisblock.studies.rocking.verdicts import overturns_at
 from seisblock.typing import BoolArray, FloatArray, Progress
-from seisblock.words import said
-
-MOST_FACTORS = 100_000
-"""Most factors of a scan: some minutes for a record of a minute."""
+from seisblock.words import noted, said
 
 LIMIT = 3.0
 """Default largest factor of the scan."""
@@ -118,14 +117,7 @@ def find_margin(
     if not (0.0 < step <= limit < float("inf")):
         raise ParameterError("the scan needs 0 < step <= limit, found step {step} and limit {limit}", step=step, limit=limit)
     one = rocker(block, motion, **options)
-    if limit / step > MOST_FACTORS:
-        raise ParameterError(
-            "a scan up to {limit:g} in steps of {step:g} tries {count:.3g} factors, and {most} are allowed: give a smaller limit",
-            limit=limit,
-            step=step,
-            count=limit / step,
-            most=MOST_FACTORS,
-        )
+    check_budget(noted("factors"), math.floor(min(limit / step, 1e18)), "SEISBLOCK_RUNS")
     grid = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
     factors = grid[grid <= limit]
     verdicts = overturns_at(one, motion, factors, progress=progress)

@@ -12,6 +12,7 @@ from seisblock import checks
 from seisblock.bodies.block import Block, resized
 from seisblock.bodies.inset import HALF
 from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.motion import ACROSS
 from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
@@ -125,6 +126,7 @@ def perturb(
     checks.instance(spread, Spread)
     if runs < 1:
         raise ParameterError("a perturbation needs at least 1 run, found {runs}", runs=runs)
+    check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
     given = rocker(block, motion, **options)
     turns = spread.azimuth_deg if motion.acceleration[ACROSS].any() else 0.0
     dice = np.random.default_rng(checks.seed(seed))

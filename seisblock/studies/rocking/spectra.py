@@ -12,6 +12,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.showing import Drawn
 from seisblock.solvers.rock.rocker import RockOptions, rocker
@@ -84,6 +85,7 @@ def rocking_spectrum(
     """
     diagonal = _grid(sizes, noted("size 2R"), "m", math.inf)
     alpha = _grid(slendernesses, noted("slenderness"), "rad", math.pi / 2)
+    check_budget(noted("cells"), diagonal.size * alpha.size, "SEISBLOCK_CELLS")
     grid = itertools.product(diagonal.tolist(), alpha.tolist())
     rockers = [rocker(Block(d * math.sin(a), d * math.cos(a)).worn(inset), motion, **options) for d, a in grid]
     found = all_verdicts(rockers, motion, rockers[0].gains(), progress=progress)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,10 +10,12 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
+from seisblock.limits import check_budget
 from seisblock.records import Record, motion_of
 from seisblock.records.given import Factor, vertical_gain
 from seisblock.solvers.respond.many import Fates, respond_many
 from seisblock.solvers.respond.solve import make_setting
+from seisblock.words import noted
 
 STEP_DEG = 5.0
 
@@ -76,6 +79,7 @@ def respond_directions(
     checks.positive("the step between directions", step_deg, "degrees")
     settle_s = options.pop("settle_s", 60.0)
     round_about = 360.0 if block.centroid_offset else 180.0
+    check_budget(noted("directions"), math.ceil(round_about / step_deg), "SEISBLOCK_RUNS")
     azimuths = np.arange(0.0, round_about, step_deg)
     motion = motion_of(record, "0")
     turn = np.radians(azimuths)

@@ -13,6 +13,7 @@ from seisblock.bodies.block import Block
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.criteria.initiation import friction_to_rock, loading
 from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_motion, vertical_gain
 from seisblock.solvers.respond.many import KINDS, Fates, respond_many
@@ -31,8 +32,6 @@ SEEN_M = 5e-4
 
 AT_ONCE = 200
 """Cells between two reports of progress."""
-
-MOST_CELLS = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,8 +125,9 @@ def mode_map(
     blocks = _blocks(sizes, slendernesses, inset)
     check_motion(motion)
     cells = len(blocks) * mu.size
-    if not 0 < cells <= MOST_CELLS:
-        raise ParameterError("a map needs 1 to {most} cells, found {cells}", most=MOST_CELLS, cells=cells)
+    if not cells:
+        raise ParameterError("a map needs at least one cell")
+    check_budget(noted("cells"), cells, "SEISBLOCK_CELLS")
     settings = (make_setting(block, mu=float(m), restitution=restitution, gravity=gravity) for block in blocks for m in mu)
     up = vertical_gain(motion, vertical)
     ratio, time = loading(motion, vertical=vertical, gravity=gravity)

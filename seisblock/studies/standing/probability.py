@@ -16,6 +16,7 @@ from seisblock import checks
 from seisblock.bodies.block import Block, resized
 from seisblock.bodies.inset import HALF, Inset
 from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import ACROSS
@@ -25,6 +26,7 @@ from seisblock.solvers.respond.solve import make_setting
 from seisblock.studies.intervals import clopper_pearson
 from seisblock.typing import FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
 
 RUNS = 200
 MOVED_M = 0.01
@@ -153,6 +155,7 @@ def respond_probability(
     checks.instance(versions, Versions)
     if runs < 1:
         raise ParameterError("a probability needs at least 1 run, found {runs}", runs=runs)
+    check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
     if not (math.isfinite(moved_m) and moved_m > 0.0):
         raise ParameterError("the displacement that counts as moved must be positive, found {found} m", found=moved_m)
     given = {"mu": mu, "mu_kinetic": mu_kinetic, "restitution": restitution}
