@@ -117,6 +117,23 @@ def strung(sentences: Iterable[str]) -> str:
     return _BLANKS[language()].join(sentences)
 
 
+def percent(share: float, digits: str = ".0") -> str:
+    """Return a share in per cent, with a blank before the sign as in all units; in templates a format that ends with ``%`` does the same.
+
+    Parameters
+    ----------
+    share : float, 1
+    digits : str
+        How the number is written: decimals such as ``.0`` and ``.1``, or a format such as ``g``.
+
+    Examples
+    --------
+    >>> percent(0.043), percent(0.043, ".1"), percent(0.05, "g"), tell("{level:g%} interval", level=0.9)
+    ('4 %', '4.3 %', '5 %', '90 % interval')
+    """
+    return f"{format(100.0 * share, digits if digits[-1:].isalpha() else f'{digits}f')} %"
+
+
 def language(asked: str | None = None) -> str:
     """Return a language: the one asked for, else that of the block of :func:`speaking`, else Japanese in a Japanese locale, else English.
 
@@ -191,6 +208,10 @@ class _Filler(Formatter):
         """Return the value of a field as it is shown."""
         value, first = super().get_field(field_name, args, kwargs)
         return self._shown(value), first
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        """Return a value in a format, in which ``%`` writes a share as :func:`percent` does."""
+        return percent(value, format_spec[:-1]) if format_spec.endswith("%") else str(super().format_field(value, format_spec))
 
     def _shown(self, value: Any) -> Any:
         """Return a text or a sequence as text, anything else as it is."""

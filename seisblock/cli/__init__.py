@@ -59,6 +59,9 @@ EXAMPLES = ("seisblock jump", "seisblock slide record.csv --mu 0.2 --plot slide.
 PARAMETER = re.compile(r"`(\w+)`")
 """A parameter's name in a sentence of the library."""
 
+COMPLETING = "_SEISBLOCK_COMPLETE"
+"""What a shell sets that asks for completions."""
+
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 
@@ -123,6 +126,8 @@ class SeisblockGroup(click.Group):
         os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         if os.environ.get("NO_COLOR"):
             extra.setdefault("color", False)
+        if os.environ.get(COMPLETING):
+            importlib.import_module("seisblock.cli.completion")
         line = sys.argv[1:] if args is None else list(args)
         with printable(), answering(line):
             return super().main(line, prog_name or "seisblock", obj=line, **extra)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import click
+from click.shell_completion import BashComplete, add_completion_class
 
 from seisblock.cli.command import Command, argument
 from seisblock.cli.talk import answer
@@ -15,6 +16,18 @@ WHERE = {
     "zsh": said("add to {file}: {line}", file="~/.zshrc", line='eval "$(seisblock completion zsh)"'),
     "fish": said("{line}", line="seisblock completion fish > ~/.config/fish/completions/seisblock.fish"),
 }
+
+
+class Bash(BashComplete):
+    """Bash, to which ``--component=N`` is three words: the sign between them is none of ours."""
+
+    def get_completion_args(self) -> tuple[list[str], str]:
+        """Return the words before the one that is typed, and that one."""
+        before, last = super().get_completion_args()
+        return [word for word in before if word != "="], "" if last == "=" else last
+
+
+add_completion_class(Bash)
 
 
 @click.command(cls=Command, examples=('eval "$(seisblock completion bash)"', "seisblock completion fish > seisblock.fish"))

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from seisblock.cli.quiet import is_quiet
 from seisblock.dynamics.halt import hearing
-from seisblock.words import tell
+from seisblock.words import percent, tell
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
@@ -52,7 +52,7 @@ class Work:
         """Return how much is done."""
         if self.total is None:
             return ""
-        return f"{self.done}/{self.total}" if self.total <= MOST_COUNTED else f"{self.done / self.total:.0%}"
+        return f"{self.done}/{self.total}" if self.total <= MOST_COUNTED else percent(self.done / self.total)
 
 
 class StatusLine:

@@ -158,7 +158,7 @@ def test_its_verdict_is_the_solver_s(pages):
     """The gravestone overturns, as solve_rock says, and the margin stands beside it."""
     outcome = solve_rock(load_block("gravestone"), motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")).outcome
     assert outcome.overturned
-    assert f"overturns towards {outcome.overturned_towards[0]}EW" in pages["en"]
+    assert f"overturns to {outcome.overturned_towards[0]}EW" in pages["en"]
     assert f"lies down at {outcome.overturning_time_s:.2f} s" in pages["en"]
     assert re.search(r"The verdict changes next at \d\.\d{3} times this record", pages["en"])
     assert "倍未満ではすべて転倒しない" in pages["ja"]
@@ -204,9 +204,9 @@ def test_a_record_of_one_component_is_enough(tmp_path):
 
 
 def test_a_jump_that_rounds_to_nothing_is_no_minus():
-    """A body that ends a hundredth of a millimetre to the left of where it stood has moved +0 mm, not -0 mm."""
+    """A body that ends a hundredth of a millimetre to the left of where it stood has moved 0 mm, to neither side."""
     moved = [SimpleNamespace(outcome=JUMPED, final_displacement_m=metres) for metres in (-1e-5, 0.0, -6e-4)]
     effects = [
         SimpleNamespace(kind="jump", response=SimpleNamespace(outcome=outcome, motion=SimpleNamespace(name="NS"))) for outcome in moved
     ]
-    assert [verdict(effect) for effect in effects] == ["jumps: +0 mm along NS"] * 2 + ["jumps: -1 mm along NS"]
+    assert [verdict(effect) for effect in effects] == ["jumps 0 mm"] * 2 + ["jumps 1 mm to -NS"]

@@ -126,7 +126,7 @@ def test_a_margin_leads_with_the_first_fall_and_shows_a_share(run):
     assert "falls from 1.23 times this record on (first found, looked at every 0.002 up to 3)" in shown
     assert shown.index("falls from 1.23") < shown.index("falls were found at factors") < shown.index("versions of body and shaking")
     assert "is the 95 % interval of this model's own scatter, no more" in shown
-    assert "varied: size by 5%" in shown
+    assert "varied: size by 5 %" in shown
 
 
 def test_no_share_below_three_hundredths_is_a_chance(run):
@@ -168,7 +168,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
     """The table says the verdict in words; the files hold the figure and the history in SI."""
     answer = run(pulse, "--width", 0.24, "--height", 0.8, "--plot", "rock.png", "--csv", "rock.csv", "--si")
     assert answer.exit_code == 0, answer.output
-    assert "NS: overturns to -x." in answer.stdout
+    assert "NS: overturns to -NS." in answer.stdout
     assert "EW: stands still." in answer.stdout
     assert "m/s²" in answer.stdout
     assert (tmp_path / "rock.png").stat().st_size > 10_000

@@ -39,7 +39,7 @@ def test_mu_alone_uses_the_bundled_record():
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        ((), "over a path of 1961.33 mm, while the record lasts, and comes to rest 2942.00 mm from where it stood"),
+        ((), "over a path of 1961.33 mm, while the record lasts, and comes to rest 2942.00 mm to +EW from where it stood"),
         (("--slope", "10", "--mu-kinetic", "0.1"), "and does not come to rest"),
     ],
 )

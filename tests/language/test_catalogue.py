@@ -1,12 +1,16 @@
 """Whatever is said can be told: the catalogues hold every text, nothing else, and a translation is filled in with the same values."""
 
 import ast
+import re
 from string import Formatter
 
 import pytest
 
-from seisblock.words import LANGUAGES, said
+from seisblock.words import LANGUAGES, percent, said, tell
 from tests.catalogue import CHECKS, PACKAGE, PLURALS, catalogue, everything_said, key_of, sayings, texts_in
+
+TYPED = "10%"
+"""What one types, where a blank would make two words of it."""
 
 SOURCES = sorted(PACKAGE.rglob("*.py"))
 
@@ -32,6 +36,17 @@ def is_glued(argument):
     """Whether a text is made of pieces where it is said."""
     texts = (node for node in ast.walk(argument) if isinstance(node, ast.Constant) and isinstance(node.value, str))
     return isinstance(argument, ast.JoinedStr) or (isinstance(argument, ast.BinOp) and any(texts))
+
+
+def test_a_percentage_has_one_form(every_text, held):
+    """Templates and translations have a blank before the sign, or leave it to the format; no f-string writes its own."""
+    told = [*every_text, *(str(message.string) for message in held.values())]
+    assert not [text for text in told if re.search(r"[\d}][%％]", text.replace(TYPED, "").replace("%}", "}"))]
+    specs = (node for path in SOURCES for node in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(node, ast.FormattedValue))
+    assert not [
+        ast.unparse(node) for node in specs if node.format_spec is not None and ast.unparse(node.format_spec).rstrip("'\"").endswith("%")
+    ]
+    assert (tell("{share:.0%}", share=0.043), percent(0.043, ".1"), percent(0.05, "g")) == ("4 %", "4.3 %", "5 %")
 
 
 def test_nothing_that_is_said_lacks_a_translation(every_text, held):

@@ -108,6 +108,9 @@ REFUSALS = (
 MINUS_NOTHING = re.compile(r"(?<![\w.])[-−]0(?:\.0*)?(?:e[-+]?0+)?(?![\w.])")
 """A zero with a sign."""
 
+CLOSE_PERCENT = re.compile(r"\d[%％]")
+"""A percentage without the blank."""
+
 ANSWERING = {"measure", "respond", "slide", "rock", "jump", "uplift", "stack", "criteria", "spectrum", "overturn-rate", "infer"}
 """Commands that answer a question about shaking."""
 
@@ -186,6 +189,14 @@ def test_nothing_is_minus_nothing(line, lang, spoken):
     """F2: what rounds to zero has no sign, on either stream."""
     answer = spoken(line, lang)
     assert not MINUS_NOTHING.findall(answer.stdout + answer.stderr)
+
+
+@pytest.mark.parametrize("lang", words.LANGUAGES)
+@pytest.mark.parametrize("line", [line for line in ANSWERS if line[0] not in QUOTING], ids=line_of)
+def test_a_percentage_is_written_one_way(line, lang, spoken):
+    """A blank stands before the sign, as before every unit, in both languages and on either stream."""
+    answer = spoken(line, lang)
+    assert not CLOSE_PERCENT.findall(answer.stdout + answer.stderr)
 
 
 def test_minus_nothing_is_recognised():

@@ -13,11 +13,12 @@ from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
 
 from seisblock.errors import OutputError
+from seisblock.present.directions import phase as called
 from seisblock.present.figures.fonts import set_letters
 from seisblock.present.files import replacing
 from seisblock.results import Phase
 from seisblock.units import GAL
-from seisblock.words import language, tell
+from seisblock.words import language
 
 INPUT = "0.45"
 ACCENT = "#c0392b"
@@ -163,12 +164,12 @@ def acceleration_unit(*, gal: bool) -> tuple[float, str]:
     return (GAL, "gal") if gal else (1.0, "m/s²")
 
 
-def shade(axis: Axes, phases: Iterable[Phase], colours: dict[str, str], *, names: bool = False) -> None:
-    """Shade the phases that have a colour, and name each kind once when asked to."""
+def shade(axis: Axes, phases: Iterable[Phase], colours: dict[str, str], *, names: bool = False, direction: str = "") -> None:
+    """Shade the phases that have a colour, and name each kind once when asked to, in the direction of the motion."""
     named: set[str] = set()
     for phase in phases:
         if phase.name in colours:
-            text = tell(phase.name) if names and phase.name not in named else None
+            text = called(phase.name, direction) if names and phase.name not in named else None
             named.add(phase.name)
             axis.axvspan(phase.start_s, phase.end_s, color=colours[phase.name], linewidth=0, alpha=0.8, label=text)
 

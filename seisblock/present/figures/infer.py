@@ -18,7 +18,7 @@ from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.estimate import ShakingEstimate, contour
 from seisblock.studies.inverse.survey import Survey
 from seisblock.typing import FloatArray
-from seisblock.words import tell
+from seisblock.words import percent, tell
 
 if TYPE_CHECKING:
     from seisblock.studies.inverse.factors import ScaleFactors
@@ -73,7 +73,7 @@ def _trade_off(axis: Axes, survey: Survey, assumptions: Assumptions, *, gal: boo
         line = contour(survey, replace(assumptions, level=level), FINE)
         low, high = ([math.nan if e.pga_interval_m_s2[i] is None else e.pga_interval_m_s2[i] for e in line] for i in (0, 1))
         lowest, highest = (np.array(end, dtype=np.float64) / unit for end in (low, high))
-        _band(axis, lowest, highest, shown, shade, f"{100 * level:g} %")
+        _band(axis, lowest, highest, shown, shade, percent(level, "g"))
         if level == max(LEVELS) and line[0].pga_m_s2 is not None:
             axis.plot(FINE, [(e.pga_m_s2 or math.nan) / unit for e in line], color="0.15", linewidth=1.2, label=tell("median"))
     axis.set_xscale("log")

@@ -39,7 +39,7 @@ def response_spectrum_figure(spectrum: ResponseSpectrum) -> Figure:
     axis.set_xscale("log")
     axis.xaxis.set_major_formatter("{x:g}")
     canvas.label(axis, x=tell("T (s)"), y=f"Sₐ ({name})")
-    canvas.panel_title(axis, tell("Response spectrum, damping {damping:g} %", damping=100 * spectrum.damping))
+    canvas.panel_title(axis, tell("Response spectrum, damping {damping:g%}", damping=spectrum.damping))
     return made
 
 

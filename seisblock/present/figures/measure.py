@@ -123,7 +123,7 @@ def _draw_response(axis: Axes, record: Record, parts: list[Component], *, gal: b
         axis.plot(spectrum.period_s, spectrum.sa_m_s2 / unit, color=colour, linestyle=dashes, linewidth=1.0, label=part.code)
     _logarithmic(axis)
     label(axis, x=tell("T (s)"), y=f"Sₐ ({name})")
-    axis.set_title(tell("Response spectrum, damping {damping:g} %", damping=100 * DAMPING), fontsize=8, loc="left")
+    axis.set_title(tell("Response spectrum, damping {damping:g%}", damping=DAMPING), fontsize=8, loc="left")
     legend(axis)
 
 

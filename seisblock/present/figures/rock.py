@@ -90,7 +90,7 @@ def draw_ground(axis: Any, response: Response[RockOutcome], called: str, *, gal:
 def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     """Draw the lean over alpha with its phases and impacts."""
     ratio = response["rotation"] / response.outcome.slenderness_rad
-    canvas.shade(axis, _seen(response, *axis.get_xlim()), COLOURS, names=True)
+    canvas.shade(axis, _seen(response, *axis.get_xlim()), COLOURS, names=True, direction=response.motion.name)
     curve(axis, response.time, ratio, color=canvas.ACCENT)
     canvas.threshold(axis, [-1.0, 1.0])
     reach = float(np.abs(ratio).max())

@@ -47,7 +47,7 @@ def _column(panels: Sequence[Any], called: str, response: Response[SlideOutcome]
         curve(middle, time, response["ground_velocity"], color="0.62", linewidth=1.6, label=tell("base"))
         curve(middle, time, block, color=canvas.ACCENT, label=tell("object"))
         curve(bottom, time, response["displacement"] * 1e3, color=canvas.ACCENT)
-        canvas.shade(middle, phases, COLOURS, names=True)
+        canvas.shade(middle, phases, COLOURS, names=True, direction=response.motion.name)
         canvas.shade(bottom, phases, COLOURS)
         bottom.axhline(0.0, color=canvas.INPUT, linewidth=0.6)
     for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), tell("velocity (m/s)"), tell("x − z (mm)")), strict=False):

@@ -36,7 +36,7 @@ def _column(panels: Sequence[Any], called: str, response: Response[StackOutcome]
     """Draw one run's three panels."""
     motion = response.motion
     unit, unit_name = canvas.acceleration_unit(gal=gal)
-    rows = ((tell("up"), 2, canvas.SECOND), (tell("across"), 1, "0.7"), (tell("along +x"), 0, "0.2"))
+    rows = ((tell("up"), 2, canvas.SECOND), (tell("across"), 1, "0.7"), (tell("along {name}", name=motion.name or "x"), 0, "0.2"))
     for name, row, colour in rows:
         values = motion.acceleration[row]
         acts = row == 0 or (row == 1 and response.options["across"]) or (row == 2 and response.options["vertical"])

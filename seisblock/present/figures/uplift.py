@@ -59,9 +59,8 @@ def _motion(panel: Axes, called: str, response: Response[UpliftOutcome], *, gal:
     """Draw the three components of the ground motion."""
     unit, unit_name = canvas.acceleration_unit(gal=gal)
     motion = response.motion
-    for values, name, style in zip(
-        motion.acceleration, map(tell, ("along +x", "across", "up")), ("0.2", "0.55", canvas.SECOND), strict=True
-    ):
+    names = tell("along {name}", name=motion.name or "x"), tell("across"), tell("up")
+    for values, name, style in zip(motion.acceleration, names, ("0.2", "0.55", canvas.SECOND), strict=True):
         if np.any(values):
             curve(panel, motion.time, values / unit, color=style, label=name, linewidth=0.7)
     canvas.label(panel, y=tell("a ({unit})", unit=unit_name))

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from seisblock.present.directions import phase as called
 from seisblock.present.figures.canvas import acceleration_unit
 from seisblock.present.films.plane import Plane
 from seisblock.present.films.space import Space
@@ -64,6 +65,8 @@ class Film:
         Which record this is, as above every figure.
     note : str
         What one must know to read the scene.
+    direction : str
+        Which direction of the record +x is.
     phases, colours : sequence, mapping
         Stretches of time and the colours of those to be shaded.
     """
@@ -74,6 +77,7 @@ class Film:
     strips: tuple[Strip, ...] = ()
     heading: str = ""
     note: str = ""
+    direction: str = ""
     phases: tuple[Phase, ...] = ()
     colours: Mapping[str, str] = field(default_factory=dict)
 
@@ -90,9 +94,13 @@ class Film:
         shortest = (last - first) / 1500
         return tuple(p for p in self.phases if p.duration_s >= shortest and p.end_s >= first and p.start_s <= last)
 
+    def called(self, name: str) -> str:
+        """Return what a phase is called, in the direction of this motion."""
+        return called(name, self.direction)
+
     def phase_at(self, time: float) -> str:
-        """Return the name of the phase seen at a time, empty outside all."""
-        return next((phase.name for phase in reversed(self.seen) if phase.start_s <= time <= phase.end_s), "")
+        """Return what the phase seen at a time is called, empty outside all."""
+        return next((self.called(phase.name) for phase in reversed(self.seen) if phase.start_s <= time <= phase.end_s), "")
 
 
 Build = Callable[[FloatArray], Film]

@@ -40,7 +40,7 @@ class Stage:
         now = float(self.film.time[index])
         for actor in self.actors:
             actor.place(index, now)
-        self.clock.set_text(f"{now:.3f} s   {told}   {tell(self.film.phase_at(now))}")
+        self.clock.set_text(f"{now:.3f} s   {told}   {self.film.phase_at(now)}")
         for cursor in self.cursors:
             cursor.set_xdata([now, now])
 

@@ -46,6 +46,7 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
     return Film(
         title=titled(block.name, response.outcome.outcome),
         heading=heading_of([motion]),
+        direction=motion.name,
         time=times,
         scene=Plane(
             shift=ground_shift(motion, times),

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from seisblock.present.directions import side
 from seisblock.present.figures.curves import in_view, thin
 from seisblock.present.figures.heading import BETWEEN
 from seisblock.present.films.animation import Filming
@@ -49,7 +50,7 @@ def film_page(film: Film, filming: Filming) -> str:
         close=isinstance(film.scene, Plane) and film.scene.close is not None,
         space=isinstance(film.scene, Space),
         trails=[(trail.name, trail.colour) for trail in film.scene.trails] if isinstance(film.scene, Plane) else [],
-        phases=[(tell(name), colour) for name, colour in named.items()],
+        phases=[(film.called(name), colour) for name, colour in named.items()],
         lines=_lines(film),
         data=_data(film, filming),
         pace=pace,
@@ -76,11 +77,12 @@ def _data(film: Film, filming: Filming) -> dict[str, Any]:
         "first": float(film.time[0]),
         "last": float(film.time[-1]),
         "count": int(film.time.size),
+        "along": side(film.direction, 1.0),
         "pace": 1.0 / filming.slow,
         "scene": _plane(film.scene, float(film.time[0]), float(film.time[-1])) if isinstance(film.scene, Plane) else _space(film.scene),
         "strips": [_strip(film, strip) for strip in film.panels],
         "phases": [[phase.start_s, phase.end_s, film.colours[phase.name]] for phase in film.seen if phase.name in film.colours],
-        "names": [[phase.start_s, phase.end_s, tell(phase.name)] for phase in film.seen],
+        "names": [[phase.start_s, phase.end_s, film.called(phase.name)] for phase in film.seen],
         "words": {"play": tell("play"), "pause": tell("pause")},
     }
 

@@ -39,6 +39,7 @@ def respond_film(response: Response[RespondOutcome], times: FloatArray, *, gal: 
     return Film(
         title=titled(block.name, outcome.outcome),
         heading=heading_of([motion]),
+        direction=motion.name,
         time=times,
         scene=Plane(
             shift=ground_shift(motion, times),

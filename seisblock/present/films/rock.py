@@ -50,6 +50,7 @@ def rocking_film(response: Response[RockOutcome], times: FloatArray, *, gal: boo
     return Film(
         title=titled(block.name, "overturns" if outcome.overturned else "stands"),
         heading=heading_of([motion]),
+        direction=motion.name,
         time=times,
         scene=Plane(
             shift=ground_shift(motion, times),

@@ -44,6 +44,7 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray, *, gal: bool
     return Film(
         title=setting(response),
         heading=heading_of([motion]),
+        direction=motion.name,
         time=times,
         scene=Plane(
             shift=ground_shift(motion, times),

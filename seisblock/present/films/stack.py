@@ -39,6 +39,7 @@ def stack_film(response: Response[StackOutcome], times: FloatArray, *, gal: bool
     return Film(
         title=titled(body.name, _fate(response.outcome.overturned)),
         heading=heading_of([motion]),
+        direction=motion.name,
         note=f"+x = {motion.name or 'x'}",
         time=times,
         scene=Space(ground_path(motion, (True, bool(options["across"]), bool(options["vertical"])), times), solids, 1.1 * largest),

@@ -53,6 +53,7 @@ def uplift_film(response: Response[UpliftOutcome], times: FloatArray, *, gal: bo
     return Film(
         title=titled(f"{body.width:g} × {body.depth:g} × {body.height:g} m", what),
         heading=heading_of([motion]),
+        direction=motion.name,
         note=tell("motion on the springs drawn {factor:g} times as large; +x = {name}", factor=factor, name=motion.name or "x"),
         time=times,
         scene=_scene(response, times, factor),

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from seisblock.present.directions import moved, side
 from seisblock.present.text.respond import share
 from seisblock.present.text.respond import verdict as told
 from seisblock.solvers.jump.chain import JUMPED
@@ -55,7 +56,7 @@ def verdict(effect: Effect) -> str:
         return told(effect.response)
     if effect.kind == "rock":
         if outcome.overturned:
-            return tell("overturns towards {side}{name}", side=outcome.overturned_towards[0], name=name)
+            return tell("overturns to {side}", side=side(name, outcome.overturned_towards))
         if outcome.rocks:
             text = noted("rocks and stands: {share:.0%} of the way to overturning ({name})")
             return tell(text, share=outcome.max_rotation_ratio, name=name)
@@ -66,7 +67,7 @@ def verdict(effect: Effect) -> str:
         return tell("slides up to {mm:.0f} mm ({name})", mm=outcome.max_slip_m * 1e3, name=name)
     if effect.kind == "jump":
         if outcome.outcome == JUMPED:
-            return tell("jumps: {mm:+z.0f} mm along {name}", mm=_moved(effect) * 1e3, name=name)
+            return tell("jumps {moved}", moved=moved(f"{abs(_moved(effect)) * 1e3:.0f} mm", name, _moved(effect)))
         return tell("rocks without jumping ({name})" if outcome.chains else "stands still", name=name)
     if not outcome.uplifts:
         return tell("no corner lifts")
@@ -123,7 +124,7 @@ def _rock(effect: Effect, outcome: Any) -> Iterator[str]:
             text = noted("The body overturns to {side} after the record's end; it lies down at {time:.2f} s.")
         else:
             text = noted("The body overturns to {side}; it lies down at {time:.2f} s.")
-        yield tell(text, side=outcome.overturned_towards, time=when)
+        yield tell(text, side=side(effect.response.motion.name, outcome.overturned_towards), time=when)
     else:
         text = noted("The body rocks from {time:.2f} s and stands; it leans to {share:.0%} of its slenderness.")
         yield tell(text, time=outcome.rocking_start_s, share=outcome.max_rotation_ratio)
@@ -145,13 +146,13 @@ def _slide(effect: Effect, outcome: Any) -> Iterator[str]:
     if not outcome.slips:
         yield tell("Friction holds throughout.")
         return
-    text = noted("The body slides from {start:.2f} s, up to {most:.1f} mm at {time:.2f} s; {rest:+z.1f} mm remain.")
+    text = noted("The body slides from {start:.2f} s, up to {most:.1f} mm at {time:.2f} s; {rest} remain.")
     yield tell(
         text,
         start=outcome.slip_start_s,
         most=outcome.max_slip_m * 1e3,
         time=outcome.max_slip_time_s,
-        rest=outcome.residual_slip_m * 1e3,
+        rest=moved(f"{abs(outcome.residual_slip_m) * 1e3:.1f} mm", effect.response.motion.name, outcome.residual_slip_m),
     )
 
 
@@ -161,15 +162,16 @@ def _jump(effect: Effect, outcome: Any) -> Iterator[str]:
         yield tell("The ground acceleration never exceeds the rocking threshold.")
     for number, chain in enumerate(outcome.chains, start=1):
         if chain.outcome == JUMPED:
+            far = chain.total_displacement_m or 0.0
             text = noted(
-                "Chain {number}: rocks for {rock:.3f} s, flies for {fly:.3f} s, moves {mm:+z.1f} mm; the centroid rises by {rise:.1f} mm."
+                "Chain {number}: rocks for {rock:.3f} s, flies for {fly:.3f} s, moves {moved}; the centroid rises by {rise:.1f} mm."
             )
             yield tell(
                 text,
                 number=number,
                 rock=chain.rocking_duration_s,
                 fly=chain.jump_duration_s,
-                mm=(chain.total_displacement_m or 0.0) * 1e3,
+                moved=moved(f"{abs(far) * 1e3:.1f} mm", effect.response.motion.name, far),
                 rise=(chain.max_rise_m or 0.0) * 1e3,
             )
         else:

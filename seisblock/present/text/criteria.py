@@ -49,7 +49,7 @@ def simulated(card: Card) -> str:
     return tell(
         "{name}, simulated: {verdict}. {right} of {all} criteria agree.",
         name=card.component,
-        verdict=verdict(card.outcome),
+        verdict=verdict(card.outcome, card.component),
         right=sum(row.overturns == card.outcome.overturned for row in counted),
         all=len(counted),
     )

@@ -39,7 +39,7 @@ def estimate_tables(
         yield from (line(sentence) for sentence in verdicts(name, estimates, gal=gal, level=level))
     speed, unit = (KINE, "kine") if gal else (1.0, "m/s")
     head = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal)})", "", f"PGV ({unit})", "", "H/B", tell("JMA intensity"))
-    caption = tell("median and {level:g} % interval; H/B: stones more slender than this fell", level=100 * level)
+    caption = tell("median and {level:g%} interval; H/B: stones more slender than this fell", level=level)
     for stones in dict.fromkeys(each.stones for each in estimates):
         group = [each for each in estimates if each.stones == stones]
         place, kind = place_and_kind(stones)
@@ -88,8 +88,8 @@ def verdicts(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, leve
             yield tell("{who}: PGA {pga} at {at}; JMA intensity {intensity}.", **values)
             continue
         low, high = (acceleration(end, gal=gal) for end in each.pga_interval_m_s2)
-        text = noted("{who}: PGA {pga} ({low} to {high}, {level:g} %) at {at}; JMA intensity {intensity}.")
-        yield tell(text, low=low, high=high, level=100.0 * level, **values)
+        text = noted("{who}: PGA {pga} ({low} to {high}, {level:g%}) at {at}; JMA intensity {intensity}.")
+        yield tell(text, low=low, high=high, level=level, **values)
 
 
 def _range(interval: Interval, unit: float) -> str:

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from seisblock.present.directions import moved as moved_to
+from seisblock.present.directions import side
 from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
@@ -59,7 +61,7 @@ def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None)
             body=tell(response.body.name),
             threshold=f"{acceleration(outcome.rocking_threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}",
         )
-        yield table(title, [tell("chain"), *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown]))
+        yield table(title, [tell("chain"), *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown], response.motion.name))
     for sentence in sentences(response, tenon):
         yield line(sentence)
     yield line()
@@ -71,9 +73,9 @@ def _shown(chains: Sequence[Chain]) -> list[int]:
     return sorted(by_size[:MOST_SHOWN])
 
 
-def _cells(chains: Sequence[Chain]) -> Iterator[list[str]]:
+def _cells(chains: Sequence[Chain], name: str) -> Iterator[list[str]]:
     """Yield the rows of the table."""
-    yield [tell("direction"), *(chain.direction for chain in chains)]
+    yield [tell("direction"), *(side(name, chain.direction) for chain in chains)]
     for heading, key in _ROWS:
         yield [tell(heading), *(seconds(getattr(chain, key)) for chain in chains)]
     yield [tell("largest tilt (deg)"), *(f"{math.degrees(chain.max_rotation_rad):.2f}" for chain in chains)]
@@ -107,14 +109,14 @@ def verdict(response: Response[JumpOutcome]) -> str:
         text = noted("{name}: jumped, and in the end stands {moved} from where it stood.")
     else:
         text = noted("{name}: jumped {jumps} times in {count} chains of motion, and in the end stands {moved} from where it stood.")
-    moved = _signed(outcome.final_displacement_m)
+    moved = _moved(outcome.final_displacement_m, name)
     told = tell(text, name=name, outcome=tell(outcome.outcome), moved=moved, count=len(outcome.chains), jumps=jumps)
     return strung([told, *_held(response)])
 
 
-def _signed(length: float) -> str:
-    """Return a displacement in mm, + in the component's positive direction."""
-    return f"{round(length * 1e3) + 0:+d} mm"
+def _moved(length: float, name: str) -> str:
+    """Return a displacement in mm, and its direction."""
+    return moved_to(f"{round(abs(length) * 1e3)} mm", name, length)
 
 
 def _held(response: Response[JumpOutcome]) -> Iterator[str]:
@@ -135,11 +137,10 @@ def sentences(response: Response[JumpOutcome], tenon: float | None = None) -> It
     for number, chain in ((i + 1, chains[i]) for i in shown):
         if chain.outcome == JUMPED and chain.total_displacement_m is not None:
             yield tell(
-                "Chain {number}: jumped {moved} along {name}, after {rocking:.3f} s of rocking; the ground stayed above the threshold for "
+                "Chain {number}: jumped {moved}, after {rocking:.3f} s of rocking; the ground stayed above the threshold for "
                 "{above:.3f} s.",
                 number=number,
-                moved=_signed(chain.total_displacement_m),
-                name=name,
+                moved=_moved(chain.total_displacement_m, name),
                 rocking=chain.rocking_duration_s,
                 above=chain.time_above_threshold_s,
             )

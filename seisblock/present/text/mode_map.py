@@ -10,7 +10,7 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.present.files import write_table
-from seisblock.present.text.respond import percent
+from seisblock.present.text.respond import roughly
 from seisblock.present.text.spectrum import thinned
 from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
@@ -57,7 +57,7 @@ def _drawn(motion: Motion, found: ModeMap, worn: str) -> Iterator[Any]:
 def verdict(motion: Motion, found: ModeMap) -> str:
     """Return what happens to how many of the bodies."""
     shares = [(mode, found.share(mode)) for mode in GOVERNING]
-    parts = [tell(SHARES[mode], share=percent(share)) for mode, share in shares if share > 0.0]
+    parts = [tell(SHARES[mode], share=roughly(share)) for mode, share in shares if share > 0.0]
     return tell("{name}: of {all} bodies {parts}.", name=motion.name or "x", all=found.governing.size, parts=listed(parts))
 
 

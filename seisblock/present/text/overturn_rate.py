@@ -13,7 +13,7 @@ from seisblock.present.text.tables import NOTHING, acceleration, acceleration_un
 from seisblock.records import Record
 from seisblock.studies.cemetery.judgement import CemeteryRate
 from seisblock.studies.cemetery.rate import CurvePoint
-from seisblock.words import noted, tell
+from seisblock.words import noted, percent, tell
 
 CAPTION = noted(
     "least H/B: of a stone that falls; %: what so few stones leave open of the rate (Clopper-Pearson), not what shaking and criterion do"
@@ -92,7 +92,7 @@ def half_falls(cemetery: str, curve: Sequence[CurvePoint], *, gal: bool) -> str:
 def _rates(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence: float) -> Any:
     """Return the table of rates, one row per shaking."""
     unit = acceleration_unit(gal=gal)
-    head = ("", f"PGA ({unit})", "f (Hz)", tell("least H/B"), tell("fallen"), tell("rate"), f"{100 * confidence:g} %")
+    head = ("", f"PGA ({unit})", "f (Hz)", tell("least H/B"), tell("fallen"), tell("rate"), percent(confidence, "g"))
     rows = [
         (
             _name(each),

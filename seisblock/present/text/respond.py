@@ -8,12 +8,13 @@ from typing import Any
 
 from rich.text import Text
 
+from seisblock.present.directions import moved, side
 from seisblock.present.text.tables import answered, line, number, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.probability import Probability
 from seisblock.units import GAL
-from seisblock.words import listed, noted, tell
+from seisblock.words import listed, noted, percent, tell
 
 Responds = Sequence[Response[RespondOutcome]]
 
@@ -46,12 +47,12 @@ def _happened(response: Response[RespondOutcome], extra: Mapping[str, Any]) -> I
 
 def verdict(response: Response[RespondOutcome]) -> str:
     """Return what happened, in words."""
-    outcome, name = response.outcome, response.motion.name or "x"
+    outcome, name = response.outcome, response.motion.name
     if outcome.overturned:
         at = outcome.overturning_time_s
         assert at is not None
         slid = tell(", having slid {path}", path=length(outcome.slip_path_m)) if outcome.slip_path_m >= STIRS_M else ""
-        towards = side(outcome.overturned_towards, name)
+        towards = side(name, outcome.overturned_towards)
         if at > response.motion.time[-1]:
             words = tell("overturns to {towards} at {time:.2f} s, after the record{slid}", towards=towards, time=at, slid=slid)
         else:
@@ -61,16 +62,16 @@ def verdict(response: Response[RespondOutcome]) -> str:
     else:
         words = listed(_stays(response))
     flag = tell("; a change of the input by a millionth changes this") if outcome.sensitive else ""
-    return tell("{name}: {words}{flag}.", name=name, words=words, flag=flag)
+    return tell("{name}: {words}{flag}.", name=name or "x", words=words, flag=flag)
 
 
 def _stays(response: Response[RespondOutcome]) -> Iterator[str]:
     """Yield what a body did that has moved and not fallen."""
-    outcome, name = response.outcome, response.motion.name or "x"
+    outcome, name = response.outcome, response.motion.name
     time = outcome.time_in_mode_s
     rocks = bool(time["rock"] or time["slide_rock"])
     if rocks and outcome.max_rotation_ratio >= 0.01:
-        yield tell("rocks to {share} of the way to alpha", share=percent(outcome.max_rotation_ratio))
+        yield tell("rocks to {share} of the way to alpha", share=roughly(outcome.max_rotation_ratio))
     elif rocks:
         yield tell("rocks, less than 1 % of the way to alpha")
     if outcome.slip_path_m >= STIRS_M:
@@ -85,19 +86,9 @@ def _stays(response: Response[RespondOutcome]) -> Iterator[str]:
     if not outcome.settled:
         yield tell("moves on")
     elif abs(end) >= STIRS_M:
-        yield tell("comes to rest {path} to {towards}", path=length(abs(end)), towards=side("+x" if end > 0.0 else "-x", name))
+        yield tell("comes to rest {moved}", moved=moved(length(abs(end)), name, end))
     else:
         yield tell("comes to rest where it stood")
-
-
-def side(towards: str | None, name: str) -> str:
-    """Return a direction as +EW or -EW, or as an azimuth."""
-    sign = 1 if towards == "+x" else -1
-    try:
-        azimuth = float(name)
-    except ValueError:
-        return f"{'+' if sign > 0 else '-'}{name}"
-    return tell("azimuth {degrees:g}", degrees=(azimuth if sign > 0 else azimuth + 180.0) % 360.0)
 
 
 def length(value_m: float) -> str:
@@ -122,15 +113,15 @@ def share(found: Probability) -> str:
             one if fallen == 1 else more,
             fallen=fallen,
             runs=found.runs,
-            share=percent(found.overturned),
-            low=percent(low),
-            high=percent(high),
+            share=roughly(found.overturned),
+            low=roughly(low),
+            high=roughly(high),
         )
     far = length(found.moved_m)
     if found.moved in (0.0, 1.0):
         moves = tell("all move more than {far}", far=far) if found.moved else tell("none moves more than {far}", far=far)
     else:
-        moves = tell("{share} move more than {far}", share=percent(found.moved), far=far)
+        moves = tell("{share} move more than {far}", share=roughly(found.moved), far=far)
     middle = ""
     if found.moved > 0.0 and found.runs - fallen >= FEWEST:
         least, most = (signed(found.final_displacement_m[name]) for name in ("q05", "q95"))
@@ -141,13 +132,13 @@ def share(found: Probability) -> str:
     return tell("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
 
 
-def percent(share: float) -> str:
+def roughly(share: float) -> str:
     """Return a share in per cent; neither 0 % nor 100 % where it is not quite."""
     if 0.0 < share < 0.01:
         return tell("below 1 %")
     if 0.99 < share < 1.0:
         return tell("over 99 %")
-    return f"{100.0 * share:.0f} %"
+    return percent(share)
 
 
 def signed(value_m: float) -> str:
@@ -170,11 +161,11 @@ def varied(found: Probability) -> str:
         "of this model's scatter alone: size ±{size}, edges worn by 0 to {inset} of the width, friction ±{mu}, restitution up to "
         "+{restitution:g}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees; on shaking tables 3 % of two granite rocks fell where "
         "none of 20 versions did, and 2 % stood where all fell",
-        size=percent(by.size),
-        inset=percent(by.inset),
-        mu=percent(by.mu),
+        size=roughly(by.size),
+        inset=roughly(by.inset),
+        mu=roughly(by.mu),
         restitution=by.restitution,
-        amplitude=percent(by.amplitude),
+        amplitude=roughly(by.amplitude),
         azimuth=by.azimuth_deg,
     )
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.library import edges
+from seisblock.present.directions import side
 from seisblock.present.text.agreement import agreement_line, chance_lines
 from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, number, seconds, table
 from seisblock.results import Response
@@ -60,7 +61,7 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
         (tell("  over alpha"), [number(o.max_rotation_ratio) for o in outcomes]),
         (tell("  at (s)"), [seconds(o.max_rotation_s) for o in outcomes]),
         (tell("impacts"), [o.impacts for o in outcomes]),
-        (tell("overturned"), [tell("to {side}", side=o.overturned_towards) if o.overturned else tell("no") for o in outcomes]),
+        (tell("overturned"), [_fell(response) for response in responses]),
         (tell("  alpha passed (s)"), [seconds(o.alpha_passed_s) for o in outcomes]),
         (tell("  lies down (s)"), [seconds(o.overturning_time_s) for o in outcomes]),
         (tell("friction needed"), [number(o.max_friction_demand) for o in outcomes]),
@@ -73,7 +74,7 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
 def first_line(response: Response[RockOutcome], mu: float | None = None) -> str:
     """Return the verdict, and that it takes more friction than there is where that is so."""
     outcome, name = response.outcome, response.motion.name or "x"
-    told = tell("{name}: {verdict}.", name=name, verdict=verdict(outcome))
+    told = tell("{name}: {verdict}.", name=name, verdict=verdict(outcome, response.motion.name))
     if mu is None or friction_suffices(outcome, mu, response.options["gravity_m_s2"]):
         return told
     ratio = outcome.threshold_m_s2 / response.options["gravity_m_s2"]
@@ -97,23 +98,30 @@ def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iter
         yield from (tell("{name}: {text}", name=name, text=told) for told in chance_lines(extra["perturbation"]))
 
 
-def verdict(outcome: RockOutcome) -> str:
-    """Return what became of a block, and whether a small change would change it."""
+def _fell(response: Response[RockOutcome]) -> str:
+    """Return whether a block overturned, and where to."""
+    outcome = response.outcome
+    return tell("to {side}", side=side(response.motion.name, outcome.overturned_towards)) if outcome.overturned else tell("no")
+
+
+def verdict(outcome: RockOutcome, direction: str) -> str:
+    """Return what became of a block under a motion in a direction, and whether a small change would change it."""
+    fell = side(direction, outcome.overturned_towards)
     if not outcome.rocks:
         told = tell("stands still")
     elif not outcome.overturned:
         told = tell("rocks and stands: {way}", way=way_to_alpha(outcome.max_rotation_ratio))
     elif outcome.decided_after_record:
-        told = tell("overturns to {side}, after the record's end", side=outcome.overturned_towards)
+        told = tell("overturns to {side}, after the record's end", side=fell)
     else:
-        told = tell("overturns to {side}", side=outcome.overturned_towards)
+        told = tell("overturns to {side}", side=fell)
     return told + (tell("; a change of the record by less than 2 % changes this") if outcome.verdict_flips_within_2_percent else "")
 
 
 def way_to_alpha(ratio: float) -> str:
     """Return how far a block leaned, in words."""
     if ratio < 0.01:
-        return tell("it hardly moves, less than 1% of the way to alpha")
+        return tell("it hardly moves, less than 1 % of the way to alpha")
     return tell("{share:.0%} of the way to alpha", share=ratio)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from seisblock.present.directions import moved
 from seisblock.present.text.tables import NOTHING, answered, fixed, line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
@@ -65,18 +66,16 @@ def sentence(response: Response[SlideOutcome]) -> str:
     if outcome.final_slip_m is None:
         told = tell("{name}: slides up to {most} mm, over a path of {path} mm, and does not come to rest", **words)
     elif outcome.final_slip_m != outcome.residual_slip_m:
-        final = millimetres(outcome.final_slip_m)
+        final = moved(f"{millimetres(abs(outcome.final_slip_m))} mm", name, outcome.final_slip_m)
         told = tell(
-            "{name}: slides up to {most} mm, over a path of {path} mm, while the record lasts, and comes to rest {final} mm from where "
-            "it stood",
+            "{name}: slides up to {most} mm, over a path of {path} mm, while the record lasts, and comes to rest {final} from where it "
+            "stood",
             final=final,
             **words,
         )
     else:
-        final = millimetres(outcome.final_slip_m)
-        told = tell(
-            "{name}: slides up to {most} mm, and ends {final} mm from where it stood, after a path of {path} mm", final=final, **words
-        )
+        final = moved(f"{millimetres(abs(outcome.final_slip_m))} mm", name, outcome.final_slip_m)
+        told = tell("{name}: slides up to {most} mm, and ends {final} from where it stood, after a path of {path} mm", final=final, **words)
     if outcome.fell_off_slope:
         told += tell(", past the foot of the slope")
     if outcome.lifted_off:

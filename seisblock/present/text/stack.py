@@ -7,8 +7,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.bodies.pile.stone import GROUND
+from seisblock.present.directions import towards
 from seisblock.present.text.agreement import agreement_line
 from seisblock.present.text.tables import answered, fixed, line, seconds, table
+from seisblock.records import Motion
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
 from seisblock.studies.agreement import Agreement
@@ -53,9 +55,9 @@ def _row(stone: StoneFate) -> list[str]:
     ]
 
 
-def _fall(stone: StoneFate) -> str:
+def _fall(stone: StoneFate, motion: Motion) -> str:
     """Return in words where a fallen stone came to lie."""
-    where = {"stone": tell(stone.name), "side": towards(stone.fell_towards_deg or 0.0)}
+    where = {"stone": tell(stone.name), "side": towards(stone.fell_towards_deg or 0.0, motion)}
     if stone.fell_onto is None:
         return tell("{stone} fell to {side}, and is still in the air.", **where)
     if stone.fell_onto == GROUND:
@@ -63,18 +65,12 @@ def _fall(stone: StoneFate) -> str:
     return tell("{stone} fell to {side}, onto {other}.", **where, other=tell(stone.fell_onto))
 
 
-def towards(degrees: float) -> str:
-    """Return a direction in the plane as the nearest of +x, +x+y, +y ..."""
-    names = ("+x", "+x+y", "+y", "-x+y", "-x", "-x-y", "-y", "+x-y")
-    return names[round(degrees / 45.0) % 8]
-
-
 def verdict(response: Response[StackOutcome]) -> str:
     """Return what happened in words."""
     outcome = response.outcome
     if outcome.overturned_any and outcome.time_s is not None:
         falls = sorted((stone for stone in outcome.stones if stone.state == "fallen"), key=lambda stone: stone.fell_at_s or 0.0)
-        return strung(map(_fall, falls))
+        return strung(_fall(stone, response.motion) for stone in falls)
     if moved := [tell(stone.name) for stone in outcome.stones if stone.state != "standing"]:
         return tell("Every stone stands; moved: {stones}.", stones=moved)
     return tell("Every stone stands where it was.")

@@ -28,7 +28,7 @@ function drawScene(place) {
   // the x axis on the ground, by which one knows where one stands
   pen.strokeStyle = SOFT; pen.fillStyle = SOFT; pen.lineWidth = 1; pen.beginPath();
   const [x0, y0] = put(moved), [x1, y1] = put(plus(moved, [scene.half, 0, 0]));
-  pen.moveTo(x0, y0); pen.lineTo(x1, y1); pen.stroke(); pen.fillText("+x", x1 + 4, y1 + 4);
+  pen.moveTo(x0, y0); pen.lineTo(x1, y1); pen.stroke(); pen.fillText(film.along, x1 + 4, y1 + 4);
   scene.springs.forEach(spring => coil(pen, put, plus(spring.foot, moved), Math.min(vector(spring.top)[2], spring.free), spring.free * scale));
   const corner = spring => {
     const top = vector(spring.top), [x, y] = put(plus(top, moved));

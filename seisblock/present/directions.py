@@ -1,0 +1,100 @@
+"""One way to name a direction, in texts, figures, films and pages: +EW and -EW along a component, else an azimuth."""
+
+from __future__ import annotations
+
+import math
+
+from seisblock.records import Motion
+from seisblock.words import noted, tell
+
+PHASES = {
+    "rocks to +x": (noted("rocks to {side}"), 1),
+    "rocks to -x": (noted("rocks to {side}"), -1),
+    "beyond +alpha": (noted("beyond alpha to {side}"), 1),
+    "beyond -alpha": (noted("beyond alpha to {side}"), -1),
+    "slip forward": (noted("slides to {side}"), 1),
+    "slip backward": (noted("slides to {side}"), -1),
+}
+"""Phases that have a direction: how they are told, and which side it is."""
+
+EIGHTH = 45.0
+"""Degrees to which a direction in the plane is told where it is no azimuth."""
+
+
+def side(name: str, sign: float | str | None) -> str:
+    """Return a direction: +EW or -EW of a component, the azimuth of an azimuth, +x or -x of what has no name.
+
+    Parameters
+    ----------
+    name : str
+        Of the motion: which direction of the record +x is.
+    sign : float or str
+        Its sign decides; or ``+x`` or ``-x``, ``+`` or ``-``, as in a document.
+
+    Examples
+    --------
+    >>> side("EW", -0.2), side("37", "-x"), side("", 1.0)
+    ('-EW', 'azimuth 217', '+x')
+    """
+    ahead = sign.startswith("+") if isinstance(sign, str) else sign is not None and sign > 0.0
+    try:
+        azimuth = float(name)
+    except ValueError:
+        return f"{'+' if ahead else '-'}{name or 'x'}"
+    return tell("azimuth {degrees:g}", degrees=(azimuth + (0.0 if ahead else 180.0)) % 360.0)
+
+
+def moved(length: str, name: str, sign: float) -> str:
+    """Return how far and where to, as in ``448 mm to -NS``; a length that is written as nothing has no direction.
+
+    Examples
+    --------
+    >>> moved("448 mm", "NS", -1.0), moved("0.0 mm", "NS", -1e-9)
+    ('448 mm to -NS', '0.0 mm')
+    """
+    nothing = not any(digit in length for digit in "123456789")
+    return length if nothing else tell("{path} to {towards}", path=length, towards=side(name, sign))
+
+
+def towards(degrees: float, motion: Motion) -> str:
+    """Return a direction in the plane: an azimuth where +x is one, else the nearest of eight along the components, as in -NS+EW.
+
+    Parameters
+    ----------
+    degrees : float
+        From +x, counter-clockwise seen from above.
+    motion : Motion
+        Across +x lies a component of its record, or +y where none is known to.
+    """
+    try:
+        azimuth = float(motion.name)
+    except ValueError:
+        eighth = math.radians(EIGHTH * round(degrees / EIGHTH))
+        along, (across, turn) = round(math.cos(eighth), 1), _across(motion)
+        aside = turn * round(math.sin(eighth), 1)
+        return "".join(side(name, part) for name, part in ((motion.name, along), (across, aside)) if part)
+    return side(str(round((azimuth - degrees) % 360.0) % 360), 1.0)
+
+
+def phase(name: str, direction: str) -> str:
+    """Return what a phase of a response to a motion in a direction is called.
+
+    Examples
+    --------
+    >>> phase("rocks to -x", "EW"), phase("rest", "EW")
+    ('rocks to -EW', 'rest')
+    """
+    if name not in PHASES:
+        return tell(name)
+    text, sign = PHASES[name]
+    return tell(text, side=side(direction, sign))
+
+
+def _across(motion: Motion) -> tuple[str, float]:
+    """Return the component that lies across +x, and whether +y, 90 degrees counter-clockwise of +x, is its positive side."""
+    parts = {part.code: part.azimuth_deg for part in motion.record.horizontals} if motion.record is not None else {}
+    own = parts.pop(motion.name, None)
+    for code, azimuth in parts.items():
+        if own is not None and azimuth is not None:
+            return code, round(math.sin(math.radians(own - azimuth)))
+    return "y", 1.0

@@ -1,0 +1,72 @@
+"""One way to name a direction: whatever shows a response says +EW or -EW, or an azimuth, and never +x of what has a name."""
+
+import re
+
+import numpy as np
+import pytest
+from matplotlib.text import Text
+
+from seisblock.present.directions import moved, phase, side, towards
+from seisblock.present.faces import FACES, figure_of, verdict_of
+from seisblock.present.films.animation import REAL_TIME
+from seisblock.present.films.jump import jump_film
+from seisblock.present.films.page import film_page
+from seisblock.present.films.respond import respond_film
+from seisblock.present.films.rock import rocking_film
+from seisblock.present.films.slide import slide_film
+from seisblock.present.films.stack import stack_film
+from seisblock.present.films.uplift import uplift_film
+from seisblock.present.pages.report_words import sentences, verdict
+from seisblock.records import Component, Motion, Record, motion_of
+from seisblock.studies.assessment import Effect
+from seisblock.words import speaking
+from tests.present.long_record import response
+
+FILMS = {
+    "respond": respond_film, "rock": rocking_film, "slide": slide_film, "jump": jump_film, "uplift": uplift_film, "stack": stack_film,
+}  # fmt: skip
+
+NAMELESS = re.compile(r"(?<![\w(（,=+-])[+-]x(?! = )|forward|backward|\+alpha|-alpha")
+"""A side of a body that says no direction of the record; ``+x = NS``, and the corners ``(+x,-y)`` it explains, are none."""
+
+
+@pytest.mark.parametrize("lang", ["en", "ja"])
+@pytest.mark.parametrize("model", FACES)
+def test_a_model_names_directions_after_the_record(model, lang):
+    """Verdict, figure, film and report of each model; a document keeps its own words, which are data."""
+    found = response(model)
+    with speaking(lang):
+        figure = figure_of([found])
+        film = FILMS[model](found, np.linspace(52.0, 70.0, 50))
+        page = film_page(film, REAL_TIME)
+        told = [verdict_of(found), *(text.get_text() for text in figure.findobj(Text)), *(film.called(p.name) for p in film.seen)]
+        told += [film.title, film.note, film.heading, page.split("application/json")[0]]
+        if model in ("rock", "slide", "jump", "uplift"):
+            effect = Effect(model, found, None, None)
+            told += [verdict(effect), *sentences(effect)]
+    assert not [text for text in told if NAMELESS.search(text)]
+    if model in ("rock", "slide", "jump"):
+        assert re.search(r"[+-]NS\b", " ".join(told))
+
+
+def test_a_side_is_a_component_or_an_azimuth():
+    """The sign, or a document's word for it; an azimuth is turned round; nothing has no side."""
+    assert [side("EW", sign) for sign in (1.0, -1.0, "+x", "-x", "+", "-")] == ["+EW", "-EW"] * 3
+    assert [side("37", sign) for sign in (1, -1)] == ["azimuth 37", "azimuth 217"]
+    assert [side("", sign) for sign in (1, -1)] == ["+x", "-x"]
+    assert moved("448 mm", "NS", -0.448) == "448 mm to -NS"
+    assert moved("0.0 mm", "NS", -1e-6) == "0.0 mm"
+    with speaking("ja"):
+        assert moved("448 mm", "NS", -0.448) == "-NS へ 448 mm"
+        assert (phase("slip backward", "EW"), phase("rocks to +x", "127")) == ("-EW へすべる", "方位 127 へ傾斜")
+
+
+def test_a_stone_falls_towards_a_component_or_an_azimuth():
+    """+y is 90 degrees counter-clockwise of +x: west of north, north of east; the azimuth runs clockwise."""
+    row = np.array([0.0, 1.0])
+    record = Record((Component("NS", row, 0.0), Component("EW", row, 90.0), Component("UD", row)), 0.01)
+    north, east = (motion_of(record, name) for name in ("NS", "EW"))
+    assert [towards(angle, north) for angle in (0.0, 50.0, 90.0, 180.0, -90.0)] == ["+NS", "+NS-EW", "-EW", "-NS", "+EW"]
+    assert [towards(angle, east) for angle in (0.0, 90.0, -135.0)] == ["+EW", "+NS", "-EW-NS"]
+    assert towards(30.0, motion_of(record, "37")) == "azimuth 7"
+    assert towards(-45.0, Motion.from_arrays(row, 0.01)) == "+x-y"
