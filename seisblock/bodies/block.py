@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeVar
 
 from seisblock import checks
 from seisblock.bodies.inset import Inset
@@ -11,11 +12,17 @@ from seisblock.errors import BodyError
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted, said
 
+if TYPE_CHECKING:
+    from seisblock.typing import FloatArray
+
 DENSITY = 2650.0
 """Density of granite, kg/m^3; a motion of a rigid block does not depend on it."""
 
 RIGHT, LEFT = range(2)
 """The lower corners: that towards +x, about which a block turns that leans to +x, and the other one."""
+
+Length = TypeVar("Length", float, "FloatArray")
+"""A number, or one for each of many blocks."""
 
 _POSITIVE = {
     "width": (said("width"), "m"),
@@ -120,7 +127,7 @@ class Block:
         """Squared radius of gyration about the centre of gravity, m^2."""
         if self.centroid_inertia is not None:
             return self.centroid_inertia / self.total_mass
-        return (self.width**2 + self.height**2) / 12
+        return (self.width * self.width + self.height * self.height) / 12
 
     @property
     def arms(self) -> tuple[float, float]:
@@ -153,19 +160,16 @@ class Block:
     @property
     def corner_inertias(self) -> tuple[float, float]:
         """Moments of inertia I_O about the right and the left lower corner, kg m^2."""
-        right, left = (self.total_mass * (self.gyration_squared + radius**2) for radius in self.radii)
+        right, left = (self.total_mass * (self.gyration_squared + radius * radius) for radius in self.radii)
         return right, left
 
     @property
     def restitutions(self) -> tuple[float, float]:
         """Angular velocity after an impact over that before, onto the right and onto the left corner.
 
-        Angular momentum about the corner that is struck is kept ([Housner1963]_; derived here); 1 - 1.5 sin^2(alpha) for a rectangle.
-        Zero where the block is so wide that it would not turn on.
+        As of :func:`restitution_onto`; 1 - 1.5 sin^2(alpha) for a rectangle ([Housner1963]_; derived here).
         """
-        right, left = self.arms
-        kept = self.gyration_squared + self.centre**2 - right * left
-        onto_right, onto_left = (max(kept, 0.0) / (self.gyration_squared + radius**2) for radius in self.radii)
+        onto_right, onto_left = (restitution_onto(radius, self.gyration_squared, self.centre, self.arms) for radius in self.radii)
         return onto_right, onto_left
 
     @property
@@ -176,7 +180,7 @@ class Block:
     @property
     def lever_ratios(self) -> tuple[float, float]:
         """Mass times R over I_O, at the right and the left corner, 1/m: p^2 = g m R/I_O ([Furukawa2009]_ eq. (3))."""
-        right, left = (radius / (self.gyration_squared + radius**2) for radius in self.radii)
+        right, left = (lever_ratio(radius, self.gyration_squared) for radius in self.radii)
         return right, left
 
     def frequency_parameter(self, gravity: float = STANDARD_GRAVITY) -> float:
@@ -197,6 +201,31 @@ class Block:
     def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the horizontal ground acceleration above which it rocks, g b/h, m/s^2 ([Furukawa2009]_ eq. (2))."""
         return gravity * min(self.arms) / self.centre
+
+
+def lever_ratio(radius: Length, gyration_squared: Length) -> Length:
+    """Return mass times R over I_O of a corner, 1/m ([Furukawa2009]_ eq. (3)), from R, m, and the squared radius of gyration, m^2."""
+    return radius / (gyration_squared + radius * radius)
+
+
+def restitution_onto(radius: Length, gyration_squared: Length, centre: Length, arms: tuple[Length, Length]) -> Length:
+    """Return angular velocity after an impact onto a corner over that before.
+
+    Angular momentum about the corner that is struck is kept ([Housner1963]_; derived here). Zero where the block is so wide that it would
+    not turn on.
+
+    Parameters
+    ----------
+    radius : float or array, m
+        R of the corner that is struck.
+    gyration_squared, centre : float or array, m^2 and m
+        About the centre of gravity, and its height.
+    arms : two floats or arrays, m
+        Horizontal distances from both corners to it.
+    """
+    right, left = arms
+    kept = gyration_squared + centre * centre - right * left
+    return 0.5 * (kept + abs(kept)) / (gyration_squared + radius * radius)
 
 
 Restitution = float | tuple[float, float] | None
@@ -255,4 +284,4 @@ def resized(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Blo
     )
     if block.centroid_inertia is None:
         return bare
-    return replace(bare, centroid_inertia=bare.total_mass * block.gyration_squared * size**2)
+    return replace(bare, centroid_inertia=bare.total_mass * (block.gyration_squared * (size * size)))

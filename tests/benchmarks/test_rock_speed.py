@@ -64,3 +64,11 @@ def test_python_before_the_first_sample(benchmark):
     verdict = benchmark(rock_verdict, Block(0.3, 1.0), still)
     assert verdict.max_rotation_ratio == 0.0
     bound(benchmark, 100e-6)
+
+
+def test_python_around_a_run_of_many(benchmark):
+    """10 000 blocks, made, followed through two samples and judged: at most 5 microseconds each (40 before)."""
+    still = Motion.from_arrays(np.zeros(2), 0.01)
+    found = benchmark(rocking_spectrum, default_sizes(100), default_slendernesses(100), still)
+    assert not found.overturned.any()
+    bound(benchmark, 5e-6 * 10_000)

@@ -13,7 +13,7 @@ from seisblock.errors import BodyError, ParameterError, SolverError
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.solvers.rock import model as rock_model
-from seisblock.solvers.rock.aftermath import fate, sides
+from seisblock.solvers.rock.aftermath import fate
 from seisblock.solvers.rock.rocker import rocker
 from seisblock.units import STANDARD_GRAVITY as G
 
@@ -139,7 +139,7 @@ def test_block_that_never_loses_energy_is_told_from_one_that_falls():
 def test_fate_agrees_with_integrating_on(theta, omega, linear):
     """Verdict, times and largest lean of free rocking are those of a long still record, starting on either side of alpha."""
     block = from_slenderness(0.25, 2.14)
-    found = fate(sides(rocker(block, Motion.from_arrays(np.zeros(2), 0.01), restitution=0.95, linear=linear, gravity=G)), theta, omega)
+    found = fate(rocker(block, Motion.from_arrays(np.zeros(2), 0.01), restitution=0.95, linear=linear, gravity=G), theta, omega)
     long = solve_rock(block, Motion.from_arrays(np.zeros(4000), 0.005), restitution=0.95, linear=linear, initial=(theta, omega)).outcome
     assert found.overturns == long.overturned
     assert max(found.largest) == pytest.approx(long.max_rotation_rad, rel=1e-9)

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import gathered
 from seisblock.errors import ComponentError, KindError, ParameterError
 from seisblock.records import Component, Motion, Record, motion_of
 from seisblock.solvers.rock import rock_verdict, rock_verdicts, rocker, solve_rock
+from seisblock.solvers.rock.rocker import rockers
 from seisblock.studies.rocking.verdicts import all_verdicts, overturns_at
 
 RNG = np.random.default_rng(5)
@@ -39,6 +41,18 @@ def test_many_runs_are_one_run_after_another(options):
         found = rock_verdict(one.block, MOTION, scale=scale, **options)
         assert (found.overturned, found.max_rotation_ratio) == (overturned, ratio)
     np.testing.assert_array_equal(scaled.overturned, overturns_at(one, MOTION, SCALES))
+
+
+def test_arrays_of_blocks_are_the_blocks():
+    """Blocks that were never objects have the verdicts of those that were, on a record that ends while some of them still rock."""
+    motion = motion_of(Record(tuple(Component(c.code, c.acceleration[:530]) for c in RECORD.components), 0.01), "NS")
+    arrays = rockers(gathered(BLOCKS), motion, vertical=True)
+    found = rock_verdicts(arrays, motion, arrays.gains(1.2))
+    scaled = Motion(1.2 * motion.acceleration, 0.01)
+    alone = [solve_rock(block, scaled, vertical=True).outcome for block in BLOCKS]
+    assert any(outcome.decided_after_record for outcome in alone)
+    assert found.overturned.tolist() == [outcome.overturned for outcome in alone]
+    np.testing.assert_allclose(found.max_rotation_ratio, [outcome.max_rotation_ratio for outcome in alone], rtol=1e-9)
 
 
 def test_runs_on_all_cores_keep_their_order():

@@ -31,7 +31,7 @@ import numpy as np
 from seisblock._jit import kernel
 from seisblock.dynamics import Model
 from seisblock.dynamics.contract import CONSTANT, RESET, SERIES, SKIP
-from seisblock.solvers.rock.rocker import Rocker
+from seisblock.solvers.rock.rocker import Rocker, Rockers
 from seisblock.typing import FloatArray
 from seisblock.words import noted
 
@@ -61,9 +61,11 @@ MODES = (
 HALF_PI = math.pi / 2
 
 
-def parameters(block: Rocker, dt: float) -> FloatArray:
-    """Return the parameters of the model, in the order of the named integers above."""
-    return np.array([block.gravity, dt, float(block.linear), *block.alphas, *block.holds, *block.levers, *block.onto])
+def parameters(blocks: Rocker | Rockers, dt: float) -> FloatArray:
+    """Return the parameters of the model, in the order of the named integers above: (11,) of one block, (m, 11) of many."""
+    corners = np.concatenate([blocks.alphas, blocks.holds, blocks.levers, blocks.onto], axis=-1)
+    given = np.broadcast_to([blocks.gravity, dt, float(blocks.linear)], (*corners.shape[:-1], 3))
+    return np.concatenate([given, corners], axis=-1)
 
 
 @kernel(SERIES)

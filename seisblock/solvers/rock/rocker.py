@@ -1,16 +1,20 @@
-"""One block as it rocks: corners, restitutions, gravity and the gains of the ground motion, worked out once for any number of runs."""
+"""Blocks as they rock: corners, restitutions, gravity and the gains of the ground motion, worked out once for any number of runs."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TypedDict
+from dataclasses import dataclass, replace
+from typing import TypedDict, Unpack
+
+import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block, Restitution, restitutions
+from seisblock.bodies.blocks import Blocks, each
 from seisblock.errors import ParameterError
-from seisblock.records.given import Factor, check_call, vertical_gain
+from seisblock.records.given import Factor, check_call, check_motion, vertical_gain
 from seisblock.records.motion import Motion
+from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
 
 Pair = tuple[float, float]
@@ -70,6 +74,42 @@ class Rocker:
         return scale, 0.0, scale * self.vertical
 
 
+@dataclass(frozen=True, eq=False)
+class Rockers:
+    """Many blocks that rock under one motion: arrays with a row for each, and a column for its right and one for its left corner.
+
+    Parameters
+    ----------
+    alphas, levers, onto : (m, 2) arrays; rad, 1/m, 1
+        As of a :class:`Rocker`.
+    linear, vertical, gravity : bool, float, float
+        The same for all.
+    """
+
+    alphas: FloatArray
+    levers: FloatArray
+    onto: FloatArray
+    linear: bool
+    vertical: float
+    gravity: float
+
+    def __len__(self) -> int:
+        return self.alphas.shape[0]
+
+    def __getitem__(self, part: slice) -> Rockers:
+        """Return some of them."""
+        return replace(self, alphas=self.alphas[part], levers=self.levers[part], onto=self.onto[part])
+
+    @property
+    def holds(self) -> FloatArray:
+        """Horizontal over vertical acceleration that each corner holds at rest, (m, 2)."""
+        return self.alphas if self.linear else each(math.tan, self.alphas).reshape(-1, 2)
+
+    def gains(self, scale: float = 1.0) -> tuple[float, float, float]:
+        """Return the factors on the motion's rows."""
+        return scale, 0.0, scale * self.vertical
+
+
 def rocker(
     block: Block,
     motion: Motion,
@@ -92,12 +132,7 @@ def rocker(
         As there.
     """
     check_call(block, Block, motion)
-    onto = restitutions(block, restitution)
-    if not all(0.0 <= ratio <= 1.0 for ratio in onto):
-        raise ParameterError(
-            "the restitution, a ratio of angular velocities, must lie in [0, 1], found {found}; leave it out for 1 - 1.5 sin^2(alpha)",
-            found=str(restitution),
-        )
+    onto = _checked(restitutions(block, restitution), restitution)
     return Rocker(
         block,
         block.slendernesses,
@@ -108,3 +143,29 @@ def rocker(
         vertical_gain(motion, vertical),
         checks.gravity(gravity),
     )
+
+
+def rockers(blocks: Blocks, motion: Motion, **options: Unpack[RockOptions]) -> Rockers:
+    """Return many blocks as they rock under a motion; parameters and refusals as of :func:`rocker`."""
+    check_motion(motion)
+    given = options.get("restitution")
+    pair = given if isinstance(given, tuple) or given is None else (given, given)
+    onto = blocks.restitutions if pair is None else np.tile(_checked(pair, given), (len(blocks), 1))
+    return Rockers(
+        blocks.slendernesses,
+        blocks.lever_ratios,
+        onto,
+        options.get("linear", False),
+        vertical_gain(motion, options.get("vertical", False)),
+        checks.gravity(options.get("gravity", STANDARD_GRAVITY)),
+    )
+
+
+def _checked(onto: Pair, given: Restitution) -> Pair:
+    """Return restitutions that are ratios between nothing and all."""
+    if not all(0.0 <= ratio <= 1.0 for ratio in onto):
+        raise ParameterError(
+            "the restitution, a ratio of angular velocities, must lie in [0, 1], found {found}; leave it out for 1 - 1.5 sin^2(alpha)",
+            found=str(given),
+        )
+    return onto

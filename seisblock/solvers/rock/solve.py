@@ -13,7 +13,7 @@ from seisblock.records.given import Factor
 from seisblock.references import papers
 from seisblock.results import Channel, Event, Histories, Response, Status
 from seisblock.solvers.rock import model
-from seisblock.solvers.rock.aftermath import Fate, fate, sides
+from seisblock.solvers.rock.aftermath import Fate, fate
 from seisblock.solvers.rock.outcome import RockOutcome, event_name, gather, phases, warnings
 from seisblock.solvers.rock.rocker import Rocker, rocker
 from seisblock.units import STANDARD_GRAVITY
@@ -129,4 +129,4 @@ def afterwards(trajectory: Trajectory, block: Rocker) -> Fate | None:
     if trajectory.final_mode in (model.REST, model.OVERTURNED):
         return None
     theta, omega = trajectory.final
-    return fate(sides(block), float(theta), float(omega))
+    return fate(block, float(theta), float(omega))

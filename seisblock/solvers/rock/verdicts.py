@@ -10,11 +10,12 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.dynamics import follow, follow_many
+from seisblock.dynamics import follow_many
 from seisblock.records import Motion
 from seisblock.solvers.rock import model
-from seisblock.solvers.rock.aftermath import fate, sides
-from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
+from seisblock.solvers.rock.aftermath import refuse_endless
+from seisblock.solvers.rock.free import ENDLESS, STANDS, rock_on
+from seisblock.solvers.rock.rocker import Rocker, Rockers, RockOptions, rocker
 from seisblock.typing import ArrayLike, BoolArray, FloatArray
 
 
@@ -60,17 +61,16 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options:
     """
     checks.finite("the scale factor", scale)
     one = rocker(block, motion, **options)
-    p = model.parameters(one, motion.dt)
-    end = follow(model.ROCKING, motion, p, (0.0, 0.0), model.REST, gains=one.gains(scale), keep_path=False, keep_events=False)
-    return _verdict(one, end.extrema[model.THETA], end.final_mode, end.final)
+    found = rock_verdicts([one], motion, one.gains(scale))
+    return Verdict(bool(found.overturned[0]), float(found.max_rotation_ratio[0]))
 
 
-def rock_verdicts(rockers: Sequence[Rocker], motion: Motion, gains: ArrayLike) -> Verdicts:
+def rock_verdicts(blocks: Rockers | Sequence[Rocker], motion: Motion, gains: ArrayLike) -> Verdicts:
     """Return the verdicts of several blocks, or of one under several gains, as fast as possible.
 
     Parameters
     ----------
-    rockers : sequence of Rocker
+    blocks : Rockers or sequence of Rocker
         One for each run, or a single one for all.
     motion : Motion
     gains : (3,) or (m, 3) array
@@ -79,25 +79,23 @@ def rock_verdicts(rockers: Sequence[Rocker], motion: Motion, gains: ArrayLike) -
     Returns
     -------
     Verdicts
-        In the order of the runs.
+        In the order of the runs: whatever still rocks at the record's end then rocks on freely.
+
+    Raises
+    ------
+    SolverError
+        If an integration had to be given up, or a restitution of 1 makes a block rock on for ever.
     """
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
-    runs = max(len(rockers), len(rows))
-    p = np.array([model.parameters(each, motion.dt) for each in rockers])
-    ends = follow_many(model.ROCKING, motion, np.broadcast_to(p, (runs, p.shape[1])), np.zeros(2), model.REST, gains=rows)
-    found = [
-        _verdict(rockers[run if len(rockers) > 1 else 0], ends.extrema[run, model.THETA], ends.final_mode[run], ends.final[run])
-        for run in range(runs)
-    ]
-    return Verdicts(np.array([v.overturned for v in found]), np.array([v.max_rotation_ratio for v in found]))
-
-
-def _verdict(block: Rocker, extrema: FloatArray, mode: int, state: FloatArray) -> Verdict:
-    """Return the verdict of a run from its largest leans and its end: whatever still rocks then rocks on freely."""
-    to_right, _, to_left, _ = extrema
-    overturned, late = mode == model.OVERTURNED, (0.0, 0.0)
-    if mode not in (model.REST, model.OVERTURNED):
-        afterwards = fate(sides(block), float(state[model.THETA]), float(state[model.OMEGA]), timed=False)
-        overturned, late = afterwards.overturns, afterwards.largest
-    right, left = block.alphas
-    return Verdict(bool(overturned), float(max(max(to_right, late[0]) / right, max(-to_left, late[1]) / left)))
+    given = [blocks] if isinstance(blocks, Rockers) else blocks
+    p = np.concatenate([np.atleast_2d(model.parameters(some, motion.dt)) for some in given])
+    runs = max(len(p), len(rows))
+    p = np.array(np.broadcast_to(p, (runs, p.shape[1])), order="C")
+    shaken = follow_many(model.ROCKING, motion, p, np.zeros(2), model.REST, gains=rows)
+    ends, late = np.empty(runs, dtype=np.int64), np.zeros((runs, 2))
+    rock_on(p, shaken.final, np.ascontiguousarray(shaken.final_mode), ends, late)
+    refuse_endless(bool((ends == ENDLESS).any()))
+    highest, _, lowest, _ = shaken.extrema[:, model.THETA].T
+    leans = np.maximum(np.column_stack([highest, -lowest]), late)
+    ratios = leans / p[:, [model.ALPHA_RIGHT, model.ALPHA_LEFT]]
+    return Verdicts(ends != STANDS, ratios.max(axis=1))

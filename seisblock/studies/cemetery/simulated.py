@@ -12,10 +12,11 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import rectangles
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH, Cemetery
 from seisblock.bodies.inset import WORN, Inset
 from seisblock.records import Motion
-from seisblock.solvers.rock.rocker import rocker
+from seisblock.solvers.rock.rocker import rockers
 from seisblock.studies.cemetery.limits import require_loose
 from seisblock.studies.cemetery.rate import CurvePoint
 from seisblock.studies.rocking.verdicts import all_verdicts
@@ -102,8 +103,9 @@ def simulated_overturns(
     """
     require_loose(cemetery)
     sizes, index = np.unique(np.column_stack([cemetery.ratios, cemetery.widths(width)]), axis=0, return_inverse=True)
-    stones = [rocker(sao(float(ratio), float(b), inset=inset), motion, gravity=gravity) for ratio, b in sizes]
-    return all_verdicts(stones, motion, stones[0].gains(scale)).overturned[index.ravel()]
+    ratio, b = sizes.T
+    stones = rockers(rectangles(b, b * ratio, inset), motion, gravity=gravity)
+    return all_verdicts(stones, motion, stones.gains(scale)).overturned[index.ravel()]
 
 
 def simulated_curve(

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from typing import Unpack
 
 import numpy as np
 
 from seisblock import checks
-from seisblock.bodies.block import Block, resized
+from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import versions
 from seisblock.bodies.inset import HALF
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
+from seisblock.records.given import check_call
 from seisblock.records.motion import ACROSS
-from seisblock.solvers.rock.rocker import Rocker, RockOptions, rocker
+from seisblock.solvers.rock.rocker import RockOptions, rockers
 from seisblock.studies.intervals import wilson_interval
 from seisblock.studies.rocking.verdicts import all_verdicts
-from seisblock.typing import FloatArray, Progress
+from seisblock.typing import Progress
 from seisblock.words import noted
 
 OWN_SCATTER = noted("this model's own scatter")
@@ -127,24 +128,23 @@ def perturb(
     if runs < 1:
         raise ParameterError("a perturbation needs at least 1 run, found {runs}", runs=runs)
     check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
-    given = rocker(block, motion, **options)
+    check_call(block, Block, motion)
     turns = spread.azimuth_deg if motion.acceleration[ACROSS].any() else 0.0
     dice = np.random.default_rng(checks.seed(seed))
     draws = np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs)])
+    size, slenderness, bounce, amplitude, turn, wear = draws.T
     deepest = max(spread.inset, block.inset / block.width) if spread.inset else None
-
-    def version(draw: FloatArray) -> tuple[Rocker, tuple[float, float, float]]:
-        size, slenderness, bounce, amplitude, turn, wear = (float(value) for value in draw)
-        changed = resized(block, size=1.0 + spread.size * size, slenderness=1.0 + spread.slenderness * slenderness)
-        if deepest is not None:
-            changed = changed.worn(deepest * wear)
-        one = rocker(changed, motion, **options)
-        right, left = (min(e * (1.0 + spread.restitution * bounce), 1.0) for e in one.onto)
-        factor, angle = 1.0 + spread.amplitude * amplitude, math.radians(turns * turn)
-        # +x turned clockwise, seen from above
-        return replace(one, onto=(right, left)), (factor * math.cos(angle), -factor * math.sin(angle), factor * given.vertical)
-
-    versions = [version(draw) for draw in draws]
-    found = all_verdicts([one for one, _ in versions], motion, [gains for _, gains in versions], progress=progress)
+    changed = versions(
+        block,
+        size=1.0 + spread.size * size,
+        slenderness=1.0 + spread.slenderness * slenderness,
+        inset_share=None if deepest is None else deepest * wear,
+    )
+    some = rockers(changed, motion, **options)
+    some = replace(some, onto=np.minimum(some.onto * (1.0 + spread.restitution * bounce[:, None]), 1.0))
+    factor, angle = 1.0 + spread.amplitude * amplitude, np.radians(turns * turn)
+    # +x turned clockwise, seen from above
+    gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * some.vertical])
+    found = all_verdicts(some, motion, gains, progress=progress)
     count = int(found.overturned.sum())
     return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)

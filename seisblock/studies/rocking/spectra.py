@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass
 from typing import Unpack
 
 import numpy as np
 
-from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import rectangles
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.showing import Drawn
-from seisblock.solvers.rock.rocker import RockOptions, rocker
+from seisblock.solvers.rock.rocker import RockOptions, rockers
 from seisblock.studies.rocking.verdicts import all_verdicts
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
@@ -86,11 +85,11 @@ def rocking_spectrum(
     diagonal = _grid(sizes, noted("size 2R"), "m", math.inf)
     alpha = _grid(slendernesses, noted("slenderness"), "rad", math.pi / 2)
     check_budget(noted("cells"), diagonal.size * alpha.size, "SEISBLOCK_CELLS")
-    grid = itertools.product(diagonal.tolist(), alpha.tolist())
-    rockers = [rocker(Block(d * math.sin(a), d * math.cos(a)).worn(inset), motion, **options) for d, a in grid]
-    found = all_verdicts(rockers, motion, rockers[0].gains(), progress=progress)
+    blocks = rectangles(np.outer(diagonal, np.sin(alpha)).ravel(), np.outer(diagonal, np.cos(alpha)).ravel(), inset)
+    some = rockers(blocks, motion, **options)
+    found = all_verdicts(some, motion, some.gains(), progress=progress)
     shape = diagonal.size, alpha.size
-    p = np.sqrt(1.5 * rockers[0].gravity / diagonal)
+    p = np.sqrt(1.5 * some.gravity / diagonal)
     return RockingSpectrum(diagonal, p, alpha, found.max_rotation_ratio.reshape(shape), found.overturned.reshape(shape))
 
 

@@ -2,34 +2,39 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from seisblock.records import Motion
-from seisblock.solvers.rock.rocker import Rocker
+from seisblock.solvers.rock.rocker import Rocker, Rockers
 from seisblock.solvers.rock.verdicts import Verdicts, rock_verdicts
-from seisblock.studies.runs import in_batches
+from seisblock.studies.runs import cores, in_batches
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
 
+SAMPLES_AT_ONCE = 4_000_000
+"""Samples times runs that one thread takes before it says how far it is."""
 
-def all_verdicts(rockers: Sequence[Rocker], motion: Motion, gains: ArrayLike, *, progress: Progress | None = None) -> Verdicts:
+
+def all_verdicts(blocks: Rockers | Sequence[Rocker], motion: Motion, gains: ArrayLike, *, progress: Progress | None = None) -> Verdicts:
     """Return the verdicts of several blocks, or of one under several gains.
 
     Parameters
     ----------
-    rockers, motion, gains
+    blocks, motion, gains
         As for :func:`~seisblock.solvers.rock.verdicts.rock_verdicts`.
     progress : callable
         Told the number of runs done and the number in all.
     """
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
-    runs = max(len(rockers), len(rows))
+    runs = max(len(blocks), len(rows))
+    size = max(1, min(SAMPLES_AT_ONCE // motion.samples, math.ceil(runs / cores())))
 
     def some(part: slice) -> Verdicts:
-        return rock_verdicts(rockers[part] if len(rockers) > 1 else rockers, motion, rows[part] if len(rows) > 1 else rows)
+        return rock_verdicts(blocks[part] if len(blocks) > 1 else blocks, motion, rows[part] if len(rows) > 1 else rows)
 
-    found = list(in_batches(some, runs, progress=progress))
+    found = list(in_batches(some, runs, size=size, progress=progress))
     return Verdicts(*(np.concatenate(column) for column in zip(*((v.overturned, v.max_rotation_ratio) for v in found), strict=True)))
 
 

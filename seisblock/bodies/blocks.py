@@ -1,0 +1,126 @@
+"""Many blocks at once, as arrays: what studies vary, without an object for each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from seisblock.bodies.block import Block, lever_ratio, resized, restitution_onto
+from seisblock.bodies.inset import SHARP, Inset
+from seisblock.typing import ArrayLike, FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """What the motion of each of many rigid blocks depends on; bit by bit what :class:`~seisblock.bodies.block.Block` says of one.
+
+    Parameters
+    ----------
+    right, left : (m,) arrays, m
+        Horizontal distances from the lower corners, worn as they are, to the centre of gravity.
+    centre : (m,) array, m
+        Its height.
+    gyration_squared : (m,) array, m^2
+        Squared radius of gyration about it.
+    """
+
+    right: FloatArray
+    left: FloatArray
+    centre: FloatArray
+    gyration_squared: FloatArray
+
+    def __len__(self) -> int:
+        return self.centre.size
+
+    @property
+    def radii(self) -> FloatArray:
+        """Distances R from the right and the left lower corner to the centre of gravity, (m, 2), m."""
+        return np.column_stack([each(math.hypot, arm, self.centre) for arm in (self.right, self.left)])
+
+    @property
+    def slendernesses(self) -> FloatArray:
+        """Angles alpha between the vertical and R at the right and the left lower corner, (m, 2), rad."""
+        return np.column_stack([each(math.atan2, arm, self.centre) for arm in (self.right, self.left)])
+
+    @property
+    def lever_ratios(self) -> FloatArray:
+        """Mass times R over I_O, at the right and the left corner, (m, 2), 1/m."""
+        return lever_ratio(self.radii, self.gyration_squared[:, None])
+
+    @property
+    def restitutions(self) -> FloatArray:
+        """Angular velocity after an impact over that before, onto the right and onto the left corner, (m, 2)."""
+        arms = self.right[:, None], self.left[:, None]
+        return restitution_onto(self.radii, self.gyration_squared[:, None], self.centre[:, None], arms)
+
+
+def each(function: Callable[..., float], *columns: FloatArray) -> FloatArray:
+    """Return a function of :mod:`math` of every element: numpy's own differ from it in the last digit, from machine to machine."""
+    return np.fromiter(map(function, *(column.ravel().tolist() for column in columns)), np.float64, columns[0].size)
+
+
+def rectangles(widths: ArrayLike, heights: ArrayLike, inset: Inset = SHARP) -> Blocks:
+    """Return homogeneous rectangular blocks of some widths and heights, (m,) each, m, with edges worn alike.
+
+    Raises
+    ------
+    BodyError, ParameterError
+        If a size is not positive, or the inset leaves nothing of a base.
+
+    Examples
+    --------
+    >>> rectangles([0.24, 0.3], [0.8, 0.9]).right.tolist()
+    [0.12, 0.15]
+    """
+    width, height = (np.asarray(values, dtype=np.float64) for values in (widths, heights))
+    depth = inset.length_m + inset.share * width
+    for row in np.flatnonzero(~((width > 0.0) & (height > 0.0) & (depth < width / 2) & np.isfinite(width) & np.isfinite(height)))[:1]:
+        Block(float(width[row]), float(height[row])).worn(inset)
+    half = width / 2 - depth
+    return Blocks(half, half, height / 2, (width * width + height * height) / 12)
+
+
+def versions(block: Block, *, size: ArrayLike, slenderness: ArrayLike, inset_share: ArrayLike | None = None) -> Blocks:
+    """Return a block with its lengths multiplied, as :func:`~seisblock.bodies.block.resized` does, by each of some factors.
+
+    Parameters
+    ----------
+    block : Block
+    size, slenderness : (m,) arrays
+        Factors on all lengths, and on those along the motion.
+    inset_share : (m,) array or None
+        How far the edges are worn, a share of the width per side; as the block's own when left out.
+
+    Raises
+    ------
+    BodyError
+        If nothing is left of a base below the centre of gravity.
+
+    Examples
+    --------
+    >>> versions(Block(0.24, 0.8), size=[1.0, 2.0], slenderness=[1.0, 1.0]).centre.tolist()
+    [0.4, 0.8]
+    """
+    larger, wider = np.broadcast_arrays(*(np.asarray(values, dtype=np.float64) for values in (size, slenderness)))
+    width, height = block.width * larger * wider, block.height * larger
+    offset = block.centroid_offset * larger * wider
+    inset = block.inset * larger * wider if inset_share is None else np.asarray(inset_share, dtype=np.float64) * width
+    centre = height / 2 if block.centroid_height is None else block.centroid_height * larger
+    gyration = (width * width + height * height) / 12
+    if block.centroid_inertia is not None:
+        gyration = block.gyration_squared * (larger * larger)
+    half = width / 2 - inset
+    right, left = half - offset, half + offset
+    for row in np.flatnonzero(~((right > 0.0) & (left > 0.0)))[:1]:
+        replace(resized(block, size=float(larger[row]), slenderness=float(wider[row])), inset=float(inset[row]))
+    return Blocks(right, left, centre, gyration)
+
+
+def gathered(blocks: Sequence[Block]) -> Blocks:
+    """Return some blocks as arrays."""
+    rows = [(*block.arms, block.centre, block.gyration_squared) for block in blocks]
+    right, left, centre, gyration = np.array(rows, dtype=np.float64).reshape(-1, 4).T
+    return Blocks(right, left, centre, gyration)
