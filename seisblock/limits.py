@@ -9,6 +9,9 @@ from seisblock.words import said
 
 MIB = 2**20
 
+AT_A_TIME = 2**18
+"""Samples that are worked on at a time: a day-long record needs no further memory of its size."""
+
 LIMITS = {
     "SEISBLOCK_READ_MIB": 1024,
     "SEISBLOCK_READ_MEMBERS": 20_000,

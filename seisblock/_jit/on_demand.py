@@ -5,10 +5,11 @@ from __future__ import annotations
 import contextlib
 import functools
 import signal
-import threading
 from collections.abc import Callable, Iterator
 from types import FrameType
 from typing import Any
+
+from seisblock.signals import taken
 
 _interrupted = False
 """Whether Ctrl-C was heard while a kernel was made."""
@@ -18,17 +19,14 @@ _interrupted = False
 def _losing_no_interrupt() -> Iterator[None]:
     """Raise KeyboardInterrupt after the block where one came and was lost: a compiler's finalizers swallow what is raised in them."""
     global _interrupted
-    outermost = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    if outermost:
-        signal.signal(signal.SIGINT, _hear)
-    try:
-        yield
-        if _interrupted:
-            raise KeyboardInterrupt
-    finally:
-        if outermost:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
-            _interrupted = False
+    with taken(signal.SIGINT, _hear, usual=signal.default_int_handler) as outermost:
+        try:
+            yield
+            if _interrupted:
+                raise KeyboardInterrupt
+        finally:
+            if outermost:
+                _interrupted = False
 
 
 def _hear(number: int, frame: FrameType | None) -> None:

@@ -10,7 +10,7 @@ import click
 
 from seisblock.bodies.inset import WORN
 from seisblock.cli import offered
-from seisblock.cli.bodies.options import landing_option, side_option
+from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
@@ -41,13 +41,7 @@ FORMS = noted("--cemetery (with --rate, or with a column fallen), --slid or --ju
 @option("--rate", metavar="K/N", section="Body", help="K of N stones fell, in a place whose stones are proportioned as in --cemetery.")
 @option("--slid", type=LENGTH, metavar="M", section="Body", help="How far an object slid, m or with a unit; needs --mu.")
 @option("--jumped", type=LENGTH, metavar="M", section="Body", help="How far a two-layer block was displaced, m or with a unit.")
-@option(
-    "--block",
-    metavar="NAME|FILE",
-    shell_complete=offered.bodies("two-layer"),
-    section="Body",
-    help=f"jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]",
-)
+@two_layer_option(f"jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
 @side_option("jumped: which side of the block in plan lies along the motion.")
 @option("--mu", type=float, section="Body", help="slid: static friction, 1. jumped: of the landed foot. [default: jumped: the body's own]")
 @option("--mu-kinetic", type=float, section="Body", help="Kinetic friction, 1. [default: slid: as --mu; jumped: the body's own]")

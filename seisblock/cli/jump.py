@@ -7,8 +7,7 @@ from typing import Any
 
 import click
 
-from seisblock.cli import offered
-from seisblock.cli.bodies.options import landing_option, side_option
+from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
@@ -25,13 +24,7 @@ DEFAULT_BLOCK = "chozusha"
     examples=("seisblock jump", "seisblock jump record.csv --component EW --drop 0.3 --tenon 2cm --plot jump.png"),
 )
 @record_options
-@option(
-    "--block",
-    metavar="NAME|FILE",
-    shell_complete=offered.bodies("two-layer"),
-    section="Body",
-    help=f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]",
-)
+@two_layer_option(f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
 @side_option("Which side of the block in plan lies along the motion.")
 @option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit; then give --heights, --masses.")
 @option("--depth", type=LENGTH, section="Body", help="Width across the motion, m; changes nothing in the plane. [default: --width]")

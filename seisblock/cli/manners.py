@@ -6,9 +6,10 @@ import contextlib
 import os
 import signal
 import sys
-import threading
 from collections.abc import Iterator
 from typing import Any, NoReturn
+
+from seisblock.signals import taken
 
 TERMINATED = 143
 """Exit code after SIGTERM, as shells have it."""
@@ -26,14 +27,8 @@ def _terminate(number: int, frame: Any) -> NoReturn:
 @contextlib.contextmanager
 def ending_in_order() -> Iterator[None]:
     """End on SIGTERM as on Ctrl-C inside the block; in the main thread of a program only, and nothing is left behind."""
-    ours = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
-    if ours:
-        signal.signal(signal.SIGTERM, _terminate)
-    try:
+    with taken(signal.SIGTERM, _terminate, usual=signal.SIG_DFL):
         yield
-    finally:
-        if ours:
-            signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 @contextlib.contextmanager

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from seisblock.cli import offered
-from seisblock.cli.bodies.options import side_option
+from seisblock.cli.bodies.options import side_option, two_layer_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
 from seisblock.cli.talk import say
@@ -55,13 +54,7 @@ def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float |
 )
 @option("--width", type=LENGTH, section="Body", help="Width of a block (m, or with a unit: 24cm, 8sun): the threshold is its g B/H.")
 @option("--height", type=LENGTH, section="Body", help="Height of that block (m, or with a unit).")
-@option(
-    "--block",
-    metavar="NAME|FILE",
-    shell_complete=offered.bodies("two-layer"),
-    section="Body",
-    help="Bundled two-layer block, or TOML file: the threshold is where it rocks.",
-)
+@two_layer_option("Bundled two-layer block, or TOML file: the threshold is where it rocks.")
 @side_option("Which side of --block in plan lies along the motion.")
 @option(
     "--direction",

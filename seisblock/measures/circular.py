@@ -7,13 +7,11 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from seisblock.limits import AT_A_TIME
 from seisblock.typing import FloatArray
 
 LONG = 2**20
 """Samples beyond which a transform is made of shorter ones."""
-
-BLOCK = 2**18
-"""Samples that are transformed at a time: a day-long record needs one spectrum and no further memory of its size."""
 
 
 def weights_of(samples: int, dt: float, gain: Callable[[FloatArray], FloatArray]) -> FloatArray:
@@ -79,6 +77,6 @@ def _width(samples: int) -> int:
 
 def _blocks(count: int, length: int) -> Iterator[slice]:
     """Yield so many lines or columns of a length that a block of samples is in them."""
-    step = max(BLOCK // length, 1)
+    step = max(AT_A_TIME // length, 1)
     for begin in range(0, count, step):
         yield slice(begin, begin + step)

@@ -7,15 +7,13 @@ import math
 import numpy as np
 
 from seisblock import checks
+from seisblock.limits import AT_A_TIME
 from seisblock.measures.circular import add_filtered_square, weights_of
 from seisblock.records.motion import motion_of
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
 from seisblock.units import GAL, STANDARD_GRAVITY
 from seisblock.words import noted, said
-
-BLOCK = 2**18
-"""Samples that are squared at a time: a day-long record needs no further memory of its size."""
 
 JMA_EXCEEDANCE_S = 0.3
 """Time for which the filtered vector must reach the amplitude that defines the intensity, s ([JMA1996]_)."""
@@ -189,10 +187,10 @@ def _jma_filter(frequency: FloatArray) -> FloatArray:
 def _square_integrals(acceleration: FloatArray, dt: float) -> FloatArray:
     """Return the integral of the squared straight line over each interval, (n - 1,), m^2/s^3."""
     found = np.empty(acceleration.size - 1)
-    for begin in range(0, found.size, BLOCK):
-        a, b = acceleration[begin : begin + BLOCK], acceleration[begin + 1 : begin + 1 + BLOCK]
+    for begin in range(0, found.size, AT_A_TIME):
+        a, b = acceleration[begin : begin + AT_A_TIME], acceleration[begin + 1 : begin + 1 + AT_A_TIME]
         a = a[: b.size]
-        found[begin : begin + BLOCK] = dt / 3.0 * (a * a + a * b + b * b)
+        found[begin : begin + AT_A_TIME] = dt / 3.0 * (a * a + a * b + b * b)
     return found
 
 

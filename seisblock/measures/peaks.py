@@ -8,14 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.errors import ComponentError
+from seisblock.limits import AT_A_TIME
 from seisblock.measures.baseline import GroundHistory
 from seisblock.records.integrals import displacements
 from seisblock.records.process import towards
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
-
-BLOCK = 2**18
-"""Samples between which zeros are looked for at a time: a day-long record needs no further memory of its size."""
 
 
 @dataclass(frozen=True)
@@ -74,8 +72,8 @@ def peak_velocity(history: GroundHistory, dt: float) -> float:
     """
     acceleration, velocity = history.acceleration, history.velocity
     largest = max(float(velocity.max()), -float(velocity.min()))
-    for begin in range(0, velocity.size - 1, BLOCK):
-        a, v = (row[begin : begin + BLOCK + 1] for row in (acceleration, velocity))
+    for begin in range(0, velocity.size - 1, AT_A_TIME):
+        a, v = (row[begin : begin + AT_A_TIME + 1] for row in (acceleration, velocity))
         crossing = np.flatnonzero(a[:-1] * a[1:] < 0)
         until_zero = dt * a[crossing] / (a[crossing] - a[crossing + 1])
         between = v[crossing] + 0.5 * a[crossing] * until_zero

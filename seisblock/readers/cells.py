@@ -10,6 +10,7 @@ from typing import NoReturn
 import numpy as np
 
 from seisblock.errors import RecordFormatError
+from seisblock.limits import AT_A_TIME
 from seisblock.readers.lines import pieces_of
 from seisblock.records.record import sealed
 from seisblock.typing import FloatArray
@@ -18,9 +19,6 @@ from seisblock.words import said
 
 _SHIFTS = {0.01: 2, 1e-3: 3}
 """Decimal places between a unit and m/s^2."""
-
-_BLOCK = 2**18
-"""Numbers that are looked at at a time: a day-long record needs no further memory of its size."""
 
 
 def to_si(values: FloatArray, unit: str) -> FloatArray:
@@ -31,7 +29,7 @@ def to_si(values: FloatArray, unit: str) -> FloatArray:
     if factor not in _SHIFTS:
         return values * factor
     for places in (3, 6):  # decimals that files are written with
-        if all(_has_decimals(values[begin : begin + _BLOCK], places) for begin in range(0, values.size, _BLOCK)):
+        if all(_has_decimals(values[begin : begin + AT_A_TIME], places) for begin in range(0, values.size, AT_A_TIME)):
             whole = values * 10.0**places
             np.rint(whole, out=whole)
             whole /= 10.0 ** (places + _SHIFTS[factor])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock.errors import ParameterError
+from seisblock.limits import AT_A_TIME
 from seisblock.typing import FloatArray
 
 HIGHPASS_ORDER = 4
@@ -15,9 +16,6 @@ PADDING_PERIODS = 5.0
 
 MOST_PADDING = 2**22
 """Longest padding at either end, samples: a corner that needs more is refused."""
-
-BLOCK = 2**18
-"""Samples that are filtered at a time: a day-long record needs no further memory of its size."""
 
 BASELINE_PERIODS = 0.5
 """Length of the windows at either end on which the baseline is measured, in corner periods."""
@@ -127,8 +125,8 @@ def _filter(sections: FloatArray, row: FloatArray, state: FloatArray) -> None:
     """Filter a row of samples in its place, piece by piece, from a state of the filter."""
     from scipy.signal import sosfilt
 
-    for begin in range(0, row.size, BLOCK):
-        piece = row[begin : begin + BLOCK]
+    for begin in range(0, row.size, AT_A_TIME):
+        piece = row[begin : begin + AT_A_TIME]
         piece[:], state = sosfilt(sections, piece, zi=state)
 
 

@@ -6,10 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from seisblock.limits import AT_A_TIME
 from seisblock.typing import FloatArray
-
-BLOCK = 2**18
-"""Steps that are summed at a time: a day-long record needs no further memory of its size."""
 
 
 def integrate(acceleration: FloatArray, dt: float) -> FloatArray:
@@ -88,5 +86,5 @@ def _velocity(acceleration: FloatArray, dt: float, initial: float) -> FloatArray
 
 def _blocks(samples: int) -> Iterator[tuple[int, int]]:
     """Yield first and last sample of pieces that share their ends: sums go on from piece to piece, in the memory of one."""
-    for begin in range(0, samples - 1, BLOCK):
-        yield begin, min(begin + BLOCK, samples - 1)
+    for begin in range(0, samples - 1, AT_A_TIME):
+        yield begin, min(begin + AT_A_TIME, samples - 1)

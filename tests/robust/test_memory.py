@@ -74,7 +74,7 @@ def test_memory_per_sample_of_reading(tmp_path):
 
 def test_memory_per_sample_of_a_table(tmp_path, monkeypatch):
     """A plain table with its times: four columns, and nothing of the text, which stays in the file."""
-    for name, value in {"source.LARGE": 2**14, "lines.PIECE": 2**8, "cells._BLOCK": 2**12}.items():
+    for name, value in {"source.LARGE": 2**14, "lines.PIECE": 2**8, "cells.AT_A_TIME": 2**12}.items():
         monkeypatch.setattr(f"seisblock.readers.{name}", value)
     monkeypatch.setattr("seisblock.records.jumps._BLOCK", 2**12)
 
@@ -100,7 +100,7 @@ def test_no_intensity_depends_on_the_order_of_a_transform(samples, monkeypatch):
     record = recorded(samples)
     in_pieces = jma_intensity(record)
     monkeypatch.setattr("seisblock.measures.circular.LONG", 2**21)
-    monkeypatch.setattr("seisblock.measures.circular.BLOCK", 2**21)
+    monkeypatch.setattr("seisblock.measures.circular.AT_A_TIME", 2**21)
     assert in_pieces == pytest.approx(jma_intensity(record), rel=1e-13)
 
 

@@ -53,6 +53,11 @@ _REST = (
 )
 
 
+def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Return ``--block`` of a two-layer block; one text says what it is there for."""
+    return option("--block", metavar="NAME|FILE", shell_complete=offered.bodies("two-layer"), section="Body", help=text)
+
+
 def side_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return ``--side`` of a two-layer block, short unless another is asked for."""
     return option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body", help=text)

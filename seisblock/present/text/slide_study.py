@@ -18,6 +18,7 @@ from seisblock.studies.sliding import SlidePoint
 from seisblock.words import noted, tell
 
 Points = Sequence[SlidePoint]
+Panels = list[tuple[str, Points]]
 
 
 SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": noted("μ kinetic"), "slope_deg": "θ (deg)", "vertical": "γ"}
@@ -56,10 +57,13 @@ def study_columns(records: Sequence[Record], studies: Sequence[Points]) -> tuple
 
 def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any]:
     """Yield, for each record and direction, the largest slip and, with vertical motion, the ratio beta as in [Fujino1978]_ fig. 9."""
-    for opening, ((_, points),) in answered(zip(records, studies, strict=True), lambda each: each[0], lambda each: _verdicts(each[1])):
+    arranged = [
+        (record, arrangement, panels_of(points, arrangement))
+        for record, points, arrangement in zip(records, studies, map(Arrangement.of, studies), strict=True)
+    ]
+    for opening, ((_, arrangement, panels),) in answered(arranged, lambda each: each[0], lambda each: _verdicts(each[2])):
         yield from opening
-        arrangement = Arrangement.of(points)
-        for title, part in panels_of(points, arrangement):
+        for title, part in panels:
             yield _pivot(tell("{name}: largest slip (mm)", name=title), part, arrangement, lambda point: millimetres(point.max_slip_m))
             if any(point.beta is not None for point in part):
                 yield _pivot(
@@ -70,9 +74,9 @@ def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any
                 )
 
 
-def _verdicts(points: Points) -> Iterator[Text]:
+def _verdicts(panels: Panels) -> Iterator[Text]:
     """Yield how far the object slides, by direction."""
-    for title, part in panels_of(points, Arrangement.of(points)):
+    for title, part in panels:
         yield line(verdict(title, part))
 
 
@@ -91,7 +95,7 @@ def verdict(name: str, points: Points) -> str:
     return tell(text, name=name, most=millimetres(most.max_slip_m), where=where, held=held, count=len(known))
 
 
-def panels_of(points: Points, arrangement: Arrangement) -> list[tuple[str, Points]]:
+def panels_of(points: Points, arrangement: Arrangement) -> Panels:
     """Return the points of each direction; the worst directions of a sweep are one part."""
     names = list(dict.fromkeys(point.component for point in points))
     per_direction = len({tuple(getattr(p, key) for key in (arrangement.x, *arrangement.curves)) for p in points})
