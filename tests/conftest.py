@@ -3,13 +3,18 @@
 import contextlib
 import dataclasses
 import functools
+import importlib
 import json
 import os
+import pkgutil
 import signal
+import time
 
 import hypothesis
 import pytest
 
+from seisblock import _jit
+from seisblock._jit.on_demand import OnDemand
 from seisblock.validation.case import Case, CaseResult
 
 os.environ.setdefault("COLUMNS", "80")
@@ -33,6 +38,17 @@ def pytest_addoption(parser):
     parser.addoption("--fuzz-from", type=int, default=0, help="the seed of its first accident (default 0)")
 
 
+ROOMS = ("seisblock.dynamics", "seisblock.solvers.respond", "seisblock.solvers.jump", "seisblock.solvers.stack")
+ROOMS += ("seisblock.solvers.slide", "seisblock.solvers.rock", "seisblock.solvers.uplift", "seisblock.measures")
+"""Where kernels are, in such an order that two workers who take turns have as much to compile."""
+
+WHOLE_RUN = 1000
+"""Tests from which on every kernel is wanted."""
+
+MOST_S = 300.0
+"""How long a worker waits for the others, s."""
+
+
 @functools.cache
 def cases_by_key() -> dict[str, list[Case]]:
     """Return the cases of the papers by their keys: those themselves, not what a test makes of them."""
@@ -42,6 +58,26 @@ def cases_by_key() -> dict[str, list[Case]]:
     for case in cases():
         found.setdefault(case.key, []).append(case)
     return found
+
+
+@pytest.fixture(scope="session", autouse=True)
+def compiled(request, tmp_path_factory):
+    """Let the workers of a whole run compile each kernel once: each its share, before the first test, into the cache that all read.
+
+    Otherwise each would compile what its tests need, at the same time as the others.
+    """
+    worker, count = os.environ.get("PYTEST_XDIST_WORKER", ""), int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
+    if count == 1 or not _jit.ENABLED or len(request.session.items) < WHOLE_RUN:
+        return
+    for name in ROOMS[int(worker.removeprefix("gw")) :: count]:
+        for module in pkgutil.walk_packages(importlib.import_module(name).__path__, f"{name}."):
+            for value in list(vars(importlib.import_module(module.name)).values()):
+                _ = value.compiled if isinstance(value, OnDemand) else None
+    meeting = tmp_path_factory.getbasetemp().parent
+    (meeting / f"compiled.{worker}").touch()
+    until = time.monotonic() + MOST_S
+    while len(list(meeting.glob("compiled.*"))) < count and time.monotonic() < until:
+        time.sleep(0.1)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from click.testing import CliRunner
 from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.cli import main
 from seisblock.criteria.gravestones import overturning_level
+from seisblock.studies.inverse import estimate
 
 ESTIMATE = {
     "stones",
@@ -44,6 +46,12 @@ def run(tmp_path, monkeypatch):
 def document(run):
     """Return a function that runs the command and returns its JSON document."""
     return lambda *words: json.loads(run(*words, "--json").stdout)
+
+
+@pytest.fixture
+def no_contour(monkeypatch):
+    """Compute the contour at one frequency: the test looks at the estimates beside it."""
+    monkeypatch.setattr(estimate, "contour", partial(estimate.contour, frequencies=[2.0]))
 
 
 @pytest.fixture
@@ -81,7 +89,7 @@ def test_without_a_frequency(document):
     assert [each["frequency_hz"] for each in found] == [None, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0]
 
 
-def test_a_survey_with_marks(run, document, survey):
+def test_a_survey_with_marks(run, document, survey, no_contour):
     """Marked stones are judged one by one, reinforced ones apart, unknown ones left out."""
     found = document("--cemetery", survey, "--frequency", 2)
     assert [each["stones"] for each in found["results"]] == ["not reinforced", "reinforced", "all"]
@@ -143,7 +151,7 @@ def test_a_jump_goes_on_beyond_its_window(document):
 
 def test_files(run, survey):
     """--csv writes the contour, or the displacement against the factor; --plot the figure."""
-    assert run("--cemetery", survey, "--csv", "contour.csv", "--plot", "shaking.png").exit_code == 0
+    assert run("--cemetery", survey, "--frequency", 2, "--csv", "contour.csv", "--plot", "shaking.png").exit_code == 0
     rows = list(csv.DictReader(Path("contour.csv").read_text(encoding="utf-8").splitlines()))
     assert len(rows) == 26
     assert float(rows[0]["pga_low_m_s2"]) < float(rows[0]["pga_m_s2"]) < float(rows[0]["pga_high_m_s2"])
@@ -151,7 +159,7 @@ def test_files(run, survey):
     assert run(*words, "--csv", "factors.csv", "--plot", "factors.png").exit_code == 0
     rows = list(csv.DictReader(Path("factors.csv").read_text(encoding="utf-8").splitlines()))
     assert len(rows) == 31
-    assert run("--rate", "0/9", "--cemetery", "aoyama.csv", "--plot", "bound.png").exit_code == 0
+    assert run("--rate", "0/9", "--cemetery", "aoyama.csv", "--frequency", 2, "--plot", "bound.png").exit_code == 0
     for name in ("shaking.png", "factors.png", "bound.png"):
         assert Path(name).read_bytes().startswith(b"\x89PNG")
 
@@ -189,7 +197,7 @@ def test_bad_input_is_one_sentence(run, tmp_path, words, code, message):
     assert found.stdout == ""
 
 
-def test_several_cemeteries_are_one_estimate(run, document, survey, tmp_path):
+def test_several_cemeteries_are_one_estimate(run, document, survey, no_contour, tmp_path):
     """N10: each by itself, under its own name, and all together; none is dropped, and none counts double."""
     other = tmp_path / "other.csv"
     other.write_bytes(Path(survey).read_bytes())

@@ -4,6 +4,7 @@ import json
 import os
 import pty
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,8 +13,9 @@ import time
 import pytest
 from click.testing import CliRunner
 
+from seisblock import samples
 from seisblock.cli import COMMANDS, main
-from seisblock.samples import sample_path
+from tests.brief_record import brief_record
 
 HEAVY = ("numba", "obspy", "scipy", "matplotlib", "PIL", "pandas")
 SEISBLOCK = f"{shlex.quote(sys.executable)} -m seisblock"
@@ -155,10 +157,20 @@ def test_a_bar_is_shown_on_a_terminal_only_and_only_for_long_work(tmp_path, monk
     assert subprocess.run([sys.executable, "-c", script, "0.1"], capture_output=True, text=True, check=True).stderr == ""
 
 
+@pytest.fixture(scope="module")
+def brief_samples(tmp_path_factory):
+    """The bundled files, the record among them that is meant where none is named cut to its shaking."""
+    folder = tmp_path_factory.mktemp("samples") / "bundled"
+    shutil.copytree(samples.sample_directory(), folder)
+    (folder / samples.DEFAULT_SAMPLE).write_bytes(brief_record())
+    return folder
+
+
 @pytest.fixture
-def workshop(tmp_path, monkeypatch):
-    """A directory with the record that the examples name."""
-    (tmp_path / "record.csv").write_bytes(sample_path("synthetic_jma.csv").read_bytes())
+def workshop(tmp_path, brief_samples, monkeypatch):
+    """A directory with the record that the examples name; it and the bundled one are brief, for how long they are is not the point."""
+    (tmp_path / "record.csv").write_bytes(brief_record())
+    monkeypatch.setattr(samples, "sample_directory", lambda: brief_samples)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -25,6 +25,7 @@ from seisblock.solvers.respond import solve_respond
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.assessment import assess
 from seisblock.words import speaking
+from tests.brief_record import brief_record
 from tests.language.english import english_in, seen_in
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
@@ -63,25 +64,32 @@ def test_contents_lead_to_every_section(pages):
         assert entries == re.findall(r'<h2 id="([\w-]+)">(.*?)</h2>', page) and len(entries) == 4
 
 
-def test_what_was_done_to_the_record_stands_above_the_verdicts():
+@pytest.fixture(scope="module")
+def square(tmp_path_factory):
+    """What a record that is as it was read does to a square block."""
+    path = tmp_path_factory.mktemp("record") / "brief.csv"
+    path.write_bytes(brief_record())
+    return assess(read(path), [subject("1x1")], components=["EW"])
+
+
+def test_what_was_done_to_the_record_stands_above_the_verdicts(square):
     """F4: a page of a scaled record says so before it says anything else, in either language; one of a record as read does not."""
-    record = crop(read("synthetic_jma.csv"), 22, 29)
+    scaled = assess(Preparation(scale=0.5).apply(square.record), [subject("1x1")], components=["EW"])
     for lang, told in (("en", "What was done to the record: "), ("ja", "記録に施した処理：")):
         with speaking(lang):
-            page = report(assess(Preparation(scale=0.5).apply(record), [subject("1x1")], components=["EW"]))
+            page = report(scaled)
         (line,) = re.findall(rf'<p class="processed">{told}(.*?)</p>', page)
         assert "0.5" in line and page.index(line) < page.index('<div class="verdicts">')
-    assert 'class="processed"' not in report(assess(read("elcentro_1940_ns.csv"), [subject("1x1")]))
+    assert 'class="processed"' not in report(square)
 
 
-def test_provenance_is_true_from_python(monkeypatch):
+def test_provenance_is_true_from_python(square, monkeypatch):
     """F4: how the process was started has no say: the page names the command it is told, or that there was none, twice the same."""
     monkeypatch.setattr("sys.argv", ["/home/somebody/notebook.py", "--secret"])
-    found = assess(crop(read("synthetic_jma.csv"), 22, 29), [subject("1x1")], components=["EW"])
-    page = report(found)
+    page = report(square)
     assert "notebook.py" not in page and "<dd>none, made in Python</dd>" in page
-    assert page == report(found)
-    assert "<dd>seisblock report here.csv</dd>" in report(found, command="seisblock report here.csv")
+    assert page == report(square)
+    assert "<dd>seisblock report here.csv</dd>" in report(square, command="seisblock report here.csv")
 
 
 def test_a_drawing_loses_no_peak():

@@ -8,30 +8,28 @@ import pytest
 from matplotlib.figure import Figure
 
 import seisblock
-from seisblock.bodies.toml import read_table
-from seisblock.bodies.two_layer import Contact, contact, two_layer_block
 from seisblock.errors import ParameterError
 from seisblock.present.faces import verdict_of
 from seisblock.records import Motion
 from seisblock.results import Response
 
+MOTION = Motion.from_arrays(5.5 * np.sin(2 * np.pi * 1.2 * np.arange(401) * 0.01), 0.01, name="EW")
+BLOCK, SPRINGS = seisblock.Block(0.3, 0.9), seisblock.SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7)
 
-def responses():
-    """Yield one short response of each planar model and of uplift."""
-    t = np.arange(401) * 0.01
-    motion = Motion.from_arrays(5.5 * np.sin(2 * np.pi * 1.2 * t), 0.01, name="EW")
-    chozusha = read_table("chozusha")
-    yield seisblock.solve_respond(seisblock.Block(0.3, 0.9), motion, mu=0.5)
-    yield seisblock.solve_rock(seisblock.Block(0.3, 0.9), motion)
-    yield seisblock.solve_slide(0.2, motion)
-    yield seisblock.solve_jump(two_layer_block(chozusha, "short"), motion, contact=Contact(**contact(chozusha)))
-    yield seisblock.solve_uplift(seisblock.SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7), motion)
+SOLVED = {
+    "respond": lambda: seisblock.solve_respond(BLOCK, MOTION, mu=0.5),
+    "rock": lambda: seisblock.solve_rock(BLOCK, MOTION),
+    "slide": lambda: seisblock.solve_slide(0.2, MOTION),
+    "jump": lambda: seisblock.solve_jump(seisblock.load_two_layer("chozusha"), MOTION, contact=seisblock.load_contact("chozusha")),
+    "uplift": lambda: seisblock.solve_uplift(SPRINGS, MOTION),
+}
+"""One short response of each planar model and of uplift; solved when it is looked at, not when tests are collected."""
 
 
-@pytest.fixture(params=list(responses()), ids=lambda response: response.model)
+@pytest.fixture(scope="module", params=SOLVED)
 def response(request):
     """One of them."""
-    return request.param
+    return SOLVED[request.param]()
 
 
 def test_it_shows_its_outcome_and_its_figure(response):
@@ -68,19 +66,20 @@ def test_a_model_without_a_figure_says_so():
         unknown.plot()
 
 
-def values():
-    """Yield a record, and what is made of it without a body."""
-    record = seisblock.read("synthetic_jma.csv")
-    motion = seisblock.motion_of(record, "EW")
-    yield record
-    yield motion
-    yield seisblock.response_spectrum(motion.horizontal, motion.dt)
-    yield seisblock.rocking_spectrum([0.5, 1.0], [0.2, 0.3], motion)
+VALUES = {
+    "Record": lambda motion: motion.record,
+    "Motion": lambda motion: motion,
+    "ResponseSpectrum": lambda motion: seisblock.response_spectrum(motion.horizontal, motion.dt),
+    "RockingSpectrum": lambda motion: seisblock.rocking_spectrum([0.5, 1.0], [0.2, 0.3], motion),
+}
+"""A record, and what is made of it without a body."""
 
 
-@pytest.mark.parametrize("value", list(values()), ids=lambda value: type(value).__name__)
-def test_what_has_no_body_shows_itself_too(value):
+@pytest.mark.parametrize("kind", VALUES)
+def test_what_has_no_body_shows_itself_too(kind):
     """A record, a motion and spectra have a title, numbers with units in words, and a figure."""
+    value = VALUES[kind](seisblock.motion_of(seisblock.read("synthetic_jma.csv"), "EW"))
+    assert type(value).__name__ == kind
     text = value._repr_html_()
     assert "data:image/" in text and "<script" not in text and "<b></b>" not in text
     assert len(re.findall(r"<tr>", text)) >= 2
