@@ -8,10 +8,14 @@ from __future__ import annotations
 
 import math
 from numbers import Integral, Real
-from typing import Any, TypeVar
+from os import PathLike
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from seisblock.errors import InputError, KindError, ParameterError
 from seisblock.words import said
+
+if TYPE_CHECKING:
+    from seisblock.typing import FloatArray
 
 Refusal = type[InputError]
 """The class of error that says so."""
@@ -133,18 +137,74 @@ def kind_of(value: Any) -> str:
     return said("nothing") if value is None else type(value).__name__
 
 
-def seed(value: Any) -> int:
-    """Return a seed of dice: a whole number, zero or more.
+def function(what: str, value: Any, /) -> Any:
+    """Return what can be called, or refuse it.
 
     Examples
     --------
-    >>> seed(-1)
+    >>> function("the criterion", 3)
     Traceback (most recent call last):
-    seisblock.errors.ParameterError: the seed must be a whole number, zero or more, found -1
+    seisblock.errors.KindError: the criterion must be a function, found int
     """
-    if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < 0:
-        raise ParameterError("the seed must be a whole number, zero or more, found {found}", found=repr(value)[:LONGEST_SHOWN])
+    if not callable(value):
+        raise KindError("{what} must be a function, found {found}", what=said(what), found=kind_of(value))
+    return value
+
+
+def path(value: Any) -> str | PathLike[str]:
+    """Return the name of a file, or refuse what is none.
+
+    Examples
+    --------
+    >>> path(None)
+    Traceback (most recent call last):
+    seisblock.errors.KindError: a path or a name is needed, found nothing
+    """
+    if not isinstance(value, (str, PathLike)):
+        raise KindError("a path or a name is needed, found {found}", found=kind_of(value))
+    return value
+
+
+def numbers(what: str, values: Any, /) -> FloatArray:
+    """Return an array of numbers, in whatever shape they come; whether they are finite and in range is asked elsewhere.
+
+    Examples
+    --------
+    >>> numbers("the sizes", [1, 2.5])
+    array([1. , 2.5])
+    >>> numbers("the sizes", ["a"])
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: the sizes must be numbers, found ['a']
+    """
+    import numpy as np
+
+    try:
+        given = np.asarray(values)
+    except ValueError:  # rows that differ in length
+        given = np.asarray(None)
+    if given.dtype.kind not in "iuf":
+        raise ParameterError("{what} must be numbers, found {found}", what=said(what), found=repr(values)[:LONGEST_SHOWN])
+    return np.asarray(given, dtype=np.float64)
+
+
+def whole(what: str, value: Any, /, *, least: int) -> int:
+    """Return a whole number that is so large at least.
+
+    Examples
+    --------
+    >>> whole("the number of runs", 2.5, least=1)
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: the number of runs must be a whole number, 1 or more, found 2.5
+    """
+    if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < least:
+        found = repr(value)[:LONGEST_SHOWN]
+        raise ParameterError("{what} must be a whole number, {least} or more, found {found}", what=said(what), least=least, found=found)
     return int(value)
+
+
+def seed(value: Any) -> int:
+    """Return a seed of dice: a whole number, zero or more."""
+    return whole("the seed", value, least=0)
 
 
 def _number(what: str, value: Any, error: Refusal, names: dict[str, Any]) -> float:

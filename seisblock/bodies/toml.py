@@ -31,7 +31,7 @@ def read_table(name: str | Path) -> dict[str, Any]:
     BodyError
         If there is no such file or bundled body, or it is not TOML.
     """
-    path = Path(name)
+    path = Path(checks.path(name))
     if not _is_there(path):
         bundled = sample_directory() / (path.name if path.suffix == ".toml" else f"{path.name}.toml")
         if path.parent != Path() or not _is_there(bundled):

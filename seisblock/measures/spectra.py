@@ -96,9 +96,9 @@ def response_spectrum(
     if isinstance(acceleration, (Motion, Record)):
         found = type(acceleration).__name__
         raise KindError("accelerations are needed, found a {found}: give motion.horizontal and motion.dt", found=found)
-    acceleration = np.asarray(acceleration, dtype=np.float64)
+    acceleration = checks.numbers("the accelerations", acceleration)
     checks.positive("the sampling interval", dt, "s")
-    wanted = default_periods() if periods is None else np.atleast_1d(np.asarray(periods, dtype=np.float64))
+    wanted = default_periods() if periods is None else np.atleast_1d(checks.numbers("the periods", periods))
     if not (np.isfinite(wanted).all() and (wanted > 0).all()):
         raise ParameterError("the periods of a response spectrum must be positive")
     checks.within("the damping ratio", damping, "[0, 1)")

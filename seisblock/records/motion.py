@@ -83,11 +83,11 @@ class Motion(Drawn):
         cls, horizontal: ArrayLike, dt: float, *, vertical: ArrayLike | None = None, name: str = "", start_s: float = 0.0
     ) -> Motion:
         """Return a motion from a horizontal and an optional vertical acceleration, (n,), m/s^2."""
-        along = np.asarray(horizontal, dtype=np.float64)
+        along = checks.numbers("the horizontal acceleration", horizontal)
         rows = np.zeros((3, along.size))
         rows[ALONG] = along
         if vertical is not None:
-            up = np.asarray(vertical, dtype=np.float64)
+            up = checks.numbers("the vertical acceleration", vertical)
             if up.shape != along.shape:
                 raise ParameterError("horizontal and vertical differ in length: {along} and {up} samples", along=along.size, up=up.size)
             rows[UP] = up

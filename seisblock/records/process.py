@@ -66,9 +66,10 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
     """
     checks.instance(record, Record)
     first, last = record.offset_s, record.offset_s + record.duration_s
-    start, end = first if start_s is None else start_s, last if end_s is None else end_s
+    start = first if start_s is None else checks.finite("the start of the window", start_s, "s", error=RecordError)
+    end = last if end_s is None else checks.finite("the end of the window", end_s, "s", error=RecordError)
     window = said("window {start:g}:{end:g} s", start=start, end=end)
-    if not (np.isfinite(start) and np.isfinite(end) and start < end):
+    if not start < end:
         raise RecordError("{window}: its start must come before its end, both in s from the first sample", window=window)
     slack = 1e-6 * record.dt
     if start < first - slack or end > last + slack:

@@ -119,7 +119,7 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
 
 def _path(name: str | Path) -> Path:
     """Return the file that a name means: a path, else a bundled cemetery."""
-    path = Path(name)
+    path = Path(checks.path(name))
     if path.is_dir():
         raise BodyError("{name} is a directory: give the CSV file of a cemetery", name=name)
     if path.exists():

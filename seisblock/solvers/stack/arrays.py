@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import Joint
-from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.solvers.stack.arguments import PileLayout, PileMemory
 from seisblock.solvers.stack.contact import SLOT
@@ -99,10 +99,9 @@ def pile_arrays(body: Pile, contact: PileContact, points: int) -> PileArrays:
     Raises
     ------
     ParameterError
-        If `points` is less than 2, or more than may be looked at.
+        If `points` is no whole number, less than 2, or more than may be looked at.
     """
-    if points < 2:
-        raise ParameterError("a joint needs at least 2 points along each side, found {points}", points=points)
+    checks.whole("the number of points along each side of a joint", points, least=2)
     check_budget(noted("points along each side of a joint"), points, "SEISBLOCK_PILE_POINTS")
     members = tuple(body.bodies())
     centres = np.array(body.centres())

@@ -143,7 +143,7 @@ def uplift_thresholds(
     >>> uplift_thresholds(block, [2.78225]).min(axis=0).round(6)
     array([0.676683])
     """
-    ratio = np.atleast_1d(np.asarray(frequency_ratio, dtype=np.float64))
+    ratio = np.atleast_1d(checks.numbers("the frequency ratios", frequency_ratio))
     if not (np.isfinite(ratio).all() and (ratio >= 0.0).all()):
         raise ParameterError("frequency ratios theta/omega_1 must be finite and not negative")
     if damping not in DAMPINGS:

@@ -105,6 +105,8 @@ def overturns(cemetery: Cemetery, pga: float, frequency: float, *, limits: Limit
     """Return which stones fall, (size,): those whose limit a PGA (m/s^2) exceeds ([Furukawa2009]_ eqs. (9), (10))."""
     checks.instance(cemetery, Cemetery)
     checks.positive("the peak ground acceleration", pga, "m/s^2")
+    checks.finite("the frequency", frequency, "Hz")
+    checks.function("the criterion", limits)
     falls: BoolArray = pga > limits(cemetery, frequency)
     return falls
 
@@ -172,9 +174,10 @@ def rate_curve(
     [0.35]
     """
     checks.instance(cemetery, Cemetery)
-    grid = np.atleast_1d(np.asarray(pga, dtype=np.float64))
+    checks.function("the criterion", limits)
+    grid = np.atleast_1d(checks.numbers("the peak ground accelerations", pga))
     points = []
-    for frequency in frequencies:
+    for frequency in np.atleast_1d(checks.numbers("the frequencies", frequencies)).tolist():
         rates = np.searchsorted(np.sort(limits(cemetery, frequency)), grid, side="left") / cemetery.size
         points += [CurvePoint(float(a), float(frequency), float(rate)) for a, rate in zip(grid, rates, strict=True)]
     return tuple(points)

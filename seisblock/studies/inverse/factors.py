@@ -16,7 +16,6 @@ import numpy as np
 from seisblock import checks
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
-from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import check_call, check_motion
@@ -132,11 +131,11 @@ def scale_factors(
     >>> [round(f.scale, 6) for f in found.scale_factors]
     [0.5, 1.5]
     """
+    checks.function("the displacement", displacement)
     check_motion(motion)
     checks.positive("the observed displacement", observed, "m")
     checks.positive("the largest factor", limit)
-    if steps < 1:
-        raise ParameterError("the scan needs at least one step, found {steps}", steps=steps)
+    checks.whole("the number of steps", steps, least=1)
     check_budget(noted("factors"), steps, "SEISBLOCK_RUNS")
     grid = [limit * i / steps for i in range(steps + 1)]
     values = [0.0, *in_threads(displacement, grid[1:], progress=progress)]

@@ -11,7 +11,6 @@ from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.bodies.blocks import versions
 from seisblock.bodies.inset import HALF
-from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import check_call
@@ -125,8 +124,7 @@ def perturb(
     (20, 20)
     """
     checks.instance(spread, Spread)
-    if runs < 1:
-        raise ParameterError("a perturbation needs at least 1 run, found {runs}", runs=runs)
+    checks.whole("the number of runs", runs, least=1)
     check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
     check_call(block, Block, motion)
     turns = spread.azimuth_deg if motion.acceleration[ACROSS].any() else 0.0

@@ -8,6 +8,7 @@ from typing import Unpack
 
 import numpy as np
 
+from seisblock import checks
 from seisblock.bodies.blocks import rectangles
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import ParameterError
@@ -115,7 +116,7 @@ def default_slendernesses(steps: int) -> FloatArray:
 
 def _grid(values: ArrayLike, what: str, unit: str, limit: float) -> FloatArray:
     """Return a grid of positive numbers below a limit, or refuse it."""
-    array = np.atleast_1d(np.asarray(values, dtype=np.float64))
+    array = np.atleast_1d(checks.numbers("sizes and slendernesses", values))
     good = np.isfinite(array) & (array > 0.0) & (array < limit)
     if array.size == 0 or not good.all():
         found = said("none") if array.size == 0 else str(array[~good][0])

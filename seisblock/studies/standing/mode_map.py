@@ -160,7 +160,7 @@ def mode_map(
 
 def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: Inset) -> list[Block]:
     """Return one block per row."""
-    diagonals, alphas = (np.atleast_1d(np.asarray(values, dtype=np.float64)) for values in (sizes, slendernesses))
+    diagonals, alphas = (np.atleast_1d(checks.numbers("sizes and slendernesses", values)) for values in (sizes, slendernesses))
     for value in diagonals:
         checks.positive(noted("each size 2R"), float(value), "m")
     for value in alphas:

@@ -153,8 +153,7 @@ def respond_probability(
     """
     check_call(block, Block, motion)
     checks.instance(versions, Versions)
-    if runs < 1:
-        raise ParameterError("a probability needs at least 1 run, found {runs}", runs=runs)
+    checks.whole("the number of runs", runs, least=1)
     check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
     if not (math.isfinite(moved_m) and moved_m > 0.0):
         raise ParameterError("the displacement that counts as moved must be positive, found {found} m", found=moved_m)
