@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from seisblock._jit import types
-from seisblock.dynamics.arrays import BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX, VECTOR
+from seisblock.dynamics.arrays import BLOCK, INTEGER_BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX, VECTOR
 from seisblock.typing import FloatArray, IntArray
 
 _t = types()
@@ -109,8 +109,30 @@ class Scratch(NamedTuple):
     rate: FloatArray
 
 
+class Grounds(NamedTuple):
+    """What shakes many: a motion or a stretch of it, (rows, n), m/s^2, with factors of each one's own, (m, rows), every dt seconds."""
+
+    acceleration: FloatArray
+    gains: FloatArray
+    dt: float
+
+
+class Rows(NamedTuple):
+    """Where each of many trajectories is, and what it leaves: first axis m; else as in a cursor, and in what is kept of a single one."""
+
+    places: IntArray
+    clocks: FloatArray
+    states: FloatArray
+    extrema: FloatArray
+    tallies: IntArray
+    stays: FloatArray
+    statuses: IntArray
+
+
 GROUND = _t.NamedTuple((READ_ONLY_MATRIX, VECTOR, _t.float64), Ground)
 SHAPE = _t.NamedUniTuple(_t.int64, 6, Shape)
 CURSOR = _t.NamedTuple((INTEGERS, VECTOR, VECTOR), Cursor)
 KEPT = _t.NamedTuple((MATRIX, INTEGERS, INTEGER_TABLE, VECTOR, BLOCK, MATRIX, INTEGER_TABLE, MATRIX), Kept)
 SCRATCH = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR, VECTOR, VECTOR), Scratch)
+GROUNDS = _t.NamedTuple((READ_ONLY_MATRIX, MATRIX, _t.float64), Grounds)
+ROWS = _t.NamedTuple((INTEGER_TABLE, MATRIX, MATRIX, BLOCK, INTEGER_BLOCK, BLOCK, INTEGERS), Rows)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arrays import MATRIX, READ_ONLY_MATRIX, VECTOR
+from seisblock.dynamics.arguments import GROUNDS, ROWS
+from seisblock.dynamics.arrays import INTEGERS, MATRIX, READ_ONLY_MATRIX, VECTOR
 
 _t = types()
 
@@ -30,6 +31,17 @@ def stay(mode, acceleration, gains, sample, p):
     """Skip nothing: the model has no rest, or none worth a short cut."""
     return sample
 
+
+STRIDE = _t.int64(GROUNDS, MATRIX, ROWS, INTEGERS, INTEGERS, VECTOR, _t.int64)
+"""stride(grounds, parameters, rows, chosen, waits, lanes, most) -> samples passed, by all lanes together.
+
+Moves the trajectories ``chosen`` (numbers of rows, -1 for none) on from the samples at which they stand, side by side, until one of them
+cannot go on so, or for ``most`` samples: by the operations of ``series`` and of the engine's step, in their order. A lane is marked in
+``waits`` where it is new, on the way in, and where it waits for the engine, on the way out: then place and state are written back.
+``lanes`` is room that is kept between the calls, ``FIELDS`` numbers a lane."""
+
+LANES, FIELDS = 16, 24
+"""Trajectories side by side: two vectors of a processor with registers of 512 bits, four of one with 256."""
 
 OFF = float("inf")
 """Value of a guard that is not watched in this mode."""

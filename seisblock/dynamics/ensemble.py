@@ -6,18 +6,36 @@ One row costs no Python, and the loop holds no GIL: callers split the rows among
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arguments import BASE, BEYOND, FIRST_EVENT, FOUND, MODE, SAMPLE, SHAPE, STEPS_LEFT, TAU, Cursor, Ground, Kept
-from seisblock.dynamics.arrays import BLOCK, INTEGER_BLOCK, INTEGER_TABLE, INTEGERS, MATRIX, READ_ONLY_MATRIX
+from seisblock.dynamics.arguments import (
+    BASE,
+    BEYOND,
+    FIRST_EVENT,
+    FOUND,
+    GROUNDS,
+    MODE,
+    ROWS,
+    SAMPLE,
+    SHAPE,
+    STEPS_LEFT,
+    TAU,
+    Cursor,
+    Ground,
+    Grounds,
+    Kept,
+    Rows,
+)
+from seisblock.dynamics.arrays import MATRIX
+from seisblock.dynamics.contract import FIELDS, LANES
 from seisblock.dynamics.following import SLICE, cursor_at
 from seisblock.dynamics.halt import heed
 from seisblock.dynamics.hybrid import POINTERS, go_on, room
+from seisblock.dynamics.lanes import integrate_in_lanes
 from seisblock.dynamics.model import Model
-from seisblock.dynamics.status import FAILURES, PAUSED
+from seisblock.dynamics.status import FAILURES, PAUSED, Status
 from seisblock.dynamics.trajectory import Instant
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records.motion import Motion
@@ -26,32 +44,10 @@ from seisblock.words import said
 
 _t = types()
 
-
-class Grounds(NamedTuple):
-    """What shakes: a motion or a stretch of it, (rows, n), m/s^2, with factors of each trajectory's own, (m, rows), every dt seconds."""
-
-    acceleration: FloatArray
-    gains: FloatArray
-    dt: float
+_FAILED = np.array([status in FAILURES for status in Status])
 
 
-class Rows(NamedTuple):
-    """Where each trajectory is, and what it leaves: first axis m; else as in a cursor, and in what is kept of a single one."""
-
-    places: IntArray
-    clocks: FloatArray
-    states: FloatArray
-    extrema: FloatArray
-    tallies: IntArray
-    stays: FloatArray
-    statuses: IntArray
-
-
-_GROUNDS = _t.NamedTuple((READ_ONLY_MATRIX, MATRIX, _t.float64), Grounds)
-_ROWS = _t.NamedTuple((INTEGER_TABLE, MATRIX, MATRIX, BLOCK, INTEGER_BLOCK, BLOCK, INTEGERS), Rows)
-
-
-@kernel(_t.int64(*POINTERS, _GROUNDS, SHAPE, MATRIX, _ROWS, _t.int64, _t.int64), allocates=True)
+@kernel(_t.int64(*POINTERS, GROUNDS, SHAPE, MATRIX, ROWS, _t.int64, _t.int64), allocates=True)
 def integrate_rows(series, reset, skip, grounds, shape, parameters, rows, first, steps):
     """Follow one trajectory per row of `parameters` from row `first` on, for so many steps in all; return the row to go on with."""
     n_states = rows.states.shape[1]
@@ -153,8 +149,8 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     if p.ndim != 2:
         raise ParameterError("an ensemble needs one row of parameters per trajectory, found shape {shape}", shape=str(p.shape))
     m, n_states = p.shape[0], len(model.states)
-    states = np.array(np.broadcast_to(np.asarray(initial, dtype=np.float64), (m, n_states)), order="C")
-    scale = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (m, 3)), order="C")
+    states, scale = np.empty((m, n_states)), np.empty((m, 3))
+    states[:], scale[:] = initial, gains
     begin = cursor_at(Instant(), mode, states[0])
     rows = Rows(
         np.tile(begin.place, (m, 1)),
@@ -169,11 +165,14 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
         grounds = Grounds(stretch.acceleration, scale, motion.dt)
         rows.places[:, BASE], rows.places[:, BEYOND] = stretch.first, stretch.beyond
         row = 0
+        if model.stride is not None:
+            through_in_lanes(model, grounds, p, rows)
+            continue
         while row < m:
             heed()
             row = integrate_rows(*model.pointers, grounds, model.shape, p, rows, row, SLICE)
     end_time = rows.places[:, SAMPLE] * motion.dt + rows.clocks[:, TAU]
-    for row in np.flatnonzero(np.isin(rows.statuses, list(FAILURES)))[:1]:
+    for row in np.flatnonzero(_FAILED[rows.statuses])[:1]:
         raise SolverError(
             "{name}, row {row}: given up at {at:.6f} s, where {failure}",
             name=model.name,
@@ -193,3 +192,13 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
         rows.tallies,
         rows.stays,
     )
+
+
+def through_in_lanes(model: Model, grounds: Grounds, p: FloatArray, rows: Rows) -> None:
+    """Follow all rows to the end of a motion, or of a stretch of it, in lanes."""
+    chosen, waits = np.full(LANES, -1), np.ones(LANES, dtype=np.int64)
+    lanes = np.zeros(FIELDS * LANES)
+    row = 0
+    while row < p.shape[0] or (chosen >= 0).any():
+        heed()
+        row = integrate_in_lanes(*model.pointers, model.stride_pointer, grounds, model.shape, p, rows, chosen, waits, lanes, row, SLICE)

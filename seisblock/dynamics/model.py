@@ -10,6 +10,7 @@ from typing import Any
 from seisblock._jit import pointer
 from seisblock.dynamics import hybrid
 from seisblock.dynamics.arguments import Shape
+from seisblock.dynamics.contract import STRIDE
 
 ORDER = 12
 """Terms of the power series; at 100 Hz the thirteenth is below round-off."""
@@ -39,6 +40,8 @@ class Model:
         Whether the parameters end in one size per state below which it counts as that large, for the step's length.
     sharp : int
         How many of the first guards are states set to exact values: however small they start, they are not taken for zero.
+    stride : compiled function or None
+        Signature ``STRIDE`` of :mod:`seisblock.dynamics.contract`: moves many trajectories at once where nothing happens to them.
     """
 
     name: str
@@ -53,11 +56,18 @@ class Model:
     skip: Callable[..., Any] = hybrid.stay
     floored: bool = False
     sharp: int = 0
+    stride: Callable[..., Any] | None = None
 
     @cached_property
     def pointers(self) -> tuple[Any, Any, Any]:
         """Series, reset and skip, as compiled loops take them."""
         return pointer(self.series, hybrid.SERIES), pointer(self.reset, hybrid.RESET), pointer(self.skip, hybrid.SKIP)
+
+    @cached_property
+    def stride_pointer(self) -> Any:
+        """The stride, as compiled loops take it."""
+        assert self.stride is not None
+        return pointer(self.stride, STRIDE)
 
     @cached_property
     def shape(self) -> Shape:

@@ -17,6 +17,9 @@ _t = types()
 ROUND_OFF = 1e-14
 """A polynomial is taken as zero where it is below this share of the sum of its terms."""
 
+NEAR = 1e-9
+"""A Newton step below this share of the root is followed by none that matters."""
+
 NEVER = -1.0
 """Answer of :func:`first_crossing` when there is none."""
 
@@ -80,11 +83,20 @@ def lower_bound_of_row(c, i, degree, h):
 
 @kernel(_t.float64(VECTOR, _t.int64, _t.float64))
 def _root_between(c, degree, high):
-    """Return the root in [0, high] of a polynomial that falls from positive to negative there (Newton inside a bracket)."""
+    """Return the root in [0, high] of a polynomial that falls from positive to negative there (Newton inside a bracket).
+
+    It begins at the root of the parabola that the first terms are. A step below ``NEAR`` is the last: the error is of its square.
+    """
     if c[0] <= 0.0:
         return 0.0
     low = 0.0
     t = high
+    if degree > 1:
+        under = c[1] * c[1] - 4.0 * c[0] * c[2]
+        if under >= 0.0:
+            begin = 2.0 * c[0] / (np.sqrt(under) - c[1])
+            if 0.0 < begin < high:
+                t = begin
     for _ in range(100):
         value = c[degree]
         slope = 0.0
@@ -96,8 +108,8 @@ def _root_between(c, degree, high):
         else:
             high = t
         following = t - value / slope if slope != 0.0 else t
-        if value == 0.0 or (slope != 0.0 and abs(following - t) <= 2.3e-16 * t):
-            return following
+        if value == 0.0 or (slope != 0.0 and abs(following - t) <= NEAR * t):
+            return min(max(following, low), high)
         if not (low < following < high):
             following = 0.5 * (low + high)
             if high - low <= 2.3e-16 * high:
@@ -168,8 +180,9 @@ def first_below(g, degree, h, round_off, q, d):
             if evaluate(q, n, width) < -noise:
                 at = start + _root_between(q, n, width)
                 return 0.0 if at < smallest else min(at, h)
-        shift(q, n, width)
         start += width
+        if start < h:
+            shift(q, n, width)
         width = h - start
     return NEVER
 

@@ -28,26 +28,40 @@ import math
 
 import numpy as np
 
-from seisblock._jit import kernel
+from seisblock._jit import kernel, types
 from seisblock.dynamics import Model
-from seisblock.dynamics.contract import CONSTANT, RESET, SERIES, SKIP
+from seisblock.dynamics.arrays import MATRIX
+from seisblock.dynamics.contract import CONSTANT, OFF, RESET, SERIES, SKIP
+from seisblock.solvers.rock.expansion import (
+    COSINE,
+    FIFTH,
+    NINTH,
+    OMEGA,
+    SEVENTH,
+    SINE,
+    SIXTH,
+    TERMS,
+    THETA,
+    THIRD,
+    expand,
+    rates,
+    sine_cosine_of,
+    within,
+)
 from seisblock.solvers.rock.rocker import Rocker, Rockers
 from seisblock.typing import FloatArray
 from seisblock.words import noted
 
+_t = types()
+
 REST, TO_RIGHT, TO_LEFT, BEYOND_RIGHT, BEYOND_LEFT = range(5)  # odd: about the right corner; above TO_LEFT: beyond alpha
 OVERTURNED = -1
-THETA, OMEGA = range(2)
-SINE, COSINE = range(2, 4)
 DOWN, UP_AND_OVER = range(2)
 ALONG, ACROSS, UPWARD = range(3)
 GRAVITY, DT, IS_LINEAR, ALPHA_RIGHT, ALPHA_LEFT, HOLD_RIGHT, HOLD_LEFT, LEVER_RIGHT, LEVER_LEFT, ONTO_RIGHT, ONTO_LEFT = range(11)
 
 REST_HOP = 1e-8
 """A hop shorter than this, s, is the end of rocking."""
-
-SMALL, NEARLY_SMALL = 3e-17, 1e-12
-"""A series ends where a term falls below the first share of the state and the term before it was below the second."""
 
 MODES = (
     noted("rest"),
@@ -66,6 +80,18 @@ def parameters(blocks: Rocker | Rockers, dt: float) -> FloatArray:
     corners = np.concatenate([blocks.alphas, blocks.holds, blocks.levers, blocks.onto], axis=-1)
     given = np.broadcast_to([blocks.gravity, dt, float(blocks.linear)], (*corners.shape[:-1], 3))
     return np.concatenate([given, corners], axis=-1)
+
+
+@kernel(_t.void(MATRIX, MATRIX, _t.int64, _t.float64, _t.float64, _t.int64, _t.boolean), inline=True)
+def _watch(c, g, guard, s, bound, degree, certain):
+    """Write the guard of a bound on the lean, s theta, that it must stay above (``DOWN``) or below; or that it certainly does."""
+    if certain:
+        g[guard, 0] = OFF
+        return
+    sign = s if guard == DOWN else -s
+    for k in range(degree + 1):
+        g[guard, k] = sign * c[THETA, k]
+    g[guard, 0] -= bound if guard == DOWN else -bound
 
 
 @kernel(SERIES)
@@ -87,64 +113,31 @@ def series(mode, y, f, p, order, c, g):
         s, alpha, lever, hold = -1.0, p[ALPHA_LEFT], p[LEVER_LEFT], p[HOLD_LEFT]
     theta = y[THETA]
     omega = y[OMEGA]
-    dt = p[DT]
-    c[THETA, 0] = theta
-    c[OMEGA, 0] = omega
-    c[THETA, 1] = omega
-    linear = p[IS_LINEAR] != 0.0
-    if linear:
-        c[SINE, 0] = s * alpha - theta
-        c[COSINE, 0] = 1.0
-    else:
-        c[SINE, 0] = math.sin(s * alpha - theta)
-        c[COSINE, 0] = math.cos(s * alpha - theta)
-    rate = -lever * (weight * c[SINE, 0] + push * c[COSINE, 0])
+    sine, cosine = (s * alpha - theta, 1.0) if p[IS_LINEAR] != 0.0 else sine_cosine_of(s * alpha - theta)
+    rate = -lever * (weight * sine + push * cosine)
     if theta == 0.0 and omega == 0.0:
         # rocking begins exactly at the threshold: what is left of the moment there is round-off unless it starts the lean
-        rate = -lever * c[COSINE, 0] * (weight * s * hold + push)
+        rate = -lever * cosine * (weight * s * hold + push)
         if rate * s < 0.0:
             rate = 0.0
-    c[OMEGA, 1] = rate
-    power = dt
-    term = abs(rate) * dt
-    size = abs(omega) + term
-    degree = order
-    share = 1.0
-    for k in range(1, order):
-        next_share = 1.0 / (k + 1)
-        c[THETA, k + 1] = c[OMEGA, k] * next_share
-        if linear:
-            c[SINE, k] = -c[THETA, k]
-            c[COSINE, k] = 0.0
-        else:
-            sine = omega * c[COSINE, k - 1]
-            cosine = omega * c[SINE, k - 1]
-            for j in range(1, k):
-                sine += c[OMEGA, j] * c[COSINE, k - 1 - j]
-                cosine += c[OMEGA, j] * c[SINE, k - 1 - j]
-            c[SINE, k] = -sine * share
-            c[COSINE, k] = cosine * share
-        moment = weight * c[SINE, k] + weight_rate * c[SINE, k - 1] + push * c[COSINE, k] + push_rate * c[COSINE, k - 1]
-        c[OMEGA, k + 1] = -lever * moment * next_share
-        share = next_share
-        power *= dt
-        before = term
-        term = abs(c[OMEGA, k + 1]) * power
-        size += term
-        if term <= SMALL * size and before <= NEARLY_SMALL * size:
-            degree = k
-            break
-    down = 0.0
-    over = alpha
-    if mode > TO_LEFT:
-        down = alpha
-        over = HALF_PI
-    for k in range(degree + 1):
-        lean = s * c[THETA, k]
-        g[DOWN, k] = lean
-        g[UP_AND_OVER, k] = -lean
-    g[DOWN, 0] -= down
-    g[UP_AND_OVER, 0] += over
+    c[THETA, 0], c[THETA, 1], c[OMEGA, 0], c[OMEGA, 1], c[SINE, 0], c[COSINE, 0] = theta, omega, omega, rate, sine, cosine
+    down, over = (0.0, alpha) if mode < BEYOND_RIGHT else (alpha, HALF_PI)
+    lean = s * theta
+    if p[IS_LINEAR] == 0.0:
+        w2, w3, w4, w5, w6, w7, w8, w9, w10 = rates(sine, cosine, omega, rate, lever, weight, weight_rate, push, push_rate)
+        reach, converged = within(p[DT], omega, rate, w2, w3, w4, w5, w6, w7, w8, w9, w10)
+        if converged:
+            c[OMEGA, 2], c[OMEGA, 3], c[OMEGA, 4], c[OMEGA, 5], c[OMEGA, 6] = w2, w3, w4, w5, w6
+            c[OMEGA, 7], c[OMEGA, 8], c[OMEGA, 9], c[OMEGA, 10] = w7, w8, w9, w10
+            c[THETA, 2], c[THETA, 3], c[THETA, 4] = rate * 0.5, w2 * THIRD, w3 * 0.25
+            c[THETA, 5], c[THETA, 6], c[THETA, 7] = w4 * FIFTH, w5 * SIXTH, w6 * SEVENTH
+            c[THETA, 8], c[THETA, 9], c[THETA, 10] = w7 * 0.125, w8 * NINTH, w9 * 0.1
+            _watch(c, g, DOWN, s, down, TERMS, lean - reach > down)
+            _watch(c, g, UP_AND_OVER, s, over, TERMS, lean + reach < over)
+            return TERMS
+    degree = expand(c, order, p[IS_LINEAR] != 0.0, p[DT], lever, weight, weight_rate, push, push_rate)
+    _watch(c, g, DOWN, s, down, degree, False)
+    _watch(c, g, UP_AND_OVER, s, over, degree, False)
     return degree
 
 
@@ -214,4 +207,17 @@ ROCKING = Model(
     "rocking block", series, reset, ("rotation", "angular velocity"), ("down", "up and over"), MODES, scratch=2, tracked=1, skip=skip
 )
 
-__all__ = ["BEYOND_LEFT", "BEYOND_RIGHT", "DOWN", "OVERTURNED", "REST", "ROCKING", "TO_LEFT", "TO_RIGHT", "UP_AND_OVER", "parameters"]
+__all__ = [
+    "BEYOND_LEFT",
+    "BEYOND_RIGHT",
+    "DOWN",
+    "OMEGA",
+    "OVERTURNED",
+    "REST",
+    "ROCKING",
+    "THETA",
+    "TO_LEFT",
+    "TO_RIGHT",
+    "UP_AND_OVER",
+    "parameters",
+]

@@ -9,13 +9,14 @@ from typing import Unpack
 import numpy as np
 
 from seisblock import checks
-from seisblock.bodies.block import Block
+from seisblock.bodies.block import LEFT, RIGHT, Block
 from seisblock.dynamics import follow_many
 from seisblock.records import Motion
 from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import refuse_endless
 from seisblock.solvers.rock.free import ENDLESS, STANDS, rock_on
 from seisblock.solvers.rock.rocker import Rocker, Rockers, RockOptions, rocker
+from seisblock.solvers.rock.stride import ROCKING_TOGETHER
 from seisblock.typing import ArrayLike, BoolArray, FloatArray
 
 
@@ -90,12 +91,12 @@ def rock_verdicts(blocks: Rockers | Sequence[Rocker], motion: Motion, gains: Arr
     given = [blocks] if isinstance(blocks, Rockers) else blocks
     p = np.concatenate([np.atleast_2d(model.parameters(some, motion.dt)) for some in given])
     runs = max(len(p), len(rows))
-    p = np.array(np.broadcast_to(p, (runs, p.shape[1])), order="C")
-    shaken = follow_many(model.ROCKING, motion, p, np.zeros(2), model.REST, gains=rows)
+    p = np.repeat(p, runs, axis=0) if len(p) == 1 else p
+    shaken = follow_many(ROCKING_TOGETHER, motion, p, np.zeros(2), model.REST, gains=rows)
     ends, late = np.empty(runs, dtype=np.int64), np.zeros((runs, 2))
     rock_on(p, shaken.final, np.ascontiguousarray(shaken.final_mode), ends, late)
     refuse_endless(bool((ends == ENDLESS).any()))
     highest, _, lowest, _ = shaken.extrema[:, model.THETA].T
-    leans = np.maximum(np.column_stack([highest, -lowest]), late)
-    ratios = leans / p[:, [model.ALPHA_RIGHT, model.ALPHA_LEFT]]
-    return Verdicts(ends != STANDS, ratios.max(axis=1))
+    to_right = np.maximum(highest, late[:, RIGHT]) / p[:, model.ALPHA_RIGHT]
+    to_left = np.maximum(-lowest, late[:, LEFT]) / p[:, model.ALPHA_LEFT]
+    return Verdicts(ends != STANDS, np.maximum(to_right, to_left))
