@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from itertools import pairwise
+from typing import NamedTuple
 
 from seisblock import checks
 from seisblock.errors import ParameterError, UnitError
@@ -44,6 +45,15 @@ ACCELERATION_UNITS = {
     "m/s/s": 1.0,
     "g": STANDARD_GRAVITY,
 }
+
+
+class Size(NamedTuple):
+    """Width and height of a picture, m, and the unit in which one speaks of them."""
+
+    width: float
+    height: float
+    unit: str = "cm"
+
 
 LENGTH_UNITS = {
     "m": 1.0,

@@ -119,8 +119,9 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
 
 def _draw(figure: Callable[[], Figure], target: Path, output: Output) -> None:
     """Write a figure to a file, or its .png to stdout, of the size and under the title asked for."""
-    from seisblock.present.figures.canvas import fitted, save, save_png
+    from seisblock.present.figures.canvas import save, save_png
     from seisblock.present.figures.fonts import MISSING, drawable, drawn
+    from seisblock.present.figures.size import fitted
 
     if target == STDOUT and sys.stdout.isatty():
         raise OutputError("--plot - writes a .png to stdout, which is a terminal: send it to a file or a viewer, or give a file name")

@@ -16,7 +16,7 @@ from seisblock.cli.command import argument, option
 from seisblock.cli.quiet import quietly
 from seisblock.cli.types import SIZE, WINDOW
 from seisblock.errors import ParameterError
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.units import STANDARD_GRAVITY, Size
 from seisblock.words import noted, tell
 
 Function = Callable[..., Any]
@@ -48,7 +48,7 @@ class Output:
     json: bool
     csv: Path | None
     plot: Path | None
-    size: tuple[float, float] | None
+    size: Size | None
     dpi: int
     title: str | None
     quiet: bool

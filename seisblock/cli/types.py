@@ -10,7 +10,7 @@ import click
 from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.errors import InputError
 from seisblock.limits import check_budget
-from seisblock.units import parse_length, parse_mass
+from seisblock.units import LENGTH_UNITS, Size, parse_length, parse_mass
 from seisblock.words import noted, said, tell
 
 SMALLEST_SIDE, LARGEST_SIDE = 0.04, 1.2
@@ -136,9 +136,9 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
 
     name = "size"
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, float]:
-        """Return width and height, m."""
-        if isinstance(value, tuple):
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Size:
+        """Return width and height, m, and the unit of the first."""
+        if isinstance(value, Size):
             return value
         sides = value.lower().replace("×", "x").split("x")
         if len(sides) != 2:
@@ -147,19 +147,13 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
             width, height = (parse_length(side if side.strip()[-1:].isalpha() else f"{side}cm", what="size") for side in sides)
         except InputError as error:
             self.fail(str(error), param, ctx)
+        unit = sides[0].strip().lstrip("0123456789.+-e ") or "cm"
         for side in (width, height):
             if not SMALLEST_SIDE <= side <= LARGEST_SIDE:
-                self.fail(
-                    tell(
-                        "{value!r}: a figure is between {least:g} and {most:g} cm wide and high",
-                        value=value,
-                        least=SMALLEST_SIDE * 100,
-                        most=LARGEST_SIDE * 100,
-                    ),
-                    param,
-                    ctx,
-                )
-        return width, height
+                least, most = (f"{each / LENGTH_UNITS[unit]:.4g} {unit}" for each in (SMALLEST_SIDE, LARGEST_SIDE))
+                text = tell("{value!r}: a figure is between {least} and {most} wide and high", value=value, least=least, most=most)
+                self.fail(text, param, ctx)
+        return Size(width, height, unit)
 
 
 class WindowType(click.ParamType):  # type: ignore[type-arg]

@@ -14,6 +14,7 @@ from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.motion import _oriented_pair, _resolve
 from seisblock.records.record import Component, Record
 from seisblock.typing import FloatArray
+from seisblock.units import GAL
 from seisblock.words import said
 
 
@@ -32,12 +33,12 @@ def demean(record: Record) -> Record:
     --------
     >>> from seisblock.readers import read
     >>> demean(read("synthetic_knet.EW")).history
-    ('mean of the whole record removed (NS -0.138679, EW 0.0913371, UD 0.222668 m/s^2)',)
+    ('mean of the whole record removed (NS -13.87, EW 9.134, UD 22.27 gal)',)
     """
     checks.instance(record, Record)
     means = {c.code: float(c.acceleration.mean()) for c in record.components}
-    removed = [f"{code} {mean:.6g}" for code, mean in means.items()]
-    did = said("mean of the whole record removed ({means} m/s^2)", means=removed)
+    removed = [f"{code} {mean / GAL:.4g}" for code, mean in means.items()]
+    did = said("mean of the whole record removed ({means} gal)", means=removed)
     return _apply(record, lambda c: c.acceleration - means[c.code], did, doubts=settled(record.doubts))
 
 
@@ -155,12 +156,12 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
         )
     factor = target / peak
     did = said(
-        "scaled by {factor:.10g}: PGA of {code} ({among}) {peak:.6g} -> {target:.6g} m/s^2",
+        "scaled by {factor:.10g}: PGA of {code} ({among}) {peak:.5g} -> {target:.5g} gal",
         factor=factor,
         code=chosen.code,
         among=among,
-        peak=peak,
-        target=target,
+        peak=peak / GAL,
+        target=target / GAL,
     )
     return _apply(record, lambda c: c.acceleration * factor, did)
 

@@ -11,6 +11,7 @@ from seisblock.records.doubts import Doubt
 from seisblock.records.jumps import spikes_and_jumps
 from seisblock.records.record import Component, Record
 from seisblock.typing import FloatArray, IntArray
+from seisblock.units import GAL
 from seisblock.words import said
 
 IMPLAUSIBLE_PGA = 50.0
@@ -85,10 +86,10 @@ def _of_component(component: Component, dt: float) -> Iterator[Doubt]:
 def _offset(code: str, mean: float, peak: float) -> str:
     """Return what is said of an offset."""
     return said(
-        "{component}: the mean, {mean:.4g} m/s^2, is {share:.0%} of the peak: an offset, which moves whatever stands there; "
+        "{component}: the mean, {mean:.4g} gal, is {share:.0%} of the peak: an offset, which moves whatever stands there; "
         "remove the mean, or high-pass the record",
         component=code,
-        mean=mean,
+        mean=mean / GAL,
         share=abs(mean) / peak,
     )
 

@@ -40,7 +40,9 @@ def test_size_and_resolution(drawn, words, pixels):
     [
         (("--size", "18"), "is not a width and a height such as 18x12", 2),
         (("--size", "axb"), "a", 2),
-        (("--size", "1x1"), "a figure is between 4 and 120 cm", 2),
+        (("--size", "1x1"), "a figure is between 4 cm and 120 cm", 2),
+        (("--size", "5mmx5mm"), "a figure is between 40 mm and 1200 mm", 2),
+        (("--size", "60mmx60mm"), "give it", 3),
         (("--size", "100x100", "--dpi", "1200"), "make it smaller", 3),
         (("--dpi", "0"), "is not in the range", 2),
     ],

@@ -2,6 +2,7 @@
 
 import functools
 import itertools
+import re
 
 import numpy as np
 import pytest
@@ -11,7 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.text import Text
 
-from seisblock.present.figures.canvas import SMALLEST_LETTERS, fitted
+from seisblock.errors import OutputError
+from seisblock.present.figures import size as size_module
+from seisblock.present.figures.canvas import SMALLEST_LETTERS
+from seisblock.present.figures.size import fitted
+from seisblock.units import Size
 from seisblock.words import speaking
 from tests.language.test_commands import MINUS_NOTHING
 from tests.present.long_record import EVERY, OF_THE_RECORD, drawing_functions
@@ -77,6 +82,34 @@ def test_a_journals_column_holds_it(name):
     with speaking("ja"):
         figure = EVERY[name][1](True)
         fitted(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
+        figure.draw_without_rendering()
+    texts = tuple(visible_texts(figure))
+    assert crowded(figure, texts) == []
+    assert min(text.get_fontsize() for text in texts) >= 6.5 * SMALLEST_LETTERS
+
+
+TOO_SMALL = {
+    "respond", "respond, two", "rock", "rock, two", "slide", "slide, two", "jump", "jump, two", "uplift", "uplift, two", "stack",
+    "measure", "criteria", "modes", "rate with dowels", "estimate", "harmonic",
+}  # fmt: skip
+"""What has more panels, or columns of them, than 85 mm x 60 mm hold."""
+
+
+@pytest.mark.parametrize("name", sorted(set(EVERY) - {"field test"}))
+def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatch):
+    """At 85 mm x 60 mm no text lies on another or leaves the canvas, in no panel without room; or a size that will do is told, in mm."""
+    monkeypatch.setattr(size_module, "FINE", 0.5)  # the first size that will do, not the least
+    with speaking("en"):
+        figure = EVERY[name][1](True)
+        try:
+            fitted(figure, size=Size(COLUMN, 0.06, "mm"))
+        except OutputError as error:
+            assert name in TOO_SMALL
+            told = [float(side) / 1000 for side in re.findall(r"(\d+) mm", str(error).rpartition(": ")[2])]
+            fitted(figure, size=Size(*([COLUMN, *told] if len(told) == 1 else told), "mm"))
+        else:
+            assert name not in TOO_SMALL
+            assert tuple(figure.get_size_inches()) == pytest.approx((COLUMN / 0.0254, 0.06 / 0.0254))
         figure.draw_without_rendering()
     texts = tuple(visible_texts(figure))
     assert crowded(figure, texts) == []

@@ -5,13 +5,13 @@ import re
 import numpy as np
 import pytest
 
-from seisblock import Block, SlidingBase, solve_rock, solve_slide
+from seisblock import Block, Contact, SlidingBase, solve_jump, solve_respond, solve_rock, solve_slide
 from seisblock.measures import measure
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.curves import MOST_POINTS, thin
 from seisblock.present.figures.measure import measure_figure
 from seisblock.records import Preparation, motion_of
-from tests.present.long_record import DT, SAMPLES, SOLVED, motion, record, response
+from tests.present.long_record import DT, PAVILION, SAMPLES, SOLVED, motion, record, response
 
 DRAWN = {
     "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ/α": r["rotation"] / min(r.body.slendernesses)},
@@ -142,11 +142,31 @@ def test_each_phase_that_can_be_seen_is_shaded():
 
 def test_what_did_not_happen_has_no_panel():
     """F3: a block at rest has its ground motion and nothing empty beside it."""
-    at_rest = solve_rock(Block(1.0, 1.0), motion())
+    at_rest = solve_rock(Block(0.8, 1.0), motion())
     axes = figure_of([at_rest]).axes
     assert [axis.get_ylabel() for axis in axes] == ["", "a (gal)"]
     with_names = [text.get_text() for axis in axes if axis.get_legend() for text in axis.get_legend().get_texts()]
     assert with_names == ["rests within ± g tan α"]
+
+
+@pytest.mark.parametrize(
+    ("solve", "told"),
+    [
+        (lambda faint: solve_rock(Block(0.3, 0.9), faint), "rocks beyond ±327 gal"),
+        (lambda faint: solve_slide(SlidingBase(0.3), faint), "limits of static friction ±294 gal"),
+        (lambda faint: solve_respond(Block(0.45, 1.8), faint, mu=0.3), "rocks: b/h ±245 gal, slides: μ ±294 gal"),
+        (lambda faint: solve_jump(PAVILION, faint, contact=Contact(mu=0.18)), "rocks beyond ±461 gal"),
+    ],
+    ids=["rock", "slide", "respond", "jump"],
+)
+def test_a_faint_record_fills_its_panel(solve, told):
+    """A record of 3 gal is no line between limits of 300: the panel is as high as what shakes, and its key says where the limits are."""
+    faint = motion("NS", 0.007)
+    _, axis = figure_of([solve(faint)]).axes
+    peak = 100.0 * np.abs(faint.horizontal).max()
+    assert axis.get_ylim() == pytest.approx((-1.15 * peak, 1.15 * peak))
+    assert [text.get_text() for text in axis.get_legend().get_texts()] == [f"out of sight: {told}"]
+    assert len([line for line in axis.get_lines() if line.get_xdata().size]) == 1 and not axis.collections
 
 
 @pytest.mark.parametrize("height", [0.7, 0.74, 0.78, 0.82, 0.9, 2.4])

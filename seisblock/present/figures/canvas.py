@@ -16,9 +16,10 @@ from seisblock.errors import OutputError
 from seisblock.present.directions import phase as called
 from seisblock.present.figures.fonts import set_letters
 from seisblock.present.files import replacing
+from seisblock.present.wrap import columns
 from seisblock.results import Phase
 from seisblock.units import GAL
-from seisblock.words import language
+from seisblock.words import language, tell
 
 INPUT = "0.45"
 ACCENT = "#c0392b"
@@ -39,6 +40,9 @@ SMALLEST_LETTERS = 0.72
 INCH = 0.0254
 """m."""
 
+BETWEEN = "   "
+"""What stands between the parts of a title."""
+
 MOST_PIXELS = 20_000
 """Longest side of a picture."""
 
@@ -47,6 +51,12 @@ TICKS = 8
 
 ABOVE = 1.0
 """Height at which a legend stands over its panel, of the panel's."""
+
+FAR = 2.0
+"""The nearest threshold is in the picture, though nothing reaches it, up to so many times the ground's peak."""
+
+MARGIN = 1.15
+"""Height of a panel over the largest that it shows."""
 
 SUFFIXES = (".png", ".svg", ".pdf")
 
@@ -60,6 +70,7 @@ class Sheet(Figure):
         self.spoken = language()
         self.heading: Text | None = None
         self.narrowed = False
+        self.keys: dict[Axes | None, tuple[list[Any], dict[str, Any]]] = {}
 
     def entitle(self, text: str) -> None:
         """Put a line above all panels; it is text, never mathematics."""
@@ -74,18 +85,6 @@ class Sheet(Figure):
             if self.narrowed:
                 self._lift_legends(renderer)
             super().draw(renderer)
-
-    def resize(self, width: float, height: float) -> None:
-        """Take another size, inch; where it is narrower, letters are smaller, and a legend that a title would touch stands above it."""
-        share = max(min(width / self.get_figwidth(), 1.0), SMALLEST_LETTERS)
-        self.set_size_inches(width, height)
-        self.narrowed = self.narrowed or share < 1.0
-        for text in self.findobj(Text):
-            text.set_fontsize(share * float(text.get_fontsize()))
-        for each in self.axes:
-            for ruler in (each.xaxis, each.yaxis):
-                usual = ruler.get_tick_params().get("labelsize", TICKS)
-                ruler.set_tick_params(labelsize=share * float(usual))
 
     def _lift_legends(self, renderer: Any) -> None:
         """Put each legend that lies on its panel's title above it."""
@@ -114,8 +113,17 @@ class Sheet(Figure):
         if wide > room:
             size = float(title.get_fontsize())
             title.set_fontsize(max(size * room / wide, SMALLEST_TITLE))
+            if title.get_window_extent(renderer).width > room:
+                title.set_text(_in_two(title.get_text()))
             while title.get_window_extent(renderer).width > room and len(title.get_text()) > 2:
                 title.set_text(title.get_text()[:-2] + "…")
+
+
+def _in_two(text: str) -> str:
+    """Return a title in two lines, broken between two of its parts as near to the middle as there are."""
+    parts = text.split(BETWEEN)
+    halves = [(BETWEEN.join(parts[:i]), BETWEEN.join(parts[i:])) for i in range(1, len(parts))]
+    return "\n".join(min(halves, key=lambda two: max(map(columns, two)))) if halves else text
 
 
 def titled(text: str, *, width: float, height: float) -> Sheet:
@@ -180,48 +188,59 @@ def threshold(axis: Axes, levels: Sequence[float], text: str = "") -> None:
         axis.axhline(level, color=THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label=text if text and index == 0 else None)
 
 
-def legend(axis: Axes, **placement: Any) -> None:
-    """Add a small legend above the panel, where it hides nothing, when there is something to name."""
-    if axis.get_legend_handles_labels()[0]:
-        where = {"loc": "lower right", "bbox_to_anchor": (1.0, ABOVE), "borderaxespad": 0.0, "ncols": 5, **placement}
-        axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", **where)
-
-
-def fitted(figure: Figure, *, size: tuple[float, float] | None = None, dpi: int = DPI, title: str | None = None) -> Figure:
-    """Return a figure in the size, at the resolution and under the title asked for.
+def within_reach(axis: Axes, peak: float, levels: Sequence[tuple[float, float, str]], unit: str) -> list[bool]:
+    """Fit a panel to what shakes, from -`limit` to `limit`, and return which levels are within reach; of the others its key tells in words.
 
     Parameters
     ----------
-    figure : Figure
-    size : (float, float), m, optional
-        Width and height.
-    dpi : int, 1/inch
-    title : str, optional
-        Instead of the figure's own; empty for none.
-
-    Raises
-    ------
-    OutputError
-        If that makes more pixels than a picture can hold.
+    axis : Axes
+    peak : float
+        Largest value of what is drawn.
+    levels : sequence of (float, float, str)
+        A level on each side of zero, and what happens beyond it.
+    unit : str
+        Of peak and levels.
     """
-    if size is not None:
-        wide, high = (side / INCH for side in size)
-        if isinstance(figure, Sheet):
-            figure.resize(wide, high)
-        else:
-            figure.set_size_inches(wide, high)
-    figure.set_dpi(dpi)
-    wide, high = figure.get_size_inches() * dpi
-    if max(wide, high) > MOST_PIXELS:
-        raise OutputError(
-            "a figure of {wide:.0f} x {high:.0f} pixels is larger than {most}: make it smaller, or give it fewer dots per inch",
-            wide=wide,
-            high=high,
-            most=MOST_PIXELS,
-        )
-    if title is not None and isinstance(figure, Sheet):
-        figure.entitle(title)
-    return figure
+    nearest = min((min(abs(low), abs(high)) for low, high, _ in levels), default=0.0)
+    limit = MARGIN * (max(peak, nearest) if nearest <= FAR * peak else peak)
+    if limit > 0.0:
+        axis.set_ylim(-limit, limit)
+    seen = [min(abs(low), abs(high)) < limit for low, high, _ in levels]
+    far = [_far(*level, unit) for level, here in zip(levels, seen, strict=True) if not here]
+    if far:
+        axis.plot([], [], " ", label=tell("out of sight: {levels}", levels=far))
+    return seen
+
+
+def _far(low: float, high: float, what: str, unit: str) -> str:
+    """Return what happens beyond two levels, and where they are."""
+    alike = abs(abs(low) - abs(high)) < 0.005 * abs(high)
+    where = f"±{abs(high):.3g} {unit}" if alike else tell("{low} and {high}", low=f"{low:.3g}", high=f"{high:+.3g} {unit}")
+    return f"{what} {where}"
+
+
+def legend(axis: Axes, **placement: Any) -> None:
+    """Add a small key above the panel, where it hides nothing, when there is something to name."""
+    handles = axis.get_legend_handles_labels()[0]
+    if handles:
+        where = {"loc": "lower right", "bbox_to_anchor": (1.0, ABOVE), "borderaxespad": 0.0, "ncols": 5, "fontsize": 7, **placement}
+        axis.legend(framealpha=0.85, edgecolor="none", **where)
+        _remember(axis.get_figure(root=True), axis, handles, where)
+
+
+def legend_outside(figure: Figure, handles: list[Any], **placement: Any) -> None:
+    """Add a key of all panels outside of them."""
+    where = {"fontsize": 7.5, **placement}
+    for before in figure.legends[:]:
+        before.remove()
+    figure.legend(handles=handles, frameon=False, **where)
+    _remember(figure, None, handles, where)
+
+
+def _remember(figure: Figure | None, axis: Axes | None, handles: list[Any], where: dict[str, Any]) -> None:
+    """Have a figure know how a key was made, so that it can be made in another size."""
+    if isinstance(figure, Sheet):
+        figure.keys[axis] = handles, where
 
 
 def save(figure: Figure, path: Path | str) -> None:

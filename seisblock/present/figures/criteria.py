@@ -44,7 +44,7 @@ def figure(cards: Sequence[Card], *, gal: bool = True) -> Figure:
     axes[0].invert_yaxis()
     says = {False: tell("says that it stands"), True: tell("says that it overturns")}
     handles = [Patch(color=COLOURS[falls], label=says[falls]) for falls in sorted(seen)]
-    made.legend(handles=handles, loc="outside lower right", ncols=2, fontsize=7.5, frameon=False)
+    canvas.legend_outside(made, handles, loc="outside lower right", ncols=2)
     return made
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
+from seisblock.present.figures.canvas import BETWEEN
 from seisblock.present.figures.fonts import has_letters
 from seisblock.records import Motion, Record
 from seisblock.records.site import site_of, told_time
 from seisblock.words import listed, plain_text, tell
-
-BETWEEN = "   "
 
 LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
 """A number of more digits than a title has room for."""

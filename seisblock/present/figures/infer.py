@@ -32,6 +32,9 @@ SHOWN_PGA = (0.5, 40.0)
 TICKS = (1.0, 2.0, 5.0, 10.0, 20.0)
 """Values of PGA that are named, m/s^2."""
 
+FEW_TICKS = (1.0, 3.0, 10.0, 30.0)
+"""Those along an axis, where numbers stand side by side."""
+
 FINE = tuple(np.geomspace(0.3, 4.0, 31).tolist())
 """Frequencies of the contour, Hz."""
 
@@ -109,7 +112,7 @@ def _likelihoods(axis: Axes, survey: Survey, assumptions: Assumptions, chosen: S
         axis.plot(pga, value, color=colour, linestyle=dashes, linewidth=1.2, label=f"{f:.3g} Hz")
     axis.set_xscale("log")
     axis.set_xlim(*(each / unit for each in SHOWN_PGA))
-    axis.set_xticks([each / unit for each in TICKS], [f"{each / unit:g}" for each in TICKS])
+    axis.set_xticks([each / unit for each in FEW_TICKS], [f"{each / unit:g}" for each in FEW_TICKS])
     axis.minorticks_off()
     label(axis, x=tell("PGA ({unit})", unit=name), y=tell("likelihood (over its largest)"))
     legend(axis, ncols=6)

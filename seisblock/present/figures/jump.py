@@ -23,10 +23,11 @@ COLOURS = {ROCKING: "#f4d9c6", FLIGHT: "#8fb89b", LANDED: "#7183bb"}
 
 
 def figure(responses: Jumps, *, gal: bool = True) -> Figure:
-    """Return the figure: per component the record with its thresholds (fig. 12), tilt, rise and displacement (fig. 14)."""
+    """Return the figure: per component the record with its thresholds (fig. 12) and, where it rocks, tilt, rise and displacement (fig. 14)."""
     motions = [response.motion for response in responses]
-    made = canvas.titled(heading_of(motions), width=4.0 + 4.0 * len(responses), height=8.2)
-    columns = columns_of(made, motions, [stretch(r) for r in responses], 4)
+    rows = [4 if response.outcome.chains else 1 for response in responses]
+    made = canvas.titled(heading_of(motions), width=4.0 + 4.0 * len(responses), height=1.0 + 1.8 * max(rows))
+    columns = columns_of(made, motions, [stretch(r) for r in responses], rows)
     for panels, name, response in zip(columns, names_of(motions), responses, strict=True):
         _column(panels, name, response, gal=gal)
     return made
@@ -43,19 +44,22 @@ def stretch(response: Response[JumpOutcome]) -> Stretch:
 
 
 def _column(panels: Sequence[Any], called: str, response: Response[JumpOutcome], *, gal: bool) -> None:
-    """Draw one component's four panels."""
+    """Draw one component's four panels: the first alone where nothing rocks."""
     motion, outcome = response.motion, response.outcome
     unit, name = canvas.acceleration_unit(gal=gal)
     curve(panels[0], motion.time, motion.horizontal / unit, color=canvas.INPUT)
     level = outcome.rocking_threshold_m_s2 / unit
-    canvas.threshold(panels[0], [level, -level], tell("rocks beyond"))
+    peak = float(np.abs(motion.horizontal).max()) / unit
+    (near,) = canvas.within_reach(panels[0], peak, [(-level, level, tell("rocks beyond"))], name)
+    if near:
+        canvas.threshold(panels[0], [level, -level], tell("rocks beyond"))
     rise = response["height"] - response.body.centroid_height
-    for panel, values in zip(panels[1:], (np.degrees(response["rotation"]), rise * 1e3, response["displacement"] * 1e3), strict=True):
+    for panel, values in zip(panels[1:], (np.degrees(response["rotation"]), rise * 1e3, response["displacement"] * 1e3), strict=False):
         curve(panel, response.time, values, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
     for panel in panels:
-        canvas.shade(panel, response.phases, COLOURS, names=panel is panels[1])
+        canvas.shade(panel, response.phases, COLOURS, names=panel is panels[min(1, len(panels) - 1)])
     for panel in panels[:2]:
         canvas.legend(panel)
     canvas.panel_title(panels[0], tell("{name}: {what}", name=called, what=tell(response.body.name)))
-    for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), *map(tell, QUANTITIES)), strict=True):
+    for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), *map(tell, QUANTITIES)), strict=False):
         canvas.label(panel, y=text)

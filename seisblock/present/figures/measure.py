@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 
 from seisblock.measures import RecordMeasures, fourier_amplitude, ground_history, response_spectrum
 from seisblock.measures.spectra import DAMPING
-from seisblock.present.figures.canvas import ACCENT, INPUT, acceleration_unit, dress, label, legend, threshold, titled
+from seisblock.present.figures.canvas import ACCENT, BETWEEN, INPUT, acceleration_unit, dress, label, legend, threshold, titled
 from seisblock.present.figures.curves import curve, in_view, thin
-from seisblock.present.figures.heading import BETWEEN, heading
+from seisblock.present.figures.heading import heading
 from seisblock.present.figures.histories import columns_of, strong_part
 from seisblock.records import Component, Motion, Record
 from seisblock.records.process import pick

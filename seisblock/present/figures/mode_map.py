@@ -72,7 +72,7 @@ def figure(maps: Maps) -> Figure:
         (JUMP, tell("a corner holds to the right of this if A comes as a jump")),
     ):
         handles += axes[0].plot([], [], label=text, **style)
-    made.legend(handles=handles, loc="outside lower center", ncols=min(2 * len(maps), 4), fontsize=7.5, frameon=False)
+    canvas.legend_outside(made, handles, loc="outside lower center", ncols=min(2 * len(maps), 4))
     return made
 
 

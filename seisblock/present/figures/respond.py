@@ -24,9 +24,6 @@ SEEN = 1 / 2000
 LEAST_LIFT = 1e-4
 """Lift that is drawn, m: hops below a tenth of a millimetre are not to be seen."""
 
-FAR = 4.0
-"""The nearest threshold is in the picture, though nothing reaches it, up to so many times the ground's peak."""
-
 Responds = Sequence[Response[RespondOutcome]]
 
 
@@ -92,20 +89,16 @@ def _ground(axis: Axes, called: str, response: Response[RespondOutcome], *, gal:
     right, left = block.arms
     gravity = options["gravity_m_s2"] / unit
     curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
-    reach = float(np.abs(response["ground_acceleration"]).max()) / unit
+    peak = float(np.abs(response["ground_acceleration"]).max()) / unit
     levels = (
-        ((-right / block.centre * gravity, left / block.centre * gravity), tell("rocks: b/h"), (0, (6, 2))),
-        ((-options["mu"] * gravity, options["mu"] * gravity), tell("slides: μ"), (0, (1.5, 1.5))),
+        (-right / block.centre * gravity, left / block.centre * gravity, tell("rocks: b/h")),
+        (-options["mu"] * gravity, options["mu"] * gravity, tell("slides: μ")),
     )
-    nearest = min(abs(level) for pair, _, _ in levels for level in pair)
-    limit = 1.15 * (max(reach, nearest) if nearest <= FAR * reach else reach)
-    for pair, text, dash in levels:
-        inside = [level for level in pair if abs(level) <= limit]
-        for index, level in enumerate(inside):
-            axis.axhline(level, color=canvas.THRESHOLD, linewidth=0.8, linestyle=dash, label=text if index == 0 else None)
-    if limit > 0.0:
-        axis.set_ylim(-limit, limit)
-    canvas.label(axis, y=f"a ({name})")
+    near = canvas.within_reach(axis, peak, levels, name)
+    for (low, high, text), dash, here in zip(levels, ((0, (6, 2)), (0, (1.5, 1.5))), near, strict=True):
+        for level in (low, high) if here else ():
+            axis.axhline(level, color=canvas.THRESHOLD, linewidth=0.8, linestyle=dash, label=text if level == low else None)
+    canvas.label(axis, y=tell("a ({unit})", unit=name))
     title = f"{called}  " + tell("{name}: {what}", name=tell(block.name), what=tell(response.outcome.outcome))
     canvas.panel_title(axis, title)
 
@@ -119,7 +112,7 @@ def _curve(axis: Axes, response: Response[RespondOutcome], values: np.ndarray, t
 def _lean(axis: Axes, response: Response[RespondOutcome]) -> None:
     """Draw the lean over alpha, up to a little beyond what matters."""
     alpha = min(response.body.slendernesses)
-    _curve(axis, response, response["rotation"] / alpha, "θ/α", canvas.ACCENT)
+    _curve(axis, response, response["rotation"] / alpha, tell("θ/α"), canvas.ACCENT)
     reach = float(np.abs(response["rotation"]).max()) / alpha
     if reach > 0.8:
         canvas.threshold(axis, [-1.0, 1.0])

@@ -70,9 +70,12 @@ def draw_ground(axis: Any, response: Response[RockOutcome], called: str, *, gal:
     )
     g = options["gravity_m_s2"] / unit
     band = tell("rests within ± {g} tan α", g="(g + a_v)" if options["vertical"] else "g")
-    axis.fill_between(response.time, -g * right * weight, g * left * weight, color="0.92", linewidth=0, label=band)
-    if not options["vertical"]:
-        canvas.threshold(axis, [-g * right, g * left])
+    peak = float(np.abs(response["ground_acceleration"]).max()) / unit
+    (near,) = canvas.within_reach(axis, peak, [(-g * right, g * left, tell("rocks beyond"))], name)
+    if near:
+        axis.fill_between(response.time, -g * right * weight, g * left * weight, color="0.92", linewidth=0, label=band)
+        if not options["vertical"]:
+            canvas.threshold(axis, [-g * right, g * left])
     curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
     canvas.label(axis, y=tell("a ({unit})", unit=name))
     canvas.legend(axis)

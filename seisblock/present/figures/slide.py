@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
@@ -38,7 +39,10 @@ def _column(panels: Sequence[Any], called: str, response: Response[SlideOutcome]
     top, *below = panels
     lower, upper = response["lower_limit"], response["upper_limit"]
     curve(top, time, response["ground_acceleration"] / unit, color=canvas.INPUT)
-    for index, limit in enumerate((lower, upper)):
+    peak = float(np.abs(response["ground_acceleration"]).max()) / unit
+    levels = [(float(np.median(lower)) / unit, float(np.median(upper)) / unit, tell("limits of static friction"))]
+    (near,) = canvas.within_reach(top, peak, levels, name)
+    for index, limit in enumerate((lower, upper) if near else ()):
         text = None if index else tell("limits of static friction")
         curve(top, time, limit / unit, color=canvas.THRESHOLD, linestyle=(0, (6, 2, 1, 2)), label=text)
     if below:

@@ -65,7 +65,7 @@ def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
     ]
     if limits:
         handles += axes[0].plot([], [], color=canvas.THRESHOLD, linewidth=0.8, linestyle=DASHES, label="PGA = g tan α")
-    made.legend(handles=handles, loc="outside lower center", ncols=2 * len(spectra), fontsize=7.5, frameon=False)
+    canvas.legend_outside(made, handles, loc="outside lower center", ncols=2 * len(spectra))
     return made
 
 

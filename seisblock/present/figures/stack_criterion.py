@@ -63,5 +63,6 @@ def figure(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, 
     right.set_title(tell("level"), fontsize=9, loc="left")
     canvas.label(right, "f (Hz)", f"a(f) ({unit_name})")
     for axis, columns in ((left, 2), (right, 1)):
-        axis.legend(fontsize=7, frameon=False, ncols=columns, loc="upper right" if axis is left else "upper left")
+        where = "upper right" if axis is left else "upper left"
+        canvas.legend(axis, loc=where, bbox_to_anchor=None, borderaxespad=0.5, ncols=columns)
     return made

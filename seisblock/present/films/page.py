@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from seisblock.present.directions import side
+from seisblock.present.figures.canvas import BETWEEN
 from seisblock.present.figures.curves import in_view, thin
-from seisblock.present.figures.heading import BETWEEN
 from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Film, Strip
 from seisblock.present.films.plane import Plane, Trail
