@@ -25,7 +25,7 @@ def drawn(tmp_path):
         (("--dpi", "100"), (850, 700)),
         (("--size", "18x12"), (18 / 2.54 * 200, 12 / 2.54 * 200)),
         (("--size", "5inx4in", "--dpi", "72"), (360, 288)),
-        (("--size", "90mm×6cm"), (9 / 2.54 * 200, 6 / 2.54 * 200)),
+        (("--size", "90mm×9cm"), (9 / 2.54 * 200, 9 / 2.54 * 200)),
     ],
 )
 def test_size_and_resolution(drawn, words, pixels):
@@ -42,7 +42,7 @@ def test_size_and_resolution(drawn, words, pixels):
         (("--size", "axb"), "a", 2),
         (("--size", "1x1"), "a figure is between 4 cm and 120 cm", 2),
         (("--size", "5mmx5mm"), "a figure is between 40 mm and 1200 mm", 2),
-        (("--size", "60mmx60mm"), "give it", 3),
+        (("--size", "85mmx60mm"), "do not fit into 85 mm x 60 mm", 3),
         (("--size", "100x100", "--dpi", "1200"), "make it smaller", 3),
         (("--dpi", "0"), "is not in the range", 2),
     ],

@@ -23,7 +23,7 @@ COLOURS = {ROCKING: "#f4d9c6", FLIGHT: "#8fb89b", LANDED: "#7183bb"}
 
 
 def figure(responses: Jumps, *, gal: bool = True) -> Figure:
-    """Return the figure: per component the record with its thresholds (fig. 12) and, where it rocks, tilt, rise and displacement (fig. 14)."""
+    """Return the figure: per component the record with its thresholds (fig. 12); where it rocks tilt, rise, displacement (fig. 14)."""
     motions = [response.motion for response in responses]
     rows = [4 if response.outcome.chains else 1 for response in responses]
     made = canvas.titled(heading_of(motions), width=4.0 + 4.0 * len(responses), height=1.0 + 1.8 * max(rows))
