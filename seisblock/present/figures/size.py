@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -88,41 +88,52 @@ def _fit(sheet: Sheet, asked: Size) -> None:
         return
     highest = LARGEST * max(usual.height, high)
     if usual.fits(wide, highest):
-        least = _least(lambda tall: usual.fits(wide, tall), high, highest)
+        least = _least(lambda tall: usual.fits(wide, tall), high, highest, asked.unit)
         raise OutputError(
             "the texts of this figure do not fit into {width} x {height}: at this width it must be {least} high at least",
             width=_told(wide, asked.unit),
             height=_told(high, asked.unit),
-            least=_told(least, asked.unit, up=True),
+            least=_told(least, asked.unit),
         )
     share = usual.height / usual.width
     widest = LARGEST * max(usual.width, wide)
-    least = _least(lambda broad: usual.fits(broad, max(high, share * broad)), wide, widest)
+    least = _least(lambda broad: usual.fits(broad, _up(max(high, share * broad), asked.unit)), wide, widest, asked.unit)
     raise OutputError(
         "the texts of this figure do not fit into {width} x {height}, nor at any height of this width: give it {enough} x {tall}",
         width=_told(wide, asked.unit),
         height=_told(high, asked.unit),
-        enough=_told(least, asked.unit, up=True),
-        tall=_told(max(high, share * least), asked.unit, up=True),
+        enough=_told(least, asked.unit),
+        tall=_told(_up(max(high, share * least), asked.unit), asked.unit),
     )
 
 
-def _least(fits: Any, too_small: float, enough: float) -> float:
-    """Return the least size between one that is too small and one that is enough, inch, by halving."""
+def _least(fits: Callable[[float], bool], too_small: float, enough: float, unit: str) -> float:
+    """Return the least size between one that is too small and one that is enough, inch, by halving: one that can be told, and fits."""
     while enough / too_small > 1.0 + FINE:
         middle = math.sqrt(too_small * enough)
         if fits(middle):
             enough = middle
         else:
             too_small = middle
-    return enough
+    told = _up(enough, unit)
+    while not fits(told) and told < LARGEST * enough:
+        told = _up((1.0 + FINE) * told, unit)
+    return told
 
 
-def _told(inches: float, unit: str, *, up: bool = False) -> str:
-    """Return a length in the unit of the user, to the millimetre or so; upwards where it is one that suffices."""
-    decimals = {"mm": 0, "cm": 1}.get(unit, 2)
-    value = inches * INCH / LENGTH_UNITS[unit] * 10.0**decimals
-    return f"{(math.ceil(value - 1e-6) if up else round(value, 3)) / 10.0**decimals:g} {unit}"
+def _step(unit: str) -> float:
+    """Return the digit to which a size is told in a unit, inch."""
+    return {"mm": 1.0, "cm": 0.1}.get(unit, 0.01) * LENGTH_UNITS[unit] / INCH
+
+
+def _up(inches: float, unit: str) -> float:
+    """Return the next larger length that can be told in a unit, inch."""
+    return math.ceil(inches / _step(unit) - 1e-6) * _step(unit)
+
+
+def _told(inches: float, unit: str) -> str:
+    """Return a length in the unit of the user."""
+    return f"{inches * INCH / LENGTH_UNITS[unit]:.4g} {unit}"
 
 
 @dataclass(frozen=True, eq=False)
