@@ -37,8 +37,7 @@ def demean(record: Record) -> Record:
     """
     checks.instance(record, Record)
     means = {c.code: float(c.acceleration.mean()) for c in record.components}
-    removed = [f"{code} {mean / GAL:.4g}" for code, mean in means.items()]
-    did = said("mean of the whole record removed ({means} gal)", means=removed)
+    did = said("mean of the whole record removed ({means} gal)", means=[f"{code} {mean / GAL:.4g}" for code, mean in means.items()])
     return _apply(record, lambda c: c.acceleration - means[c.code], did, doubts=settled(record.doubts))
 
 

@@ -235,7 +235,7 @@ OF_NO_RECORD = {
 
 EVERY = OF_THE_RECORD | OF_NO_RECORD
 
-NOT_A_KIND = {"canvas", "embed", "fonts"}
+NOT_A_KIND = {"canvas", "embed", "fonts", "size"}
 """Modules that help to draw, and draw nothing themselves."""
 
 
