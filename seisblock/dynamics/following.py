@@ -41,7 +41,7 @@ from seisblock.words import said
 SLICE = 1 << 16
 """Steps that compiled code takes before Python may be interrupted: 10 to 150 ms, and no more than 1e-3 of that to come back."""
 
-_FIRST_CAPACITY, _LONG_CAPACITY = 256, 1 << 14
+_FIRST_CAPACITY, _LONG_CAPACITY = 1 << 12, 1 << 14
 _LAST_CAPACITY = 1 << 18
 
 _NO_TALLY, _NO_STAYS = np.empty((0, 0), dtype=np.int64), np.empty((0, 2))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -18,9 +18,10 @@ OTHERS = 6
 if TYPE_CHECKING:
     from seisblock.dynamics.model import Model
 
+Values = TypeVar("Values", FloatArray, IntArray)
 
-@dataclass(frozen=True)
-class Instant:
+
+class Instant(NamedTuple):
     """A time of a sampled motion, exact to the sample: `tau` seconds after sample number `sample`."""
 
     sample: int = 0
@@ -31,8 +32,7 @@ BEGINNING = Instant()
 """The first sample."""
 
 
-@dataclass(frozen=True, eq=False)
-class Change:
+class Change(NamedTuple):
     """An event as the engine logs it; times in s after sample 0 of the motion."""
 
     at: Instant
@@ -79,8 +79,16 @@ class Path:
             return time, self.states, self.modes
         both = np.array([limit for change in self.changes for limit in (change.before, change.after)])
         kinds = np.array([mode for change in self.changes for mode in (change.source, change.target)])
-        times, where = np.repeat([change.time for change in self.changes], 2), self._places()
-        return np.insert(time, where, times), np.insert(self.states, where, both, axis=0), np.insert(self.modes, where, kinds)
+        times, order = np.repeat([change.time for change in self.changes], 2), self._order()
+        return _woven(time, times, order), _woven(self.states, both, order), _woven(self.modes, kinds, order)
+
+    def values(self, state: int) -> FloatArray:
+        """Return one state at the times of :meth:`table`, (m,)."""
+        at_samples: FloatArray = self.states[:, state]
+        if not self.changes:
+            return at_samples
+        both = np.array([limit[state] for change in self.changes for limit in (change.before, change.after)])
+        return _woven(at_samples, both, self._order())
 
     def sampled(self, values: FloatArray) -> FloatArray:
         """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
@@ -90,12 +98,19 @@ class Path:
         at = np.array([change.at.sample for change in self.changes])
         share = np.array([change.at.tau for change in self.changes]) / self.dt
         there = values[at] + share * (values[np.minimum(at + 1, values.size - 1)] - values[at])
-        return np.insert(part, self._places(), np.repeat(there, 2))
+        return _woven(part, np.repeat(there, 2), self._order())
 
-    def _places(self) -> IntArray:
-        """Return before which sample of the path each limit of each event stands."""
+    def _order(self) -> IntArray:
+        """Return which of the samples, and of the limits of the events after them, stands at each place of the table."""
+        size = self.modes.size
         at = np.array([change.at.sample for change in self.changes]) + 1 - self.first
-        return np.clip(np.repeat(at, 2), 0, self.modes.size)
+        before = np.clip(np.repeat(at, 2), 0, size)
+        return np.insert(np.arange(size), before, size + np.arange(before.size))
+
+
+def _woven(at_samples: Values, at_limits: Values, order: IntArray) -> Values:
+    """Return what holds at samples and what holds at events, in the order of time."""
+    return np.concatenate([at_samples, at_limits])[order]
 
 
 def joined(paths: Iterable[Path]) -> Path:

@@ -51,7 +51,7 @@ def _later(part: Trajectory, samples: int) -> Trajectory:
     extrema[:, 1::2] += seconds
 
     def later(changes: Iterable[Change]) -> tuple[Change, ...]:
-        return tuple(replace(c, at=Instant(c.at.sample + samples, c.at.tau), time=c.time + seconds) for c in changes)
+        return tuple(c._replace(at=Instant(c.at.sample + samples, c.at.tau), time=c.time + seconds) for c in changes)
 
     def walk() -> Iterator[Path]:
         return (replace(path, first=path.first + samples, changes=later(path.changes)) for path in part.walk())

@@ -144,14 +144,14 @@ def _chosen(ratio: FloatArray, normal: FloatArray) -> IntArray:
 def _pieces(block: Rocker, motion: Motion, trajectory: Trajectory, until_s: float) -> Iterator[_Rows]:
     """Yield the rows up to a time; of a path in several pieces those that may matter, so that no more than a piece is held."""
     held: _Rows | None = None
-    count = 0
+    first = count = 0
     for path in trajectory.walk():
         if held is not None:
             yield held.extremes()
-        held = _rows(block, motion, path, until_s, count)
-        count += held.time.size
+        first, (held, size) = count, _rows(block, motion, path, until_s, count)
+        count += size
     if held is not None:
-        yield held if count == held.time.size else held.extremes()
+        yield held if first == 0 else held.extremes()
 
 
 def _joined(pieces: Sequence[_Rows]) -> _Rows:
@@ -161,26 +161,42 @@ def _joined(pieces: Sequence[_Rows]) -> _Rows:
     return replace(pieces[0], **arrays)
 
 
-def _rows(block: Rocker, motion: Motion, path: Path, until_s: float, before: int) -> _Rows:
-    """Return the rows of a path up to a time, after so many, with what the forces need."""
+def _rows(block: Rocker, motion: Motion, path: Path, until_s: float, before: int) -> tuple[_Rows, int]:
+    """Return the rows of a path up to a time, after so many, that may matter, with what the forces need; and how many there are in all."""
     time, states, modes = path.table()
     n = int(np.searchsorted(time, until_s, side="right")) if math.isfinite(until_s) else time.size
-    push = path.sampled(motion.horizontal)
-    weight = block.gravity + (path.sampled(motion.vertical) * block.vertical if block.vertical != 0.0 else np.zeros(time.size))
-    left = (modes[:n] == TO_LEFT) | (modes[:n] == BEYOND_LEFT)
-    return _Rows(
-        before + np.arange(n),
-        time[:n],
-        states[:n, 0],
-        states[:n, 1],
-        push[:n],
-        weight[:n],
-        modes[:n],
+    push = path.sampled(motion.horizontal)[:n]
+    weight = np.full(n, block.gravity)
+    if block.vertical != 0.0:
+        weight += path.sampled(motion.vertical)[:n] * block.vertical
+    chosen = _telling(push, weight, modes[:n])
+    mode = modes[chosen]
+    left = (mode == TO_LEFT) | (mode == BEYOND_LEFT)
+    rows = _Rows(
+        before + chosen,
+        time[chosen],
+        states[chosen, 0],
+        states[chosen, 1],
+        push[chosen],
+        weight[chosen],
+        mode,
         lean=np.where(left, -block.alphas[LEFT], block.alphas[RIGHT]),
         lever=np.where(left, block.levers[LEFT], block.levers[RIGHT]),
         radius=np.where(left, block.radii[LEFT], block.radii[RIGHT]),
         linear=block.linear,
     )
+    return rows, n
+
+
+def _telling(push: FloatArray, weight: FloatArray, modes: IntArray) -> IntArray:
+    """Return which rows have to be looked at: of those at rest, where forces are extreme at samples, the one of the largest demand."""
+    moving = modes != REST
+    if moving.all() or not (weight > 0.0).all():
+        return np.arange(modes.size)
+    resting = np.flatnonzero(~moving)
+    most = resting[np.argmax(np.abs(push[resting]) / weight[resting])]
+    moving[most] = True
+    return np.flatnonzero(moving)
 
 
 def _between(rows: _Rows, at: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -17,9 +17,9 @@ from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import UP, Motion
 from seisblock.references import papers
 from seisblock.results import Channel, Event, Histories, Phase, Response, Status
+from seisblock.solvers.slide.length import length_slid
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
-from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import Said, noted, said
 
@@ -189,21 +189,11 @@ def _outcome(trajectory: Trajectory, motion: Motion, p: tuple[float, ...]) -> Sl
         final_slip_m=rest if math.isfinite(rest) else None,
         slip_count=len(begins),
         reversals=sum(_slides(c.source) for c in begins),
-        path_m=_length(trajectory),
+        path_m=length_slid(trajectory),
         fell_off_slope=any(_left_slope(c) for c in changes),
         lifted_off=any(c.target % LEVEL == FLIGHT for c in changes),
         slides_at_end=moving,
     )
-
-
-def _length(trajectory: Trajectory) -> float:
-    """Return the length of the path slid, m: between samples and events the slip does not turn. Rounded once, whatever its pieces."""
-    ways, reached = list[FloatArray](), np.empty(0)
-    for path in trajectory.walk():
-        slip = np.concatenate([reached, path.table()[1][:, SLIP]])
-        way, reached = np.abs(np.diff(slip)), slip[-1:]
-        ways.append(way[way > 0.0])
-    return math.fsum(each for part in ways for each in part.tolist())
 
 
 def _slides(mode: int) -> bool:
