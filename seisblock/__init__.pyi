@@ -10,6 +10,7 @@ from .bodies.pile.contact import PileContact
 from .bodies.pile.pile import Pile
 from .bodies.pile.stone import PileStone
 from .bodies.pile.toml import load_pile
+from .bodies.roster import ListedBody, read_bodies
 from .bodies.sliding_base import SlidingBase
 from .bodies.spring_block import SpringBlock
 from .bodies.two_layer import Contact, TwoLayerBlock, load_contact, load_two_layer
@@ -55,6 +56,8 @@ from .solvers.uplift.minima import UpliftMinimum, uplift_minima
 from .solvers.uplift.modes import natural_modes
 from .solvers.uplift.outcome import UpliftOutcome
 from .solvers.uplift.solve import solve_uplift
+from .studies.batch.run import run_batch
+from .studies.batch.table import BatchTable
 from .studies.cemetery.rate import Rate, overturning_rate, rate_curve
 from .studies.gravestone_criterion import CriterionStudy, criterion_study
 from .studies.inverse.assumptions import Assumptions
@@ -74,6 +77,7 @@ __version__: str
 __all__ = [
     "Assumptions",
     "AzimuthFate",
+    "BatchTable",
     "Block",
     "bodies",
     "BodyError",
@@ -106,6 +110,7 @@ __all__ = [
     "JumpOutcome",
     "KindError",
     "list_samples",
+    "ListedBody",
     "load_block",
     "load_contact",
     "load_pile",
@@ -135,6 +140,7 @@ __all__ = [
     "rate_curve",
     "read",
     "read_all",
+    "read_bodies",
     "read_cemetery",
     "readers",
     "Preparation",
@@ -158,6 +164,7 @@ __all__ = [
     "RockOptions",
     "RockOutcome",
     "rotate",
+    "run_batch",
     "Sample",
     "sample_path",
     "scale",

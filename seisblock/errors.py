@@ -24,6 +24,10 @@ class SeisblockError(Exception):
         self.said = message if isinstance(message, Said) and not values else said(message, **values)
         super().__init__(on_a_screen(self.said))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Travel to another process with what was said."""
+        return type(self), (self.said,)
+
 
 class InputError(SeisblockError, ValueError):
     """Something the user gave cannot be used."""

@@ -22,12 +22,14 @@ LIMITS = {
     "SEISBLOCK_VALUES": 1_000_000,
     "SEISBLOCK_CELLS": 1_000_000,
     "SEISBLOCK_STONES": 1_000_000,
+    "SEISBLOCK_BODIES": 100_000,
     "SEISBLOCK_PILE_STONES": 200,
     "SEISBLOCK_PILE_POINTS": 25,
 }
 """The environment variables that lift a limit, and the limits without them: MiB read and unpacked, members of archives, archives within
 archives, samples of all components; MiB of the curves of one answer; versions of one body and factors on one motion; values of one option;
-combinations of one study; stones of a cemetery and of a pile, each pair of which is looked at, and points along a side of its joints."""
+combinations of one study; stones of a cemetery, bodies of a list, stones of a pile, each pair of which is looked at, and points along a
+side of its joints."""
 
 
 def limit(variable: str) -> int:

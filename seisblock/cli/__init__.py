@@ -44,6 +44,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning of blocks of all sizes and slendernesses."),
     "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Share of the gravestones of a cemetery that fall."),
     "infer": ("seisblock.cli.infer:infer", "Shaking read back from fallen gravestones or displaced objects."),
+    "batch": ("seisblock.cli.batch:batch", "Many records and many bodies: one table, on all cores or a cluster."),
     "report": ("seisblock.cli.report:report", "One page about a record and what it does to some bodies."),
     "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
     "cite": ("seisblock.cli.cite:cite", "The papers an answer relies on, as text or BibTeX."),

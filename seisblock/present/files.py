@@ -7,7 +7,7 @@ import csv
 import os
 import secrets
 import tempfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -122,6 +122,39 @@ def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(header)
         writer.writerows(rows)
+
+
+def read_table(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, Any]]:
+    """Yield the rows of a table that was written here, with cells of the types of its columns, None where empty.
+
+    Raises
+    ------
+    OutputError
+        If it has other columns, or cannot be read.
+    """
+    try:
+        with path.open(encoding="utf-8", newline="") as stream:
+            rows = csv.DictReader(stream)
+            check_columns(path, rows.fieldnames or (), columns)
+            for row in rows:
+                yield {name: _cell(row[name], kind) for name, kind in columns.items()}
+    except SeisblockError:
+        raise
+    except (OSError, ValueError, csv.Error) as error:
+        raise OutputError("{path} is no table of a batch: {error}", path=path, error=str(error)[:200]) from error
+
+
+def check_columns(path: Path, found: Iterable[str], columns: Iterable[str]) -> None:
+    """Refuse a table that has other columns than it should."""
+    if list(found) != list(columns):
+        raise OutputError("{path} is a table with other columns: give another name", path=path)
+
+
+def _cell(text: str, kind: type) -> Any:
+    """Return what a cell says."""
+    if text == "":
+        return None
+    return text == str(True) if kind is bool else kind(text)
 
 
 def of_records(header: Sequence[str], tables: Sequence[Iterable[Sequence[Any]]]) -> tuple[list[str], Iterator[list[Any]]]:

@@ -36,8 +36,13 @@ def is_bundle(data: bytes) -> bool:
     return data.startswith((b"PK\x03\x04", b"PK\x05\x06", b"\x1f\x8b")) or data[257:262] == b"ustar"
 
 
-def members_of(blob: Blob, budget: Budget, depth: int = 1) -> list[Blob]:
-    """Return the files in a bundle, those in bundles within it too, without plots and without sparse members.
+def members_of(blob: Blob, budget: Budget) -> list[Blob]:
+    """Return the files in a bundle, see :func:`walk`."""
+    return list(walk(blob, budget))
+
+
+def walk(blob: Blob, budget: Budget, depth: int = 1) -> Iterator[Blob]:
+    """Yield the files in a bundle, those in bundles within it too, without plots and without sparse members.
 
     Parameters
     ----------
@@ -55,7 +60,6 @@ def members_of(blob: Blob, budget: Budget, depth: int = 1) -> list[Blob]:
         If it exceeds the budget.
     """
     budget.check_nesting(blob.name, depth)
-    found: list[Blob] = []
     members = _unpacked(blob, budget)
     while True:
         try:
@@ -69,9 +73,13 @@ def members_of(blob: Blob, budget: Budget, depth: int = 1) -> list[Blob]:
                 error=str(error)[:200],
             ) from error
         if member is None:
-            return found
-        if member.data:
-            found.extend(members_of(member, budget, depth + 1) if is_bundle(member.data) else [member])
+            return
+        if not member.data:
+            continue
+        if is_bundle(member.data):
+            yield from walk(member, budget, depth + 1)
+        else:
+            yield member
 
 
 def _unpacked(blob: Blob, budget: Budget) -> Iterator[Blob]:

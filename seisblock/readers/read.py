@@ -127,6 +127,18 @@ def read_all(
     return [record for g in groups for record in _records_of(g, options, named)]
 
 
+def record_of_blobs(name: str, blobs: Sequence[Blob], options: Options) -> Record:
+    """Return the record that some bytes make, called `name` in messages; no sibling is looked for.
+
+    Raises
+    ------
+    InputError
+        As `read` does.
+    """
+    parts = [part for blob in blobs for part in parts_of(blob, options)]
+    return examined(replace(assemble(name, parts, level=_level(parts, options.level)), sha256=digest(blobs)))
+
+
 def _listed(given: Location | Iterable[Location]) -> list[Location]:
     """Return what was named as a list: one path, or several."""
     if isinstance(given, (str, PathLike)):

@@ -30,6 +30,18 @@ def with_siblings(blob: Blob, budget: Budget, level: str | None = None) -> list[
     return [blob]
 
 
+def knet_set(basename: str) -> tuple[str, int] | None:
+    """Return what the names of one K-NET or KiK-net station's files share, and how many there are, or None for any other name.
+
+    Examples
+    --------
+    >>> knet_set("AOM0012003011200.EW"), knet_set("AICH040010061330.NS2"), knet_set("record.csv")
+    (('AOM0012003011200', 3), ('AICH040010061330', 6), None)
+    """
+    match = _KNET_NAME.match(basename)
+    return None if match is None else (match["stem"], 6 if match["sensor"] else 3)
+
+
 def _of_knet(blob: Blob, path: Path, level: str | None, budget: Budget) -> list[Blob]:
     """Return the three files of one K-NET station, or of one sensor of a KiK-net station."""
     match = _KNET_NAME.match(path.name)

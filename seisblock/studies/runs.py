@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from threading import Event
 from typing import TypeVar
@@ -31,8 +31,8 @@ def cores() -> int:
 
 
 def in_threads(
-    work: Callable[[Item], Answer], items: Sequence[Item], *, progress: Progress | None = None, workers: int | None = None
-) -> Iterator[Answer]:
+    work: Callable[[Item], Answer], items: Iterable[Item], *, progress: Progress | None = None, workers: int | None = None
+) -> Generator[Answer, None, None]:
     """Yield the answers of many runs, in the order of their items.
 
     Kernels release the GIL, so threads use all cores; no more than ``CHUNK`` runs are under way.
@@ -41,10 +41,10 @@ def in_threads(
     ----------
     work : callable
         One run.
-    items : sequence
-        What each run is given.
+    items : iterable
+        What each run is given; taken as they are needed.
     progress : callable
-        Told the number of runs done and the number in all.
+        Told the number of runs done and the number in all, where the items are a sequence.
     workers : int
         Threads; as many as there are cores when left out.
     """
@@ -63,7 +63,7 @@ def in_threads(
         while chunk := list(itertools.islice(remaining, CHUNK)):
             yield from pool.map(run, chunk)
             finished += len(chunk)
-            if progress is not None:
+            if progress is not None and isinstance(items, Sequence):
                 progress(finished, len(items))
     finally:
         # after an interruption no run begins, and those under way end at the next pause of their kernels

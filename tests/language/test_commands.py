@@ -49,6 +49,7 @@ ANSWERS = (
     ("infer", "--rate", "100/100", "--cemetery", "aoyama.csv", "--frequency", "1"),
     ("infer", *SHORT, "--slid", "5cm", "--mu", "0.3", "--limit", "1.5", "--steps", "30"),
     ("infer", *SHORT, "--jumped", "20cm", "--limit", "1.2", "--steps", "12", "--component", "EW"),
+    ("batch", "synthetic_jma.csv", "gone.csv", "--bodies", "gravestone", "--solver", "rock", "--force", "--out", "FOLDER/table.csv"),
     ("validate", "--paper", "Fujino1978", "--all"),
     ("cite",),
     ("samples",),
@@ -58,6 +59,7 @@ ANSWERS = (
 
 REFUSALS = (
     (),
+    ("batch", "--bodies", "gravestone", "--out", "table.xlsx"),
     ("nosuch",),
     ("measure", "--nosuch"),
     ("measure", "nofile"),
@@ -121,16 +123,17 @@ QUOTING = {"cite", "samples"}
 @pytest.fixture(scope="module")
 def spoken(tmp_path_factory):
     """Run command lines in a language, each once; click is told through compiled catalogues, as an installation has them."""
-    folder = tmp_path_factory.mktemp("locale")
+    folder, written = tmp_path_factory.mktemp("locale"), tmp_path_factory.mktemp("written")
     shutil.copytree(words.LOCALES, folder, dirs_exist_ok=True)
-    for written in folder.rglob("*.po"):
-        with written.open("rb") as source, written.with_suffix(".mo").open("wb") as target:
+    for catalogue in folder.rglob("*.po"):
+        with catalogue.open("rb") as source, catalogue.with_suffix(".mo").open("wb") as target:
             write_mo(target, read_po(source))
     answers = {}
 
     def answer(line, lang):
         if (line, lang) not in answers:
-            answers[line, lang] = CliRunner().invoke(main, ["--lang", lang, *line], env={"COLUMNS": str(WIDTH)})
+            told = [str(written / each.removeprefix("FOLDER/")) if each.startswith("FOLDER/") else each for each in line]
+            answers[line, lang] = CliRunner().invoke(main, ["--lang", lang, *told], env={"COLUMNS": str(WIDTH)})
         return answers[line, lang]
 
     with pytest.MonkeyPatch.context() as patch:

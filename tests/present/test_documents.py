@@ -50,6 +50,7 @@ EVERY = (
     "infer --rate 0/100 --cemetery aoyama.csv --frequency 1",
     "infer --slid 5cm --mu 0.3 --steps 3 --component EW",
     "infer --jumped 5cm --steps 2 --component EW",
+    "batch --bodies gravestone --component EW --force --out FOLDER/table.csv",
     "validate --paper Tsutsui",
     "cite jump",
     "cite",
@@ -74,13 +75,13 @@ PURE_NUMBERS = re.compile(
 
 
 @pytest.fixture(scope="module")
-def documents():
+def documents(tmp_path_factory):
     """Return a function that runs a command line once and returns its document."""
-    known = {}
+    known, folder = {}, str(tmp_path_factory.mktemp("written"))
 
     def run(line):
         if line not in known:
-            answer = CliRunner().invoke(main, [*line.split(), "--json"])
+            answer = CliRunner().invoke(main, [*line.replace("FOLDER", folder).split(), "--json"])
             assert answer.exit_code == 0, answer.stderr
             known[line] = json.loads(answer.stdout)
         return known[line]

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import csv
 import math
-import re
-import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
-from seisblock.errors import BodyError, InputError, reason
-from seisblock.ledger import reading
+from seisblock.bodies.sheet import MOST_NAMED, cells_of, heading, is_bare, length_of, number_of, row_of, rows_of, separator_of, sheet_text
+from seisblock.errors import BodyError, InputError
 from seisblock.limits import check_budget
 from seisblock.samples import find_sample, list_samples
-from seisblock.units import LENGTH_UNITS, parse_length
 from seisblock.words import noted, said
 
 _NAMES = {
@@ -51,16 +47,12 @@ _WORDS = {
         noted("0, 1, yes or no"),
     ),
 }
-_UNIT = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
 
 LARGEST = 20.0
 """A stone beyond this, m, is taken for a number whose unit was forgotten."""
 
 DISAGREEMENT = 0.05
 """Largest relative difference between a ratio written down and that of the sizes beside it."""
-
-MOST_NAMED = 5
-"""How many further bad rows a message names."""
 
 
 def read_cemetery(name: str | Path) -> Cemetery:
@@ -86,26 +78,26 @@ def read_cemetery(name: str | Path) -> Cemetery:
     >>> read_cemetery("aoyama.csv").size
     100
     """
-    text = _text(_path(name), str(name))
+    text = sheet_text(_path(name), str(name))
     return parse_cemetery(text, source=str(name))
 
 
 def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
     """Return a cemetery from the text of a table, see :func:`read_cemetery`."""
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1)]
-    filled = [(number, line) for number, line in lines if line.strip(" \t,;") and not line.lstrip().startswith("#")]
+    filled = rows_of(text)
     if not filled:
         raise BodyError("{source}: there is no gravestone in it, only {count} empty lines and comments", source=source, count=len(lines))
     (header_line, header), rows = filled[0], filled[1:]
-    separator = next((mark for mark in ",\t;" if mark in header), ",")
-    columns, units = _header(_cells(header, separator), source, header_line)
+    separator = separator_of(header)
+    columns, units = _header(cells_of(header, separator), source, header_line)
     if not rows:
         empty = "{source}, line {line}: there is no gravestone below the header; add one line per stone"
         raise BodyError(empty, source=source, line=header_line)
     stones, wrong = [], []
     for number, line in rows:
         try:
-            stones.append(_stone(_row(columns, _cells(line, separator)), units, number))
+            stones.append(_stone(row_of(columns, cells_of(line, separator)), units, number))
         except InputError as error:
             wrong.append((number, error.said))
     if wrong:
@@ -135,41 +127,15 @@ def _path(name: str | Path) -> Path:
     return bundled
 
 
-def _text(path: Path, name: str) -> str:
-    """Return a file's text, whichever of the usual encodings it has."""
-    try:
-        data = path.read_bytes()
-        reading(path)
-    except OSError as error:
-        raise BodyError("cannot read {name}: {reason}", name=name, reason=reason(error)) from error
-    if b"\0" in data and data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
-        raise BodyError("{name} is no table of text: give a CSV file with one line per gravestone", name=name)
-    for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp932"):
-        try:
-            return data.decode(encoding)
-        except UnicodeDecodeError:
-            continue
-    raise BodyError("{name} is neither UTF-8 nor Shift-JIS: save it as CSV UTF-8", name=name)
-
-
-def _cells(line: str, separator: str) -> list[str]:
-    """Return the cells of a line, full-width letters made plain."""
-    try:
-        cells = next(csv.reader([line], delimiter=separator), [])
-    except csv.Error as error:
-        raise BodyError("this line is no row of a table: {error}", error=error) from error
-    return [unicodedata.normalize("NFKC", cell).strip() for cell in cells]
-
-
 def _header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
     """Return the meaning of each column, empty for those passed over, and the units that stand in their names."""
     columns, units = [], {}
     for cell in cells:
-        name, unit = _named(cell)
+        name, unit = heading(cell, _COLUMNS)
         if name and name in columns:
             raise BodyError("{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name)
         columns.append(name)
-        if unit:
+        if unit and name in ("height", "width"):
             units[name] = unit
     if "height_over_width" not in columns and not {"height", "width"} <= set(columns):
         found = cells or said("none")
@@ -180,31 +146,6 @@ def _header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], di
             found=found,
         )
     return columns, units
-
-
-def _named(cell: str) -> tuple[str, str]:
-    """Return what a heading means, and its unit."""
-    match = _UNIT.match(cell)
-    bare, unit = (match[1], match[2]) if match else (cell, "")
-    key = _plain(bare)
-    if not unit and key not in _COLUMNS and "_" in bare:  # height_cm
-        head, _, tail = bare.rpartition("_")
-        if tail in LENGTH_UNITS and _plain(head) in _COLUMNS:
-            key, unit = _plain(head), tail
-    name = _COLUMNS.get(key, "")
-    return name, unit if name in ("height", "width") else ""
-
-
-def _plain(text: str) -> str:
-    """Return a heading without case, blanks and underscores."""
-    return re.sub(r"[\s_]+", "", text).casefold()
-
-
-def _row(columns: Sequence[str], cells: Sequence[str]) -> dict[str, str]:
-    """Return the cells of a row by what their columns mean."""
-    if any(cells[len(columns) :]):
-        raise BodyError("expected {count} cells as in the header, found {found}", count=len(columns), found=len(cells))
-    return dict(zip(columns, cells, strict=False))
 
 
 def _stone(row: Mapping[str, str], units: Mapping[str, str], line: int) -> Stone:
@@ -238,9 +179,8 @@ def _size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> float |
     text = row.get(key, "")
     if not text:
         return None
-    bare = re.fullmatch(r"[-+.\deE]+", text) is not None
-    unit = units.get(key, "")
-    value = parse_length(text + (unit or "m") if bare else text, what=key)
+    bare, unit = is_bare(text), units.get(key, "")
+    value = length_of(text, key, unit)
     if not value > 0.0:
         raise BodyError("{key} must be positive, found {text}", key=key, text=text)
     if value > LARGEST:
@@ -252,12 +192,7 @@ def _size(row: Mapping[str, str], key: str, units: Mapping[str, str]) -> float |
 def _number(row: Mapping[str, str], key: str) -> float | None:
     """Return a number, None where the cell is empty."""
     text = row.get(key, "")
-    if not text:
-        return None
-    try:
-        return float(text)
-    except ValueError:
-        raise BodyError("{key} must be a number, found {text!r}", key=key, text=text) from None
+    return number_of(text, key) if text else None
 
 
 def _count(row: Mapping[str, str]) -> int:

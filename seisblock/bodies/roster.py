@@ -1,0 +1,216 @@
+"""A list of bodies: a table with a row for each, or files that describe one each; what a museum or a cemetery keeps of its objects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from seisblock import checks
+from seisblock.bodies.inset import Inset, parse_inset
+from seisblock.bodies.sheet import MOST_NAMED, cells_of, heading, is_bare, length_of, number_of, row_of, rows_of, separator_of, sheet_text
+from seisblock.bodies.toml import read_table
+from seisblock.errors import BodyError, InputError
+from seisblock.limits import check_budget
+from seisblock.units import parse_mass
+from seisblock.words import noted, said
+
+LENGTHS = ("width", "height", "depth", "centroid_height", "centroid_offset", "slope_length", "tenon", "drop")
+NUMBERS = (
+    "density",
+    "centroid_inertia",
+    "mu",
+    "mu_kinetic",
+    "kappa",
+    "restitution",
+    "rocking_restitution",
+    "slope_deg",
+    "frequency_vertical",
+    "beta",
+    "damping",
+)
+TEXTS = ("name", "body", "surface", "side")
+
+_JAPANESE = {
+    "width": ("幅",),
+    "height": ("高さ",),
+    "depth": ("奥行", "奥行き"),
+    "mass": ("質量",),
+    "mu": ("摩擦係数", "静摩擦係数"),
+    "mu_kinetic": ("動摩擦係数",),
+    "restitution": ("反発係数",),
+    "centroid_height": ("重心高さ", "重心の高さ"),
+    "name": ("名前", "名称", "資料名"),
+    "surface": ("接触面",),
+}
+_COLUMNS = {
+    spelling: name
+    for name in (*TEXTS, *LENGTHS, "mass", *NUMBERS, "inset")
+    for spelling in (name.replace("_", ""), *_JAPANESE.get(name, ()))
+}
+
+_UNITS = {
+    "density": ("kg/m3", "kg/m^3"),
+    "centroid_inertia": ("kg m2", "kg m^2"),
+    "frequency_vertical": ("hz",),
+    "slope_deg": ("deg", "degrees", "°"),
+}
+"""Units that may stand in the headings of numbers that have no other."""
+
+LARGEST = 100.0
+"""A size beyond this, m, is taken for a number whose unit was forgotten."""
+
+
+@dataclass(frozen=True)
+class ListedBody:
+    """One body of a list: what was said of it, from which a solver takes what it needs.
+
+    Parameters
+    ----------
+    name : str
+        As the answer calls it.
+    told : mapping of str to float, str or Inset
+        By the names of columns; lengths in m, masses in kg, the rest as the options of the same names.
+    description : mapping or None
+        The TOML table of a body's own file.
+    source : str
+        File, and line of a table, for messages.
+    """
+
+    name: str
+    told: Mapping[str, Any] = field(default_factory=dict)
+    description: Mapping[str, Any] | None = None
+    source: str = ""
+
+
+def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[ListedBody, ...]:
+    """Return the bodies of some lists and files.
+
+    A table (.csv) has a header that names its columns: ``name``; ``width``, ``height``, ``depth``, ``centroid_height``,
+    ``centroid_offset``, ``slope_length``, ``tenon``, ``drop`` (m, or with a unit in the heading, ``width (cm)``, or in the cell, ``24cm``);
+    ``mass`` (kg, or with a unit); ``inset`` (a length, or a share per side); ``mu``, ``mu_kinetic``, ``kappa``, ``surface``,
+    ``restitution``, ``rocking_restitution``, ``slope_deg``, ``frequency_vertical`` (Hz), ``beta``, ``damping``, ``density``,
+    ``centroid_inertia``; and ``body``, a file or a bundled body whose description a row takes, with ``side`` short or long. An empty cell
+    says nothing. Any other name is a file that describes one body, or a bundled body.
+
+    Parameters
+    ----------
+    names : path, or paths
+
+    Returns
+    -------
+    tuple of ListedBody
+        In the order of the files and of their rows.
+
+    Raises
+    ------
+    BodyError
+        If a file cannot be read, a column means nothing, or a row is wrong (rows are named by their line).
+
+    Examples
+    --------
+    >>> [body.name for body in read_bodies(["gravestone", "lantern"])]
+    ['gravestone', 'lantern']
+    """
+    each = [names] if isinstance(names, (str, Path)) else list(names)
+    found = [body for name in each for body in (_of_table(str(name)) if _is_table(name) else [_of_file(str(name))])]
+    if not found:
+        raise BodyError("no body was named: give a table of bodies, a file that describes one, or a bundled body")
+    check_budget(noted("bodies"), len(found), "SEISBLOCK_BODIES", error=BodyError)
+    return tuple(found)
+
+
+def _is_table(name: str | Path) -> bool:
+    """Return whether a file is a table by its suffix."""
+    return Path(name).suffix.lower() in (".csv", ".tsv", ".txt")
+
+
+def _of_file(name: str) -> ListedBody:
+    """Return the body that a file describes, or a bundled one."""
+    table = read_table(name)
+    return ListedBody(Path(name).stem if Path(name).suffix else name, description=table, source=name)
+
+
+def _of_table(name: str) -> list[ListedBody]:
+    """Return the bodies of a table."""
+    path = Path(name)
+    if path.is_dir():
+        raise BodyError("{name} is a directory: give a CSV file with one body on each line", name=name)
+    lines = rows_of(sheet_text(path, name))
+    if len(lines) < 2:
+        raise BodyError("{name}: there is no body in it: expected a header, and one body on each line below it", name=name)
+    (header_line, header), rows = lines[0], lines[1:]
+    separator = separator_of(header)
+    columns, units = _header(cells_of(header, separator), name, header_line)
+    bodies, wrong = [], []
+    for number, line in rows:
+        try:
+            bodies.append(_listed(row_of(columns, cells_of(line, separator)), units, said("{name}, line {line}", name=name, line=number)))
+        except InputError as error:
+            wrong.append((number, error.said))
+    if wrong:
+        (at, what), others = wrong[0], [number for number, _ in wrong[1:]]
+        more = said(" (and {count} more bad rows: lines {lines})", count=len(others), lines=others[:MOST_NAMED]) if others else ""
+        raise BodyError("{source}, line {line}: {what}{others}", source=name, line=at, what=what, others=more)
+    return bodies
+
+
+def _header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:
+    """Return the meaning of each column, and the units in their names; a column that means nothing is a slip of the pen."""
+    columns, units = [], {}
+    for cell in cells:
+        name, unit = heading(cell, _COLUMNS)
+        if not name:
+            raise BodyError(
+                "{source}, line {line}: unknown column {cell!r}; known are {known}",
+                source=source,
+                line=line,
+                cell=cell[:100],
+                known=[*TEXTS, *LENGTHS, "mass", *NUMBERS, "inset"],
+            )
+        if name in columns:
+            raise BodyError("{source}, line {line}: two columns mean {name}: rename or remove one", source=source, line=line, name=name)
+        if unit and name not in (*LENGTHS, "mass", "inset") and unit.casefold() not in _UNITS.get(name, ()):
+            raise BodyError(
+                "{source}, line {line}: column {cell!r} has the unit {unit!r}; expected {expected}",
+                source=source,
+                line=line,
+                cell=cell[:100],
+                unit=unit[:100],
+                expected=list(_UNITS.get(name, ())) or said("none"),
+            )
+        units[name] = unit
+        columns.append(name)
+    if "name" not in columns:
+        raise BodyError("{source}, line {line}: expected a column name; found {found}", source=source, line=line, found=list(cells))
+    return columns, units
+
+
+def _listed(row: Mapping[str, str], units: Mapping[str, str], source: str) -> ListedBody:
+    """Return the body of one row."""
+    name = row["name"]
+    if not name:
+        raise BodyError("a body without a name: fill the cell")
+    told: dict[str, Any] = {}
+    for key, cell in row.items():
+        if key != "name" and cell:
+            told[key] = _value(key, cell, units.get(key, ""))
+    description = read_table(told.pop("body")) if "body" in told else None
+    return ListedBody(name, told, description, source)
+
+
+def _value(key: str, cell: str, unit: str) -> float | str | Inset:
+    """Return what a cell says, SI."""
+    if key in TEXTS:
+        return cell
+    if key == "inset":
+        return parse_inset(cell + unit if is_bare(cell) else cell)
+    if key == "mass":
+        return parse_mass(cell + unit if is_bare(cell) else cell, what=key)
+    if key in LENGTHS:
+        value = length_of(cell, key, unit)
+        if abs(value) > LARGEST:
+            raise BodyError("{key} of {value:g} m is no object's (without a unit it means metres)", key=key, value=value)
+        return checks.finite("{key}", value, "m", key=key, error=BodyError)
+    return checks.finite("{key}", number_of(cell, key), key=key, error=BodyError)

@@ -1,0 +1,124 @@
+"""A table that somebody keeps in a spreadsheet: its encodings, separators, comments, headings and units."""
+
+from __future__ import annotations
+
+import csv
+import re
+import unicodedata
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from seisblock.errors import BodyError, reason
+from seisblock.ledger import reading
+from seisblock.units import LENGTH_UNITS, MASS_UNITS, parse_length
+
+UNIT = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
+"""A heading with a unit: ``height (cm)``."""
+
+MOST_NAMED = 5
+"""How many further bad rows a message names."""
+
+
+def sheet_text(path: Path, name: str) -> str:
+    """Return a file's text: UTF-8 with or without a byte order mark, Shift-JIS, or UTF-16.
+
+    Raises
+    ------
+    BodyError
+        If it cannot be read, or is no text.
+    """
+    try:
+        data = path.read_bytes()
+        reading(path)
+    except OSError as error:
+        raise BodyError("cannot read {name}: {reason}", name=name, reason=reason(error)) from error
+    if b"\0" in data and data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
+        raise BodyError("{name} is no table of text: give a CSV file with one line for each row", name=name)
+    for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp932"):
+        try:
+            return data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    raise BodyError("{name} is neither UTF-8 nor Shift-JIS: save it as CSV UTF-8", name=name)
+
+
+def rows_of(text: str) -> list[tuple[int, str]]:
+    """Return the lines of a table that hold something, with their numbers: no comments (#), no empty ones; the first is the header."""
+    lines = enumerate(text.splitlines(), start=1)
+    return [(number, line) for number, line in lines if line.strip(" \t,;") and not line.lstrip().startswith("#")]
+
+
+def separator_of(header: str) -> str:
+    """Return what separates the cells of a table."""
+    return next((mark for mark in ",\t;" if mark in header), ",")
+
+
+def cells_of(line: str, separator: str) -> list[str]:
+    """Return the cells of a line, full-width letters made plain."""
+    try:
+        cells = next(csv.reader([line], delimiter=separator), [])
+    except csv.Error as error:
+        raise BodyError("this line is no row of a table: {error}", error=error) from error
+    return [unicodedata.normalize("NFKC", cell).strip() for cell in cells]
+
+
+def plain(text: str) -> str:
+    """Return a heading without case, blanks and underscores."""
+    return re.sub(r"[\s_]+", "", text).casefold()
+
+
+def heading(cell: str, meanings: Mapping[str, str]) -> tuple[str, str]:
+    """Return what a heading means, empty for one that means nothing, and its unit.
+
+    Parameters
+    ----------
+    cell : str
+        For example ``height (cm)``, ``height_cm``, ``Height``.
+    meanings : mapping of str to str
+        Of headings made plain.
+    """
+    match = UNIT.match(cell)
+    bare, unit = (match[1], match[2]) if match else (cell, "")
+    key = plain(bare)
+    if not unit and key not in meanings and "_" in bare:  # height_cm
+        head, _, tail = bare.rpartition("_")
+        if tail in (*LENGTH_UNITS, *MASS_UNITS) and plain(head) in meanings:
+            key, unit = plain(head), tail
+    return meanings.get(key, ""), unit
+
+
+def row_of(columns: Sequence[str], cells: Sequence[str]) -> dict[str, str]:
+    """Return the cells of a row by what their columns mean.
+
+    Raises
+    ------
+    BodyError
+        If there are more of them than columns.
+    """
+    if any(cells[len(columns) :]):
+        raise BodyError("expected {count} cells as in the header, found {found}", count=len(columns), found=len(cells))
+    return dict(zip(columns, cells, strict=False))
+
+
+def length_of(text: str, what: str, unit: str) -> float:
+    """Return a length, m, from a cell that may name its unit, else has that of its column, else metres."""
+    return parse_length(text + (unit or "m") if is_bare(text) else text, what=what)
+
+
+def is_bare(text: str) -> bool:
+    """Return whether a cell is a number without a unit."""
+    return re.fullmatch(r"[-+.\deE]+", text) is not None
+
+
+def number_of(text: str, what: str) -> float:
+    """Return a number from a cell.
+
+    Raises
+    ------
+    BodyError
+        If it is none.
+    """
+    try:
+        return float(text)
+    except ValueError:
+        raise BodyError("{key} must be a number, found {text!r}", key=what, text=text) from None

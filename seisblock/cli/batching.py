@@ -1,0 +1,190 @@
+"""How ``seisblock batch`` goes about it: what is finished is kept in a journal, and the table is written from that."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from itertools import groupby, tee
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seisblock import __version__
+from seisblock.bodies.roster import read_bodies
+from seisblock.cli.options import Source
+from seisblock.cli.progress import progress
+from seisblock.cli.talk import answer, say, show, warn
+from seisblock.errors import OutputError, ParameterError, RecordError
+from seisblock.present.documents.batch import document
+from seisblock.present.documents.write import to_json
+from seisblock.present.files import checked_target, read_table, write_table
+from seisblock.present.journal import Journal, Key, journal_path
+from seisblock.present.parquet import check_parquet, read_parquet, write_parquet
+from seisblock.present.text import batch as shown
+from seisblock.readers import DEFAULT_SAMPLE
+from seisblock.readers.dispatch import Options
+from seisblock.readers.gather import gather
+from seisblock.records import Preparation
+from seisblock.studies.batch.cluster import connected
+from seisblock.studies.batch.run import each_record, make_plan
+from seisblock.studies.batch.table import REASON, Row, cells_of, columns_of
+from seisblock.studies.batch.tally import Tally
+from seisblock.studies.batch.task import Plan
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+CSV, PARQUET = ".csv", ".parquet"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a batch is of, as the command line says it."""
+
+    bodies: tuple[str, ...]
+    solver: str
+    runs: int
+    seed: int
+    options: Mapping[str, Any]
+
+
+def run(
+    source: Source,
+    asked: Asked,
+    out: Path,
+    *,
+    resume: bool,
+    force: bool,
+    workers: int | None,
+    cluster: str | None,
+    as_json: bool,
+) -> None:
+    """Run a batch, write its table, and say what it comes to."""
+    _check_target(out, resume=resume, force=force)
+    plan, notes = _plan(source, asked)
+    names = source.record or (_default(),)
+    with progress("finding the records"):
+        keys = list(dict.fromkeys(recording.key for recording in gather(names, plan.reading)))
+    tally, columns, reasons = Tally(plan.model), columns_of(plan.model, runs=plan.runs), dict[str, str]()
+    if resume and out.exists() and not journal_path(out).exists():
+        for rows in _whole(out, columns, plan, [path for path, _ in keys]):
+            tally.counted(rows)
+        say("{path} is whole: nothing is left to do; --force makes it anew", path=out)
+    else:
+        with ExitStack() as stack:
+            client = None if cluster is None else stack.enter_context(connected(cluster))
+            journal = _journal(journal_path(out), plan, resume=resume, force=force)
+            reasons = _solve(names, plan, journal, keys, workers=workers, client=client)
+        write = write_parquet if out.suffix.lower() == PARQUET else _write_csv
+        with progress("writing {file}", file=str(out)):
+            write(out, columns, (cells_of(columns, row) for rows in map(journal.rows, keys) for row in tally.counted(rows)))
+        journal.remove()
+        say("wrote {path}", path=out)
+    if as_json:
+        answer(to_json(document(tally, plan, str(out), notes)))
+    else:
+        show(shown.tables(tally, reasons))
+    if not tally.answers:
+        raise RecordError("no row of {path} has an answer: its column `failure` says why", path=out)
+
+
+def _whole(out: Path, columns: Mapping[str, type], plan: Plan, paths: Sequence[str]) -> Iterator[list[Row]]:
+    """Yield the rows of a table that is whole, record by record, if it is of the same records, bodies and solver."""
+    rows = list((read_parquet if out.suffix.lower() == PARQUET else read_table)(out, columns))
+    bodies = {body.name for body in plan.bodies}
+    same = {row["path"] for row in rows} == set(paths) and {row["body"] for row in rows} - {None} <= bodies
+    if not same or any(row["solver"] != plan.solver for row in rows):
+        raise OutputError("{path} is whole, and of other records, bodies or another solver: --force makes it anew", path=out)
+    for _, some in groupby(rows, key=lambda row: row["path"]):
+        yield list(some)
+
+
+def _solve(
+    names: tuple[str, ...], plan: Plan, journal: Journal, keys: Sequence[Key], *, workers: int | None, client: Client | None
+) -> dict[str, str]:
+    """Follow the bodies through the records that are missing, and write each record's rows down as soon as they are there.
+
+    The journal keeps reasons in English; what is returned can be told in any language.
+    """
+    missing = {key for key in keys if key not in journal.places}
+    if len(missing) < len(keys):
+        say("{done} of {count} records are finished", done=len(keys) - len(missing), count=len(keys))
+    tasks, kept = tee(recording for recording in (gather(names, plan.reading) if missing else ()) if recording.key in missing)
+    reasons: dict[str, str] = {}
+    with progress("records") as advance:
+        found = each_record(tasks, plan, total=len(missing), workers=workers, client=client, progress=advance)
+        try:
+            for rows, recording in zip(found, kept, strict=False):
+                journal.keep(recording.key, rows)
+                reasons |= {str(row[REASON]): row[REASON] for row in rows if row.get(REASON)}
+        except KeyboardInterrupt:
+            say("{done} of {count} records are finished and kept: --resume goes on", done=len(journal.places), count=len(keys))
+            raise
+    return reasons
+
+
+def _plan(source: Source, asked: Asked) -> tuple[Plan, tuple[str, ...]]:
+    """Return what is done with each record, and say what is to be known of it."""
+    if source.station not in (None, "all"):
+        raise ParameterError("a batch takes every station of a bundle: leave `station` out, and pick the rows from the table")
+    if len(source.window) > 1:
+        raise ParameterError("this command takes one --window, found {count}", count=len(source.window))
+    components = tuple(name for name in source.component if name.lower() != "all")
+    preparation = Preparation(
+        demean=source.demean,
+        highpass_hz=source.highpass,
+        scale=1.0 if source.scale is None else source.scale,
+        target_pga=None if source.target_pga is None else source.target_pga / 100.0,
+        components=components,
+        window=source.window[0] if source.window else None,
+    )
+    plan, notes = make_plan(
+        read_bodies(asked.bodies),
+        asked.solver,
+        components=components,
+        preparation=preparation,
+        reading=Options(source.format, source.units, source.dt, None, source.level),
+        runs=asked.runs,
+        seed=asked.seed,
+        strict=source.strict,
+        options={key: value for key, value in asked.options.items() if value is not None},
+    )
+    for note in notes:
+        warn(note)
+    return plan, notes
+
+
+def _default() -> str:
+    """Return the bundled record that stands for none, and say so."""
+    say("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
+    return DEFAULT_SAMPLE
+
+
+def _check_target(out: Path, *, resume: bool, force: bool) -> None:
+    """Refuse, before anything is read, a table that may not be written there."""
+    if resume and force:
+        raise ParameterError("give either --resume or --force, not both")
+    if out.suffix.lower() not in (CSV, PARQUET):
+        raise OutputError("{path}: a batch writes .csv or .parquet", path=out)
+    if out.suffix.lower() == PARQUET:
+        check_parquet()
+    checked_target(out)
+    journal = journal_path(out)
+    if not (resume or force) and out.exists():
+        raise OutputError("{path} is there already: --force makes it anew, or give another name", path=out)
+    if not (resume or force) and journal.exists():
+        raise OutputError("{path} was interrupted: --resume goes on, --force begins anew", path=out)
+
+
+def _journal(path: Path, plan: Plan, *, resume: bool, force: bool) -> Journal:
+    """Return the journal of a batch: the one that was interrupted, or a new one."""
+    told = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
+    reading = repr([getattr(plan.reading, key) for key in ("format", "units", "dt", "level")])
+    purpose = {"seisblock": "batch", "of": hashlib.sha256((told + reading).encode()).hexdigest()}
+    return Journal.resume(path, purpose) if resume and path.exists() else Journal.begin(path, purpose)
+
+
+def _write_csv(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]]) -> None:
+    """Write rows as CSV."""
+    write_table(path, list(columns), rows)

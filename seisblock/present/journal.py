@@ -1,0 +1,129 @@
+"""The rows of a batch while it runs: each record's as soon as they are there, so that an interruption loses none of them."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from seisblock.errors import OutputError, reason
+
+Key = tuple[str, str]
+"""Where a record is, and what tells its bytes."""
+
+
+def journal_path(target: Path) -> Path:
+    """Return the file in which the rows of a table are kept until it is whole."""
+    return target.with_name(target.name + ".journal")
+
+
+@dataclass(eq=False)
+class Journal:
+    """Rows on disk, a line for each record; the first line says of what.
+
+    Parameters
+    ----------
+    path : Path
+    places : dict of key to int
+        Where the line of each finished record begins.
+    """
+
+    path: Path
+    places: dict[Key, int] = field(default_factory=dict)
+
+    @classmethod
+    def begin(cls, path: Path, purpose: Mapping[str, str]) -> Journal:
+        """Begin a new journal; one that is there is overwritten.
+
+        Raises
+        ------
+        OutputError
+            If it cannot be written.
+        """
+        with _told(path):
+            path.write_bytes(_line(purpose))
+        return cls(path)
+
+    @classmethod
+    def resume(cls, path: Path, purpose: Mapping[str, str]) -> Journal:
+        """Go on with a journal: a line that an interruption cut is taken away.
+
+        Raises
+        ------
+        OutputError
+            If it cannot be read, or is of something else.
+        """
+        journal = cls(path)
+        with _told(path), path.open("r+b") as stream:
+            first = stream.readline()
+            if _parsed(first) != dict(purpose):
+                raise OutputError(
+                    "{path} was begun with other bodies, options or another version: begin anew, or finish it as it was begun", path=path
+                )
+            end = stream.tell()
+            while line := stream.readline():
+                found = _parsed(line)
+                if found is None:
+                    break
+                journal.places[found["path"], found["stamp"]] = end
+                end = stream.tell()
+            stream.truncate(end)
+        return journal
+
+    def keep(self, key: Key, rows: Sequence[Mapping[str, Any]]) -> None:
+        """Write the rows of a finished record down.
+
+        Raises
+        ------
+        OutputError
+            If the disk is full; the rows of the records before are kept.
+        """
+        line = _line({"path": key[0], "stamp": key[1], "rows": [dict(row) for row in rows]})
+        with _told(self.path), self.path.open("ab") as stream:
+            place = stream.tell()
+            try:
+                stream.write(line)
+                stream.flush()
+            except OSError:
+                stream.truncate(place)
+                raise
+        self.places[key] = place
+
+    def rows(self, key: Key) -> list[dict[str, Any]]:
+        """Return the rows of a finished record."""
+        with _told(self.path), self.path.open("rb") as stream:
+            stream.seek(self.places[key])
+            found: list[dict[str, Any]] = json.loads(stream.readline())["rows"]
+        return found
+
+    def remove(self) -> None:
+        """Take the journal away: its table is written."""
+        self.path.unlink(missing_ok=True)
+
+
+def _line(content: Mapping[str, Any]) -> bytes:
+    """Return a line; floats keep all their digits."""
+    return json.dumps(dict(content), ensure_ascii=False).encode() + b"\n"
+
+
+def _parsed(line: bytes) -> dict[str, Any] | None:
+    """Return what a line says, None where it was cut."""
+    if not line.endswith(b"\n"):
+        return None
+    try:
+        found = json.loads(line)
+    except ValueError:
+        return None
+    return found if isinstance(found, dict) else None
+
+
+@contextlib.contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Say in one sentence what the disk refuses."""
+    try:
+        yield
+    except OSError as error:
+        raise OutputError("cannot write {target}: {reason}{kept}", target=path, reason=reason(error), kept="") from error

@@ -1,0 +1,77 @@
+"""A table as Apache Parquet, the types of its columns kept."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from seisblock.errors import OutputError
+from seisblock.present.files import check_columns, replacing
+
+ROWS = 50_000
+"""Rows that are held and written at a time."""
+
+
+def check_parquet() -> None:
+    """Refuse to write Parquet where its package is missing.
+
+    Raises
+    ------
+    OutputError
+        If so, with what installs it.
+    """
+    try:
+        import pyarrow.parquet  # noqa: F401 - only whether it is there
+    except ImportError as error:
+        raise OutputError("a .parquet needs pyarrow: pip install 'seisblock[parquet]', or write a .csv") from error
+
+
+def write_parquet(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]]) -> None:
+    """Write rows as Parquet, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+    columns : mapping of str to type
+        Names, and bool, int, float or str.
+    rows : iterable of sequences
+        Cells in the order of the columns, None where empty.
+    """
+    import pyarrow
+    from pyarrow.parquet import ParquetWriter
+
+    kinds = {bool: pyarrow.bool_(), int: pyarrow.int64(), float: pyarrow.float64(), str: pyarrow.string()}
+    schema = pyarrow.schema([(name, kinds[kind]) for name, kind in columns.items()])
+    with replacing(path) as temporary, ParquetWriter(temporary, schema) as writer:
+        for block in _blocks(rows):
+            arrays = [pyarrow.array(cells, field.type) for cells, field in zip(zip(*block, strict=True), schema, strict=True)]
+            writer.write_batch(pyarrow.record_batch(arrays, schema=schema))
+
+
+def read_parquet(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, Any]]:
+    """Yield the rows of a table that was written here, None where a cell is empty.
+
+    Raises
+    ------
+    OutputError
+        If it has other columns, or cannot be read.
+    """
+    import pyarrow
+    from pyarrow.parquet import ParquetFile
+
+    try:
+        with ParquetFile(path) as file:
+            check_columns(path, file.schema_arrow.names, columns)
+            for batch in file.iter_batches(ROWS):
+                yield from batch.to_pylist()
+    except (OSError, pyarrow.ArrowException) as error:
+        raise OutputError("{path} is no table of a batch: {error}", path=path, error=str(error)[:200]) from error
+
+
+def _blocks(rows: Iterable[Sequence[Any]]) -> Iterator[list[Sequence[Any]]]:
+    """Yield the rows, many at a time."""
+    remaining = iter(rows)
+    while block := list(islice(remaining, ROWS)):
+        yield block

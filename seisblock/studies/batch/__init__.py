@@ -1,0 +1,1 @@
+"""Many records and many bodies: one table."""

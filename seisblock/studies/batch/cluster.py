@@ -1,0 +1,110 @@
+"""A batch on a Dask scheduler: each record with all its rows is a task, so that a task takes seconds and travels once."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import contextmanager
+from itertools import islice
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from seisblock.errors import ParameterError
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+Task = TypeVar("Task")
+Answer = TypeVar("Answer")
+
+LOCAL = "local:"
+"""What the name of a cluster of this machine's own processes begins with."""
+
+PATIENCE_S = 10
+"""How long a scheduler may take to answer."""
+
+PER_THREAD = 4
+"""Tasks handed out for each thread of the workers: enough that none waits, few enough that memory stays flat."""
+
+
+@contextmanager
+def connected(address: str) -> Iterator[Client]:
+    """Give a client of a scheduler, or of processes started here that end with the block.
+
+    Parameters
+    ----------
+    address : str
+        ``tcp://host:8786`` or the like, or ``local:N`` for N processes of this machine.
+
+    Raises
+    ------
+    ParameterError
+        If the package is not installed, the address is none, or no scheduler answers there.
+    """
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError as error:
+        raise ParameterError("a cluster needs Dask: pip install 'seisblock[distributed]'") from error
+    if address.startswith(LOCAL):
+        with (
+            LocalCluster(
+                n_workers=_processes(address), threads_per_worker=1, dashboard_address=None, silence_logs=50, memory_limit=0
+            ) as cluster,
+            Client(cluster) as client,
+        ):
+            yield client
+        return
+    try:
+        client = Client(address, timeout=PATIENCE_S)
+    except (OSError, ValueError, TypeError) as error:
+        raise ParameterError(
+            "no Dask scheduler answers at {address}: start one, or take {local} for the processes of this machine",
+            address=address[:200],
+            local=LOCAL + "2",
+        ) from error
+    with client:
+        yield client
+
+
+def _processes(address: str) -> int:
+    """Return how many processes ``local:N`` asks for."""
+    number = address[len(LOCAL) :]
+    if not number.isdecimal() or not 1 <= int(number) <= 512:
+        raise ParameterError("a cluster of this machine is local:N with 1 to 512 processes, found {address}", address=address[:200])
+    return int(number)
+
+
+def on_cluster(
+    client: Client, work: Callable[[Task], Answer], tasks: Iterable[Task], *, lost: Callable[[Task, str], Answer]
+) -> Generator[Answer, None, None]:
+    """Yield the answers of many tasks, in their order; those of a worker that dies are done by another.
+
+    Parameters
+    ----------
+    client : distributed.Client
+    work : callable
+        One task; travels with each, so that no worker's death loses it.
+    tasks : iterable
+        Taken as they are needed.
+    lost : callable
+        ``lost(task, reason)``: the answer for a task that every worker which takes it dies of.
+    """
+    from distributed import KilledWorker
+    from distributed.client import FutureCancelledError
+
+    remaining = iter(tasks)
+    under_way: deque[tuple[Task, Any]] = deque()
+    try:
+        while True:
+            room = PER_THREAD * max(sum(client.nthreads().values()), 1) - len(under_way)
+            under_way.extend((task, client.submit(work, task, pure=False)) for task in islice(remaining, max(room, 0)))
+            if not under_way:
+                return
+            task, future = under_way[0]
+            try:
+                answer = future.result()
+            except (KilledWorker, FutureCancelledError) as error:
+                answer = lost(task, str(error)[:200])
+            under_way.popleft()
+            yield answer
+    finally:
+        client.cancel([future for _, future in under_way])

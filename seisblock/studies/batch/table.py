@@ -1,0 +1,90 @@
+"""The answer of a batch: a table with a row for each record, component and body."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from seisblock.errors import ParameterError
+from seisblock.studies.batch.models import BatchModel
+
+if TYPE_CHECKING:
+    import pandas
+
+Row = Mapping[str, Any]
+
+KEYS: dict[str, type] = {"record": str, "path": str, "station": str, "start": str, "component": str, "body": str, "solver": str}
+"""The columns that say which row it is."""
+
+REASON, WARNINGS = "failure", "warnings"
+"""The columns that say why a row has no answer, and what to know before believing it."""
+
+
+def columns_of(model: BatchModel, *, runs: int = 0) -> dict[str, type]:
+    """Return the columns of a batch of one solver, with the types of their cells."""
+    chances = (model.chances or {}) if runs else {}
+    return {**KEYS, **model.scalars, **chances, WARNINGS: str, REASON: str}
+
+
+@dataclass(frozen=True, eq=False)
+class BatchTable:
+    """Rows and columns; an empty cell is None.
+
+    Parameters
+    ----------
+    columns : mapping of str to type
+        The names of the columns, in order, with the types of their cells: bool, int, float or str.
+    rows : sequence of mappings
+        By the names of the columns; what a row does not name is None.
+    notes : tuple of str
+        What is to be known of the whole.
+
+    Examples
+    --------
+    >>> table = BatchTable({"body": str, "overturned": bool}, [{"body": "vase", "overturned": True}])
+    >>> table["overturned"], len(table)
+    ([True], 1)
+    """
+
+    columns: Mapping[str, type]
+    rows: Sequence[Row]
+    notes: tuple[str, ...] = field(default=())
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __getitem__(self, column: str) -> list[Any]:
+        """Return the cells of a column."""
+        if column not in self.columns:
+            raise ParameterError("there is no column {column!r}; there are {known}", column=str(column)[:100], known=list(self.columns))
+        return [row.get(column) for row in self.rows]
+
+    @property
+    def failures(self) -> list[Row]:
+        """The rows without an answer, each with its reason."""
+        return [row for row in self.rows if row.get(REASON)]
+
+    def cells(self) -> Iterator[list[Any]]:
+        """Yield the cells of each row, in the order of the columns."""
+        return (cells_of(self.columns, row) for row in self.rows)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Return a DataFrame, its columns of the types that pandas has for values that may be missing.
+
+        Raises
+        ------
+        ParameterError
+            If pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError as error:
+            raise ParameterError("pandas is not installed: pip install pandas") from error
+        kinds = {bool: "boolean", int: "Int64", float: "float64", str: "string"}
+        return pandas.DataFrame({name: pandas.array(self[name], dtype=kinds[kind]) for name, kind in self.columns.items()})
+
+
+def cells_of(columns: Iterable[str], row: Row) -> list[Any]:
+    """Return the cells of a row, in the order of the columns."""
+    return [row.get(name) for name in columns]

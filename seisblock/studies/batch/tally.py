@@ -1,0 +1,79 @@
+"""What a batch comes to: how often each body did what was asked about."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from seisblock.solvers.jump.chain import JUMPED
+from seisblock.studies.batch.models import BatchModel
+from seisblock.studies.batch.table import REASON, Row
+
+
+@dataclass
+class Tallied:
+    """Rows of one body: with an answer, without, and those in which it happened."""
+
+    body: str
+    answers: int = 0
+    failures: int = 0
+    happened: int = 0
+
+
+@dataclass
+class Tally:
+    """Counts kept while rows go by, so that no table need be held.
+
+    Parameters
+    ----------
+    model : BatchModel
+    """
+
+    model: BatchModel
+    bodies: dict[str, Tallied] = field(default_factory=dict)
+    records: int = 0
+    unread: int = 0
+    reasons: dict[str, int] = field(default_factory=dict)
+
+    def counted(self, rows: Sequence[Row]) -> Sequence[Row]:
+        """Take the rows of one record into account, and return them."""
+        self.records += 1
+        for row in rows:
+            reason = row.get(REASON)
+            if reason:
+                self.reasons[reason] = self.reasons.get(reason, 0) + 1
+            body = row.get("body")
+            if body is None:
+                self.unread += 1
+                continue
+            count = self.bodies.setdefault(body, Tallied(body))
+            if reason:
+                count.failures += 1
+                continue
+            count.answers += 1
+            count.happened += self._happened(row)
+        return rows
+
+    def _happened(self, row: Row) -> bool:
+        """Return whether what was asked about happened in a row."""
+        found = row[self.model.happens]
+        return found == JUMPED if isinstance(found, str) else bool(found)
+
+    @property
+    def answers(self) -> int:
+        """Rows with an answer."""
+        return sum(count.answers for count in self.bodies.values())
+
+    @property
+    def failures(self) -> int:
+        """Rows without one."""
+        return self.unread + sum(count.failures for count in self.bodies.values())
+
+    @property
+    def happened(self) -> int:
+        """Rows in which it happened."""
+        return sum(count.happened for count in self.bodies.values())
+
+    def ranked(self) -> list[Tallied]:
+        """Return the counts of the bodies, those to which it happened most often first."""
+        return sorted(self.bodies.values(), key=lambda count: -count.happened / max(count.answers, 1))

@@ -1,0 +1,127 @@
+"""``seisblock batch``: it refuses what it should, and no interruption loses or doubles a row."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from seisblock.studies.batch import cluster
+from tests.batch.conftest import document, run, write_record
+
+LINE = "batch records --bodies bodies.csv --solver rock --out t.csv"
+
+
+def test_outputs_are_never_harmed(folder):
+    """A table that is there, an input, a directory, a suffix that means nothing."""
+    (folder / "t.csv").write_text("mine")
+    answer = run(LINE)
+    assert answer.exit_code == 3 and "--force" in answer.stderr and Path("t.csv").read_text() == "mine"
+    assert run(LINE + " --force").exit_code == 0
+    whole = Path("t.csv").read_bytes()
+    assert run(LINE + " --resume").exit_code == 0 and Path("t.csv").read_bytes() == whole
+    other = run("batch records/r0.csv --bodies bodies.csv --solver rock --out t.csv --resume")
+    assert other.exit_code == 3 and "other records" in other.stderr and Path("t.csv").read_bytes() == whole
+    before = Path("records/r0.csv").read_bytes()
+    harmed = run("batch records --bodies bodies.csv --solver rock --out records/r0.csv --force")
+    assert harmed.exit_code == 3 and Path("records/r0.csv").read_bytes() == before
+    table = run("batch records --bodies bodies.csv --solver rock --out bodies.csv --force")
+    assert table.exit_code == 3 and "slender" in Path("bodies.csv").read_text()
+    assert ".csv or .parquet" in run(LINE.replace("t.csv", "t.xlsx")).stderr
+    assert run(LINE + " --force --resume").exit_code == 3
+    assert run(LINE.replace("t.csv", "nowhere/t.csv")).exit_code == 3
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("--bodies none.csv", "none.csv"),
+        ("--bodies wrong.csv", "unknown column 'colour'"),
+        ("--solver slide --runs 5", "no perturbed versions"),
+        ("--station ABC", "every station"),
+        ("--cluster tcp://127.0.0.1:9", "no Dask scheduler answers"),
+        ("--cluster local:none", "1 to 512"),
+        ("--window 0:5 --window 6:7", "one --window"),
+    ],
+)
+def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):
+    """And leaves nothing behind."""
+    monkeypatch.setattr(cluster, "PATIENCE_S", 0.5)
+    (folder / "wrong.csv").write_text("name,width,height,colour\na,1,2,red\n")
+    line = LINE if "--bodies" not in change else LINE.replace("--bodies bodies.csv ", "")
+    answer = run(f"{line} {change}")
+    assert answer.exit_code == 3 and said in answer.stderr
+    assert [line[:10] for line in answer.stderr.splitlines() if "no notice" not in line] == ["seisblock:"]
+    assert not Path("t.csv").exists() and not Path("t.csv.journal").exists()
+
+
+def test_all_that_fails_is_a_failure(folder):
+    """The table is written, and the exit code says that it holds no answer."""
+    answer = run("batch gone.csv --bodies bodies.csv --solver rock --out t.csv")
+    assert answer.exit_code == 3 and "failure" in answer.stderr
+    assert "gone.csv" in Path("t.csv").read_text()
+
+
+def test_what_it_comes_to(folder):
+    """Counts by body, beside the table."""
+    found = document("batch records gone.csv --bodies bodies.csv --solver slide --out t.csv")
+    assert (found["records_count"], found["unread_count"]) == (5, 1)
+    assert [each["answers_count"] for each in found["results"]] == [8, 8, 8]
+    first = run("batch records --bodies bodies.csv --solver slide --out u.csv --quiet").stdout.splitlines()[0]
+    assert first.startswith("slipped in ") and "24 runs" in first
+
+
+def test_parquet_is_the_same_table(folder):
+    """Cell by cell, with the types kept."""
+    pandas = pytest.importorskip("pandas")
+    assert run(LINE).exit_code == 0 and run(LINE.replace("t.csv", "t.parquet")).exit_code == 0
+    text, kept = pandas.read_csv("t.csv"), pandas.read_parquet("t.parquet")
+    assert list(text.columns) == list(kept.columns)
+    assert kept["overturned"].tolist() == text["overturned"].tolist()
+    assert kept["max_rotation_rad"].tolist() == text["max_rotation_rad"].tolist()
+    assert run(LINE.replace("t.csv", "t.parquet") + " --resume").exit_code == 0
+
+
+def _start(*more):
+    """Return a batch that runs in a process of its own."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    line = [sys.executable, "-m", "seisblock", *LINE.split(), "--workers", "1", *more]
+    return subprocess.Popen(line, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def _until_lines(path, count, process):
+    """Wait until so many records stand in a journal."""
+    for _ in range(6000):
+        if path.exists() and path.read_bytes().count(b"\n") > count:
+            return
+        assert process.poll() is None, process.stderr.read().decode()
+        time.sleep(0.005)
+    raise AssertionError("nothing was written down")
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+def test_an_interruption_loses_no_record_and_doubles_none(folder, how):
+    """Killed in the middle, and gone on with; also from a line that was cut."""
+    for seed in range(4, 24):
+        write_record(folder / "records" / f"r{seed:02d}.csv", seed, samples=2000, peak=6.0)
+    process = _start("--quiet")
+    journal = folder / "t.csv.journal"
+    _until_lines(journal, 3, process)
+    process.send_signal(how)
+    process.communicate()
+    assert process.returncode == (130 if how == signal.SIGINT else -signal.SIGKILL)
+    assert not (folder / "t.csv").exists()
+    assert run(LINE).exit_code == 3  # neither begun anew nor gone on with unless it is said
+    with journal.open("ab") as stream:
+        stream.write(b'{"path": "records/r20.csv", "stamp": "1@2", "ro')
+    other = run(LINE.replace("rock", "slide") + " --resume")
+    assert other.exit_code == 3 and "begun with other" in other.stderr
+    finished = journal.read_bytes().count(b"\n") - 1
+    gone_on = run(LINE + " --resume")
+    assert gone_on.exit_code == 0 and f"{finished} of 24 records are finished" in gone_on.stderr
+    assert run(LINE.replace("t.csv", "whole.csv")).exit_code == 0
+    assert (folder / "t.csv").read_bytes() == (folder / "whole.csv").read_bytes()
+    assert not journal.exists()

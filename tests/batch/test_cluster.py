@@ -1,0 +1,74 @@
+"""A batch on Dask: the same table, and a worker that is killed in the middle costs nothing."""
+
+import os
+import signal
+
+import pytest
+
+import seisblock
+from seisblock.studies.batch import cluster, run
+from tests.batch.conftest import write_record
+
+distributed = pytest.importorskip("distributed")
+
+
+@pytest.fixture(scope="module")
+def client():
+    """Return a client of two processes of this machine."""
+    with cluster.connected("local:2") as found:
+        yield found
+
+
+@pytest.fixture
+def records(tmp_path):
+    """Return the names of twelve records."""
+    return [str(write_record(tmp_path / f"r{seed:02d}.csv", seed, samples=3000, peak=5.0)) for seed in range(12)]
+
+
+BODIES = {f"b{n}": seisblock.Block(0.15 + 0.01 * n, 0.9) for n in range(6)}
+
+
+def test_the_same_table(client, records):
+    """Bit by bit as on threads, a record that cannot be read included."""
+    names = [*records, "gone.csv"]
+    alone = seisblock.run_batch(names, BODIES, "respond", mu=0.5, runs=2)
+    together = seisblock.run_batch(names, BODIES, "respond", mu=0.5, runs=2, client=client)
+    assert len(alone) == 12 * 2 * 6 + 1
+    assert list(together.cells()) == list(alone.cells())
+
+
+def test_records_that_were_read_already(client, records):
+    """They travel as they are."""
+    read = [seisblock.read(name) for name in records[:3]]
+    assert list(seisblock.run_batch(read, BODIES, "rock", client=client).cells()) == list(seisblock.run_batch(read, BODIES, "rock").cells())
+
+
+def test_a_worker_that_dies_is_survived(client, records):
+    """One of two processes is killed when the first answer is there, while others are under way in it."""
+    victim = next(iter(client.run(os.getpid).values()))
+    plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, reading=run.Options())
+    read = [seisblock.read(name) for name in records]
+    found = []
+    for rows in run.each_record(iter(read), plan, total=12, client=client):
+        if not found:
+            os.kill(victim, signal.SIGKILL)
+        found += rows
+    assert found == list(seisblock.run_batch(read, BODIES, "respond", mu=0.5).rows)
+    assert victim not in client.run(os.getpid).values()
+
+
+def test_a_record_of_which_every_worker_dies_is_a_row(client, records):
+    """It does not end the batch."""
+    lost = []
+
+    def work(task):
+        if task == "deadly":
+            os.kill(os.getpid(), signal.SIGKILL)
+        return task
+
+    def reason(task, why):
+        lost.append(why)
+        return f"lost {task}"
+
+    assert list(cluster.on_cluster(client, work, ["a", "deadly", "b"], lost=reason)) == ["a", "lost deadly", "b"]
+    assert len(lost) == 1
