@@ -18,13 +18,13 @@ ROW = np.random.default_rng(5).standard_normal(5000) + 0.2
 def small_pieces(monkeypatch):
     """Let a piece be some dozens of samples, which divide no length here."""
     for module in (filters, integrals, peaks):
-        monkeypatch.setattr(module, "BLOCK", 77)
+        monkeypatch.setattr(module, "AT_A_TIME", 77)
 
 
 def test_integrals_to_the_bit(small_pieces, monkeypatch):
     """Sums go on from piece to piece in the same order."""
     found = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
-    monkeypatch.setattr(integrals, "BLOCK", 10**6)
+    monkeypatch.setattr(integrals, "AT_A_TIME", 10**6)
     at_once = integrals.integrate(ROW, DT), integrals.integrate_twice(ROW, DT, 0.3)
     for one, other in zip(found, at_once, strict=True):
         np.testing.assert_array_equal(one, other)
@@ -53,7 +53,7 @@ def test_the_peak_between_samples(small_pieces, monkeypatch):
     """Zeros of the acceleration at the seams are met once."""
     history = ground_history(ROW, DT, highpass_hz=0.5)
     found = peaks.peak_velocity(history, DT)
-    monkeypatch.setattr(peaks, "BLOCK", 10**6)
+    monkeypatch.setattr(peaks, "AT_A_TIME", 10**6)
     assert found == peaks.peak_velocity(history, DT)
 
 

@@ -154,7 +154,7 @@ def test_impossible_spreads_are_refused(spread):
 
 def test_no_runs_are_refused():
     """At least one."""
-    with pytest.raises(ParameterError, match="at least 1"):
+    with pytest.raises(ParameterError, match="a whole number, 1 or more, found 0"):
         perturb(BLOCK, one_sine(1.0), 0)
 
 
