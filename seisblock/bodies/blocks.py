@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.bodies.block import Block, lever_ratio, resized, restitution_onto
 from seisblock.bodies.inset import SHARP, Inset
-from seisblock.typing import ArrayLike, FloatArray
+from seisblock.typing import ArrayLike, FloatArray, IntArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +34,15 @@ class Blocks:
 
     def __len__(self) -> int:
         return self.centre.size
+
+    @property
+    def columns(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """The four arrays, in their order."""
+        return self.right, self.left, self.centre, self.gyration_squared
+
+    def __getitem__(self, part: slice | IntArray) -> Blocks:
+        """Return some of them."""
+        return Blocks(*(column[part] for column in self.columns))
 
     @property
     def radii(self) -> FloatArray:
@@ -115,7 +124,9 @@ def versions(block: Block, *, size: ArrayLike, slenderness: ArrayLike, inset_sha
     half = width / 2 - inset
     right, left = half - offset, half + offset
     for row in np.flatnonzero(~((right > 0.0) & (left > 0.0)))[:1]:
-        replace(resized(block, size=float(larger[row]), slenderness=float(wider[row])), inset=float(inset[row]))
+        sharp = replace(block, inset=0.0, centroid_offset=0.0)
+        depth = float(inset[row]) / float(width[row])
+        replace(resized(sharp, size=float(larger[row]), slenderness=float(wider[row])).worn(depth), centroid_offset=float(offset[row]))
     return Blocks(right, left, centre, gyration)
 
 

@@ -42,17 +42,17 @@ def test_versions_are_uniform_within_their_half_widths(monkeypatch):
     asked = []
 
     def overheard(settings, motion, **given):
-        asked.extend(zip(settings, given["gains"], strict=True))
+        asked.extend(zip(settings.mu, settings.restitution, given["gains"], strict=True))
         return respond_many(settings, motion, **given)
 
     monkeypatch.setattr(probability, "respond_many", overheard)
     still = Motion(1e-6 * np.ones((3, 4)), 0.01)
     share(Block(0.24, 0.8), still, mu=0.5, runs=400)
-    settings, gains = zip(*asked, strict=True)
-    along, across, _ = np.array(gains).T
+    mu, restitution, gains = (np.array(column) for column in zip(*asked, strict=True))
+    along, across, _ = gains.T
     changes = {
-        "mu": (np.array([setting.mu for setting in settings]) / 0.5 - 1.0) / 0.2,
-        "restitution": np.array([setting.restitution for setting in settings]) / 0.05 - 1.0,
+        "mu": (mu / 0.5 - 1.0) / 0.2,
+        "restitution": restitution / 0.05 - 1.0,
         "amplitude": (np.hypot(along, across) - 1.0) / 0.1,
         "azimuth": np.degrees(np.arctan2(-across, along)) / 10.0,
     }

@@ -20,11 +20,15 @@ from seisblock.records.given import check_motion
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import check_settling, still_ground
 from seisblock.solvers.respond.setting import Initial, Setting
+from seisblock.solvers.respond.settings import Settings
 from seisblock.solvers.respond.tale import FLIGHT, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, IntArray
 
 AT_ONCE = 8
-"""Rows that a thread takes at a time: some fall at once, others hop for a minute."""
+"""Rows that a thread takes at a time, at least: some fall at once, others hop for a minute."""
+
+SAMPLES_AT_ONCE = 10_000
+"""Samples times rows that a thread takes at a time, where the motion is short."""
 
 KINDS = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT)
 """Modes as columns of :attr:`Fates.time_in_mode_s`."""
@@ -67,7 +71,7 @@ class Fates:
 
 
 def respond_many(
-    settings: Sequence[Setting],
+    settings: Sequence[Setting] | Settings,
     motion: Motion,
     *,
     gains: ArrayLike = (1.0, 0.0, 1.0),
@@ -79,7 +83,7 @@ def respond_many(
 
     Parameters
     ----------
-    settings : sequence of Setting
+    settings : Settings, or sequence of Setting
         One per row, all with as many further points, all with tenons or none.
     motion : Motion
     gains : (3,) or (m, 3) array
@@ -101,42 +105,44 @@ def respond_many(
     """
     check_motion(motion)
     check_settling(settle_s)
-    if not settings:
+    if not len(settings):
         raise ParameterError("an ensemble needs at least one row")
-    for setting in settings:
+    for setting in () if isinstance(settings, Settings) else settings:
         checks.instance(setting, Setting)
     rows = np.array(np.broadcast_to(np.asarray(gains, dtype=np.float64), (len(settings), 3)))
+    share = max(AT_ONCE, SAMPLES_AT_ONCE // motion.samples)
     pool, gone = ThreadPoolExecutor(workers or os.cpu_count()), Event()
     events = (*halting(), gone)
 
     def part(first: int) -> Fates:
         """Follow some rows, as long as anybody waits for them."""
-        last = first + AT_ONCE
+        last = first + share
         with heeding(events):
             return _fates(settings[first:last], motion, rows[first:last], initial, settle_s)
 
     try:
-        found = list(pool.map(part, range(0, len(settings), AT_ONCE)))
+        found = list(pool.map(part, range(0, len(settings), share)))
     finally:
         gone.set()
         pool.shutdown(cancel_futures=True)
     return Fates(*(np.concatenate([getattr(each, field.name) for each in found]) for field in fields(Fates)))
 
 
-def _fates(settings: Sequence[Setting], motion: Motion, gains: FloatArray, initial: Initial, settle_s: float) -> Fates:
+def _fates(settings: Sequence[Setting] | Settings, motion: Motion, gains: FloatArray, initial: Initial, settle_s: float) -> Fates:
     """Return the fates of some rows, on this thread."""
-    starts = np.array([setting.state(initial) for setting in settings])
-    model = settings[0].model
-    shaken = follow_many(
-        model, motion, [setting.parameters(motion.dt) for setting in settings], starts, settings[0].first_mode, gains=gains
-    )
+    if isinstance(settings, Settings):
+        first, starts = settings.one(0), settings.states(initial)
+    else:
+        first, starts = settings[0], np.array([setting.state(initial) for setting in settings])
+    model = first.model
+    shaken = follow_many(model, motion, _parameters(settings, motion.dt), starts, first.first_mode, gains=gains)
     final, mode, end = shaken.final.copy(), shaken.final_mode.copy(), shaken.end_time.copy()
     high, low = _extrema(shaken)
     spent, longest = _stays(shaken)
     moving = (mode >= 0) & (mode % names.HELD != names.REST)
     if settle_s > 0.0 and moving.any():
         ground = still_ground(settle_s)
-        p = np.array([setting.parameters(ground.dt, still=True) for setting in settings])
+        p = _parameters(settings, ground.dt, still=True)
         for kind in np.unique(mode[moving]):
             rows = np.flatnonzero(moving & (shaken.final_mode == kind))
             after = follow_many(model, ground, p[rows], shaken.final[rows], int(kind), gains=(1.0, 0.0, 1.0))
@@ -162,6 +168,13 @@ def _fates(settings: Sequence[Setting], motion: Motion, gains: FloatArray, initi
         time_in_mode_s=spent,
         longest_flight_s=longest[:, KINDS.index(FLIGHT)],
     )
+
+
+def _parameters(settings: Sequence[Setting] | Settings, dt: float, *, still: bool = False) -> FloatArray:
+    """Return the parameters of the model, one row for each."""
+    if isinstance(settings, Settings):
+        return settings.parameters(dt, still=still)
+    return np.array([setting.parameters(dt, still=still) for setting in settings])
 
 
 def _stays(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:

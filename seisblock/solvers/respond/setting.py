@@ -40,6 +40,9 @@ MOST_IMPACTS = 50_000
 SMALL_RATE = 1e-12
 """v_z over sqrt(g R): hops below it are at their end."""
 
+NEARLY_JAMS = 0.999
+"""Share of Painleve's limit from which the model watches it."""
+
 TOUCHING = 1e-12
 """Share of R below which a corner put down counts as touching, and of sqrt(g R) below which its rate counts as zero."""
 
@@ -93,7 +96,8 @@ class Stand:
     @property
     def friction_limit(self) -> float:
         """Kinetic friction below which no slip can jam: the least 2 sqrt(kappa (1 + kappa)), kappa = k^2/R^2 (derived here)."""
-        kappa = self.gyration_squared / max(self.radii) ** 2
+        largest = max(self.radii)
+        kappa = self.gyration_squared / (largest * largest)
         return 2.0 * math.sqrt(kappa * (1.0 + kappa))
 
 
@@ -185,7 +189,7 @@ class Setting:
         given = NONE if self.rocking_restitution is None else self.rocking_restitution
         row = [
             self.gravity, dt, self.mu, self.mu_kinetic, self.restitution, given, body.right, body.left, body.height, body.gyration_squared,
-            self.tenon, float(self.mu_kinetic >= 0.999 * body.friction_limit), float(still), self.small_rate, MOST_IMPACTS,
+            self.tenon, float(self.mu_kinetic >= NEARLY_JAMS * body.friction_limit), float(still), self.small_rate, MOST_IMPACTS,
         ]  # fmt: skip
         return np.array(row + [value for point in self.further_points for value in point])
 

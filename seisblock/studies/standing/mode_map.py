@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import gathered
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.criteria.initiation import friction_to_rock, loading
 from seisblock.errors import ParameterError
@@ -17,8 +17,7 @@ from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_motion, vertical_gain
 from seisblock.solvers.respond.many import KINDS, Fates, respond_many
-from seisblock.solvers.respond.setting import Setting
-from seisblock.solvers.respond.solve import make_setting
+from seisblock.solvers.respond.settings import Settings
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.typing import ArrayLike, FloatArray, IntArray, Progress
 from seisblock.units import STANDARD_GRAVITY
@@ -128,20 +127,20 @@ def mode_map(
     if not cells:
         raise ParameterError("a map needs at least one cell")
     check_budget(noted("cells"), cells, "SEISBLOCK_CELLS")
-    settings = (make_setting(block, mu=float(m), restitution=restitution, gravity=gravity) for block in blocks for m in mu)
+    kinds, rough = np.arange(cells) // mu.size, np.tile(mu, len(blocks))
+    settings = Settings(gathered(blocks)[kinds], rough, rough, np.full(cells, restitution), None, gravity, 0.0)
+    alphas = settings.blocks.slendernesses.min(axis=1)
     up = vertical_gain(motion, vertical)
     ratio, time = loading(motion, vertical=vertical, gravity=gravity)
     seen_s = math.sqrt(8.0 * SEEN_M / gravity)
     table = np.empty((cells, 4))
-    first = 0
-    for part in _parts(settings):
-        fates = respond_many(part, motion, gains=(1.0, 0.0, up), settle_s=settle_s)
-        last = first + len(part)
-        lean = fates.max_rotation_rad / [min(setting.stand.slendernesses) for setting in part]
-        table[first:last] = np.column_stack([_worst(fates, seen_s), lean, fates.slip_path_m, fates.final_displacement_m])
-        first = last
+    for first in range(0, cells, AT_ONCE):
+        part = slice(first, min(first + AT_ONCE, cells))
+        fates = respond_many(settings[part], motion, gains=(1.0, 0.0, up), settle_s=settle_s)
+        lean = fates.max_rotation_rad / alphas[part]
+        table[part] = np.column_stack([_worst(fates, seen_s), lean, fates.slip_path_m, fates.final_displacement_m])
         if progress is not None:
-            progress(last, cells)
+            progress(part.stop, cells)
     worst, lean, path, end = table.T.reshape(4, len(blocks), mu.size)
     needed = [None if math.isinf(ratio) else friction_to_rock(block, ratio) for block in blocks]
     return ModeMap(
@@ -169,18 +168,6 @@ def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: Inset) -> list[Bl
         raise ParameterError("a map has rows of many sizes or of many slendernesses, not of both: give one size, or one slenderness")
     pairs = np.broadcast(diagonals, alphas)
     return [Block(d * math.sin(a), d * math.cos(a)).worn(inset) for d, a in ((float(d), float(a)) for d, a in pairs)]
-
-
-def _parts(settings: Iterator[Setting]) -> Iterator[Sequence[Setting]]:
-    """Yield some settings at a time."""
-    part: list[Setting] = []
-    for setting in settings:
-        part.append(setting)
-        if len(part) == AT_ONCE:
-            yield part
-            part = []
-    if part:
-        yield part
 
 
 def _worst(fates: Fates, seen_s: float) -> IntArray:

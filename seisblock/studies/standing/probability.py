@@ -8,20 +8,22 @@ granite rocks fell where none of 20 such versions did, and 2 % stood where all f
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from seisblock import checks
-from seisblock.bodies.block import Block, resized
-from seisblock.bodies.inset import HALF, Inset
+from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import Blocks
+from seisblock.bodies.blocks import versions as resized_versions
+from seisblock.bodies.inset import HALF
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import ACROSS
 from seisblock.solvers.respond.many import respond_many
-from seisblock.solvers.respond.setting import Setting
+from seisblock.solvers.respond.settings import Settings
 from seisblock.solvers.respond.solve import make_setting
 from seisblock.studies.intervals import clopper_pearson
 from seisblock.typing import FloatArray, Progress
@@ -157,10 +159,27 @@ def respond_probability(
     check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
     if not (math.isfinite(moved_m) and moved_m > 0.0):
         raise ParameterError("the displacement that counts as moved must be positive, found {found} m", found=moved_m)
-    given = {"mu": mu, "mu_kinetic": mu_kinetic, "restitution": restitution}
-    same = {"rocking_restitution": rocking_restitution, "gravity": gravity, "tenon": tenon}
+    make_setting(
+        block,
+        mu=mu,
+        mu_kinetic=mu_kinetic,
+        restitution=restitution,
+        rocking_restitution=rocking_restitution,
+        gravity=gravity,
+        tenon=tenon,
+    )
     draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, 6))
-    settings = [_version(block, versions, draw, given, same) for draw in draws]
+    rough = 1.0 + versions.mu * draws[:, 2]
+    bouncy = restitution + versions.restitution * 0.5 * (1.0 + draws[:, 3])
+    settings = Settings(
+        _bodies(block, versions, draws),
+        mu * rough,
+        (mu if mu_kinetic is None else mu_kinetic) * rough,
+        np.maximum(restitution, np.minimum(bouncy, ROUGHEST)),
+        rocking_restitution,
+        gravity,
+        tenon,
+    )
     gains = _gains(motion, versions, draws, vertical)
     fallen, shifts = [], []
     for first in range(0, runs, AT_ONCE):
@@ -185,25 +204,13 @@ def respond_probability(
     )
 
 
-def _version(block: Block, versions: Versions, draw: FloatArray, given: dict[str, float | None], same: dict[str, float | None]) -> Setting:
-    """Return one version of a body and its contact."""
-    size, worn, rough, bounce = (float(value) for value in draw[:4])
+def _bodies(block: Block, versions: Versions, draws: FloatArray) -> Blocks:
+    """Return the versions of a body: their size, and how far their edges are worn."""
     share = block.inset / block.width
     half = versions.inset / 2
     middle = half if share <= versions.inset else share
-    changed = resized(replace(block, inset=0.0), size=1.0 + versions.size * size).worn(Inset(share=max(middle + half * worn, 0.0)))
-    factor = 1.0 + versions.mu * rough
-    more = versions.restitution * 0.5 * (1.0 + bounce)
-    restitution = given["restitution"] or 0.0
-    kinetic = given["mu_kinetic"]
-    assert given["mu"] is not None
-    return make_setting(
-        changed,
-        mu=given["mu"] * factor,
-        mu_kinetic=None if kinetic is None else kinetic * factor,
-        restitution=max(restitution, min(restitution + more, ROUGHEST)),
-        **same,  # type: ignore[arg-type]
-    )
+    worn = np.maximum(middle + half * draws[:, 1], 0.0)
+    return resized_versions(block, size=1.0 + versions.size * draws[:, 0], slenderness=np.ones(len(draws)), inset_share=worn)
 
 
 def _gains(motion: Motion, versions: Versions, draws: FloatArray, vertical: Factor | None) -> FloatArray:

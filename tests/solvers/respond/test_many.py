@@ -4,9 +4,12 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import gathered
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.respond import make_setting, respond_many, solve_respond
+from seisblock.solvers.respond.names import STEEP
+from seisblock.solvers.respond.settings import Settings
 from tests.solvers.respond.cases import shaking
 
 MOTION = shaking(9, 9.0, seconds=8.0)
@@ -36,6 +39,37 @@ def test_rows_are_single_runs():
         assert many.time_in_mode_s[row] == pytest.approx(list(one.time_in_mode_s.values()), abs=1e-9)
         flights = [phase.duration_s for phase in response.phases if phase.name == "flight"]
         assert many.longest_flight_s[row] <= max(flights, default=0.0) + 1e-12
+
+
+@pytest.mark.parametrize("initial", [None, (0.0, 1.2, 0.0, 0.0, 0.0, 0.1)], ids=["upright", "thrown"])
+def test_settings_of_arrays_are_the_settings_one_by_one(initial):
+    """Parameters and fates, jamming frictions and tenons among them, to the last bit."""
+    rng, n = np.random.default_rng(8), 60
+    blocks = [Block(0.35 * a, 0.9 * b, centroid_offset=0.05 * c) for a, b, c in rng.uniform(0.7, 1.3, (n, 3))]
+    mu, kinetic, e = rng.uniform(0.8, 1.6, n), rng.uniform(0.2, 0.8, n), rng.uniform(0.0, 0.5, n)
+    kinetic[::3] = mu[::3]
+    some = Settings(gathered(blocks), mu, kinetic, e, None, 9.81, 0.01)
+    numbers = zip(blocks, mu.tolist(), kinetic.tolist(), e.tolist(), strict=True)
+    each = [make_setting(block, mu=m, mu_kinetic=k, restitution=r, gravity=9.81, tenon=0.01) for block, m, k, r in numbers]
+    for still in (False, True):
+        table = some.parameters(0.01, still=still)
+        np.testing.assert_array_equal(table, [setting.parameters(0.01, still=still) for setting in each])
+    assert 0.0 < table[:, STEEP].mean() < 1.0
+    many, alone = (respond_many(given[:12], MOTION, initial=initial) for given in (some, each))
+    for name in vars(many):
+        np.testing.assert_array_equal(getattr(many, name), getattr(alone, name))
+
+
+def test_a_wrong_number_among_many_is_refused_in_the_words_of_one():
+    """The first row that is wrong says why."""
+    two = gathered([Block(0.3, 0.9), Block(0.3, 1.2)])
+    for mu, kinetic, e, why in (
+        (-0.1, -0.2, 0.0, "friction coefficient mu"),
+        (0.3, 0.4, 0.0, "must not exceed static friction"),
+        (0.3, 0.3, 1.0, "restitution"),
+    ):
+        with pytest.raises(ParameterError, match=why):
+            Settings(two, np.array([0.5, mu]), np.array([0.5, kinetic]), np.array([0.0, e]), None, 9.81, 0.0)
 
 
 def test_threads_do_not_matter():
