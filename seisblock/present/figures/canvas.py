@@ -215,7 +215,8 @@ def within_reach(axis: Axes, peak: float, levels: Sequence[tuple[float, float, s
 def _far(low: float, high: float, what: str, unit: str) -> str:
     """Return what happens beyond two levels, and where they are."""
     alike = abs(abs(low) - abs(high)) < 0.005 * abs(high)
-    where = f"±{abs(high):.3g} {unit}" if alike else tell("{low} and {high}", low=f"{low:.3g}", high=f"{high:+.3g} {unit}")
+    near, beyond = (float(f"{level:.3g}") for level in (low, high))  # three digits, and no power of ten
+    where = f"±{abs(beyond):g} {unit}" if alike else tell("{low} and {high}", low=f"{near:g}", high=f"{beyond:+g} {unit}")
     return f"{what} {where}"
 
 
