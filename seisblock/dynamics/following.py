@@ -190,16 +190,8 @@ def _no_events(n_states: int) -> tuple[IntArray, FloatArray, FloatArray]:
 
 def _changes(events: IntArray, times: FloatArray, limits: FloatArray, dt: float) -> tuple[Change, ...]:
     """Return the events from the loop's tables."""
-    rows = zip(events.tolist(), times.tolist(), limits.copy(), strict=True)
-    return tuple(
-        Change(
-            Instant(row[EVENT_SAMPLE], tau),
-            row[EVENT_SAMPLE] * dt + tau,
-            row[EVENT_GUARD],
-            row[EVENT_FROM],
-            row[EVENT_TO],
-            before,
-            after,
-        )
-        for row, tau, (before, after) in rows
-    )
+    kept = limits.copy()
+    at = map(Instant._make, zip(events[:, EVENT_SAMPLE].tolist(), times.tolist(), strict=True))
+    time = (events[:, EVENT_SAMPLE] * dt + times).tolist()
+    guard, source, target = (events[:, column].tolist() for column in (EVENT_GUARD, EVENT_FROM, EVENT_TO))
+    return tuple(map(Change._make, zip(at, time, guard, source, target, kept[:, 0], kept[:, 1], strict=True)))

@@ -65,8 +65,13 @@ class Path:
     modes: IntArray
     changes: tuple[Change, ...] = ()
 
-    def table(self) -> tuple[FloatArray, FloatArray, IntArray]:
+    def table(self, chosen: IntArray | None = None) -> tuple[FloatArray, FloatArray, IntArray]:
         """Return times, states and modes at the samples and at both limits of every event, in order.
+
+        Parameters
+        ----------
+        chosen : (k,) array of int or None
+            Which samples of the path are wanted, in rising order; all when left out.
 
         Returns
         -------
@@ -75,12 +80,23 @@ class Path:
         modes : (m,) array
         """
         time = self.dt * np.arange(self.first, self.first + self.modes.size, dtype=np.float64)
+        states, modes = self.states, self.modes
+        if chosen is not None:
+            time, states, modes = time[chosen], states[chosen], modes[chosen]
         if not self.changes:
-            return time, self.states, self.modes
-        both = np.array([limit for change in self.changes for limit in (change.before, change.after)])
+            return time, states, modes
+        both = np.concatenate([limit for change in self.changes for limit in (change.before, change.after)])
         kinds = np.array([mode for change in self.changes for mode in (change.source, change.target)])
-        times, order = np.repeat([change.time for change in self.changes], 2), self._order()
-        return _woven(time, times, order), _woven(self.states, both, order), _woven(self.modes, kinds, order)
+        times, order = np.repeat([change.time for change in self.changes], 2), self._order(chosen)
+        return _woven(time, times, order), _woven(states, both.reshape(-1, states.shape[1]), order), _woven(modes, kinds, order)
+
+    def numbers(self, chosen: IntArray) -> IntArray:
+        """Return which rows of the whole table those of :meth:`table` at some samples are, (m,)."""
+        if not self.changes:
+            return chosen
+        before = self._places()
+        at_samples = chosen + np.searchsorted(before, chosen, side="right")
+        return _woven(at_samples, before + np.arange(before.size), self._order(chosen))
 
     def values(self, state: int) -> FloatArray:
         """Return one state at the times of :meth:`table`, (m,)."""
@@ -90,21 +106,28 @@ class Path:
         both = np.array([limit[state] for change in self.changes for limit in (change.before, change.after)])
         return _woven(at_samples, both, self._order())
 
-    def sampled(self, values: FloatArray) -> FloatArray:
+    def sampled(self, values: FloatArray, chosen: IntArray | None = None) -> FloatArray:
         """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
         part = values[self.first : self.first + self.modes.size]
+        if chosen is not None:
+            part = part[chosen]
         if not self.changes:
             return part
         at = np.array([change.at.sample for change in self.changes])
         share = np.array([change.at.tau for change in self.changes]) / self.dt
         there = values[at] + share * (values[np.minimum(at + 1, values.size - 1)] - values[at])
-        return _woven(part, np.repeat(there, 2), self._order())
+        return _woven(part, np.repeat(there, 2), self._order(chosen))
 
-    def _order(self) -> IntArray:
-        """Return which of the samples, and of the limits of the events after them, stands at each place of the table."""
-        size = self.modes.size
+    def _places(self) -> IntArray:
+        """Return before which sample of the path each limit of each event stands."""
         at = np.array([change.at.sample for change in self.changes]) + 1 - self.first
-        before = np.clip(np.repeat(at, 2), 0, size)
+        return np.clip(np.repeat(at, 2), 0, self.modes.size)
+
+    def _order(self, chosen: IntArray | None = None) -> IntArray:
+        """Return which of the samples, and of the limits of the events after them, stands at each place of the table."""
+        before, size = self._places(), self.modes.size
+        if chosen is not None:
+            before, size = np.searchsorted(chosen, before), chosen.size
         return np.insert(np.arange(size), before, size + np.arange(before.size))
 
 

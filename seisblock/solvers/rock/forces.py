@@ -163,33 +163,39 @@ def _joined(pieces: Sequence[_Rows]) -> _Rows:
 
 def _rows(block: Rocker, motion: Motion, path: Path, until_s: float, before: int) -> tuple[_Rows, int]:
     """Return the rows of a path up to a time, after so many, that may matter, with what the forces need; and how many there are in all."""
-    time, states, modes = path.table()
-    n = int(np.searchsorted(time, until_s, side="right")) if math.isfinite(until_s) else time.size
-    push = path.sampled(motion.horizontal)[:n]
-    weight = np.full(n, block.gravity)
+    size = path.modes.size
+    if math.isfinite(until_s):
+        size = int(np.searchsorted(path.dt * np.arange(path.first, path.first + size), until_s, side="right"))
+    span = slice(path.first, path.first + size)
+    weight = np.full(size, block.gravity)
     if block.vertical != 0.0:
-        weight += path.sampled(motion.vertical)[:n] * block.vertical
-    chosen = _telling(push, weight, modes[:n])
-    mode = modes[chosen]
-    left = (mode == TO_LEFT) | (mode == BEYOND_LEFT)
+        weight += motion.vertical[span] * block.vertical
+    chosen = _telling(motion.horizontal[span], weight, path.modes[:size])
+    time, states, modes = path.table(chosen)
+    push = path.sampled(motion.horizontal, chosen)
+    weight = np.full(time.size, block.gravity)
+    if block.vertical != 0.0:
+        weight += path.sampled(motion.vertical, chosen) * block.vertical
+    n = int(np.searchsorted(time, until_s, side="right")) if math.isfinite(until_s) else time.size
+    left = (modes[:n] == TO_LEFT) | (modes[:n] == BEYOND_LEFT)
     rows = _Rows(
-        before + chosen,
-        time[chosen],
-        states[chosen, 0],
-        states[chosen, 1],
-        push[chosen],
-        weight[chosen],
-        mode,
+        before + path.numbers(chosen)[:n],
+        time[:n],
+        states[:n, 0],
+        states[:n, 1],
+        push[:n],
+        weight[:n],
+        modes[:n],
         lean=np.where(left, -block.alphas[LEFT], block.alphas[RIGHT]),
         lever=np.where(left, block.levers[LEFT], block.levers[RIGHT]),
         radius=np.where(left, block.radii[LEFT], block.radii[RIGHT]),
         linear=block.linear,
     )
-    return rows, n
+    return rows, path.modes.size + 2 * len(path.changes)
 
 
 def _telling(push: FloatArray, weight: FloatArray, modes: IntArray) -> IntArray:
-    """Return which rows have to be looked at: of those at rest, where forces are extreme at samples, the one of the largest demand."""
+    """Return which samples have to be looked at: of those at rest, where forces are extreme, the one of the largest demand."""
     moving = modes != REST
     if moving.all() or not (weight > 0.0).all():
         return np.arange(modes.size)
