@@ -17,7 +17,7 @@ from seisblock.typing import FloatArray, IntArray
 Outcome = TypeVar("Outcome", covariant=True)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Phase:
     """A stretch of time spent in one mode, times in s from the record's first sample."""
 
@@ -31,7 +31,7 @@ class Phase:
         return self.end_s - self.start_s
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class Event:
     """A change of mode, with the state on both sides of it.
 

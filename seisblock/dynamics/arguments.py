@@ -44,8 +44,8 @@ class Cursor(NamedTuple):
 
     Parameters
     ----------
-    place : (9,) array of int
-        See ``SAMPLE`` to ``BEYOND``.
+    place : (10,) array of int
+        See ``SAMPLE`` to ``LOGGED``.
     clock : (3,) array, s
         ``TAU``: time after the sample. ``FIRST_EVENT``: time of the first event after sample 0, NaN before it. ``SINCE``: that of the last
         event, or of the start.
@@ -57,10 +57,10 @@ class Cursor(NamedTuple):
     state: FloatArray
 
 
-SAMPLE, MODE, FOUND, AT_ONE_INSTANT, STILL, STARTED, STEPS_LEFT, BASE, BEYOND = range(9)
+SAMPLE, MODE, FOUND, AT_ONE_INSTANT, STILL, STARTED, STEPS_LEFT, BASE, BEYOND, LOGGED = range(10)
 """A cursor's integers: sample, mode, events so far, events since time last moved, whether the state does not move, whether the
 trajectory has begun, how many steps may be taken before the loop pauses; of the motion's samples, which one the ground given begins with,
-and how many follow after it."""
+and how many follow after it; how many events were taken out of the tables, which begin with the next."""
 
 TAU, FIRST_EVENT, SINCE = range(3)
 
@@ -74,7 +74,7 @@ class Kept(NamedTuple):
         State and mode at each sample reached, counted from the first of the stretch.
     events, times, limits : (m, 4), (m,), (m, 2, n_states) arrays
         Sample, guard, mode before and after (``EVENT_SAMPLE`` to ``EVENT_TO``); seconds after that sample; both limits of the state.
-        With no rows events are counted, without a bound.
+        The loop pauses when they are half full. With no rows events are counted, without a bound.
     extrema : (n_tracked, 4) array
         Highest value, its time, lowest value, its time (s after sample 0), of the first states.
     tally : (n_guards, n_modes) array of int

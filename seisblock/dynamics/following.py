@@ -21,6 +21,7 @@ from seisblock.dynamics.arguments import (
     EVENT_SAMPLE,
     EVENT_TO,
     FOUND,
+    LOGGED,
     MODE,
     SAMPLE,
     STEPS_LEFT,
@@ -34,15 +35,17 @@ from seisblock.dynamics.model import Model
 from seisblock.dynamics.status import FAILURES, PAUSED, TOO_MANY_EVENTS
 from seisblock.dynamics.trajectory import BEGINNING, Change, Instant, Path, Trajectory
 from seisblock.errors import SolverError
+from seisblock.limits import check_budget
 from seisblock.records.motion import Motion, Stretch
 from seisblock.typing import ArrayLike, FloatArray, IntArray
-from seisblock.words import said
+from seisblock.words import noted, said
 
 SLICE = 1 << 16
 """Steps that compiled code takes before Python may be interrupted: 10 to 150 ms, and no more than 1e-3 of that to come back."""
 
-_FIRST_CAPACITY, _LONG_CAPACITY = 1 << 12, 1 << 14
+_FIRST_CAPACITY = 1 << 12
 _LAST_CAPACITY = 1 << 18
+"""Events for which the tables have room, half of them in a single interval between two samples: at first, and at the most."""
 
 _NO_TALLY, _NO_STAYS = np.empty((0, 0), dtype=np.int64), np.empty((0, 2))
 
@@ -94,17 +97,17 @@ def follow(
     extrema = np.zeros((model.tracked, 4))
     keeps = keep_path and not motion.is_long
     path, modes = (np.empty((motion.samples, n_states)), np.empty(motion.samples, dtype=np.int64)) if keeps else _no_path(n_states)
-    capacity = (_LONG_CAPACITY if motion.is_long else _FIRST_CAPACITY) if keep_events else 0
+    capacity = _FIRST_CAPACITY if keep_events else 0
     while True:
         cursor = cursor_at(start, mode, np.array(initial, dtype=np.float64))
         events, times, limits = np.empty((capacity, 4), dtype=np.int64), np.empty(capacity), np.empty((capacity, 2, n_states))
         kept = Kept(path, modes, events, times, limits, extrema, _NO_TALLY, _NO_STAYS)
-        status = PAUSED
+        status, changes = PAUSED, list[Change]()
         for stretch in course.stretches(start.sample):
-            status = course.follow_on(stretch, cursor, kept)
+            status = course.follow_on(stretch, cursor, kept, changes)
             if status != PAUSED:
                 break
-        if not (status == TOO_MANY_EVENTS and cursor.place[FOUND] == capacity < _LAST_CAPACITY):
+        if not (status == TOO_MANY_EVENTS and cursor.place[FOUND] - cursor.place[LOGGED] == capacity < _LAST_CAPACITY):
             break
         capacity *= 8
     found, final_mode = int(cursor.place[FOUND]), int(cursor.place[MODE])
@@ -112,20 +115,22 @@ def follow(
     if status in FAILURES:
         at = motion.start_s + ended.sample * motion.dt + ended.tau
         raise SolverError("{name}: given up at {at:.6f} s, where {failure}", name=model.name, at=at, failure=said(FAILURES[status]))
-    changes = _changes(events[:found], times[:found], limits[:found], motion.dt) if keep_events else ()
+    if keep_events:
+        changes += _changes(kept, cursor, motion.dt)
+    logged = tuple(changes)
     if keeps:
         first = _first_kept(start)
-        whole = Path(motion.dt, first, path[first : ended.sample + 1], modes[first : ended.sample + 1], changes)
+        whole = Path(motion.dt, first, path[first : ended.sample + 1], modes[first : ended.sample + 1], logged)
         walk: Callable[[], Iterator[Path]] = partial(iter, (whole,))
     else:
-        walk = partial(course.walk, start, mode, np.array(initial, dtype=np.float64), changes)
-    return Trajectory(model, motion.dt, status, changes, found, extrema, ended, cursor.state, final_mode, walk)
+        walk = partial(course.walk, start, mode, np.array(initial, dtype=np.float64), logged)
+    return Trajectory(model, motion.dt, status, logged, found, extrema, ended, cursor.state, final_mode, walk)
 
 
 def cursor_at(start: Instant, mode: int, state: FloatArray) -> Cursor:
     """Return the cursor of a trajectory that is about to begin; the state is moved in place."""
-    # sample, mode, events, events at one instant, still, not started, steps, of the motion: first sample given, samples beyond
-    return Cursor(np.array([start.sample, mode, 0, 0, 1, 0, 0, 0, 0]), np.array([start.tau, np.nan, 0.0]), state)
+    # sample, mode, events, events at one instant, still, not started, steps, first sample given, samples beyond, events taken
+    return Cursor(np.array([start.sample, mode, 0, 0, 1, 0, 0, 0, 0, 0]), np.array([start.tau, np.nan, 0.0]), state)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,8 +146,11 @@ class _Course:
         """Return the stretches of the motion from a sample on."""
         return self.motion.stretches((self.gains != 0.0).tolist(), first)
 
-    def follow_on(self, stretch: Stretch, cursor: Cursor, kept: Kept) -> int:
-        """Follow a trajectory on through a stretch, in slices between which Python may be interrupted; return the status."""
+    def follow_on(self, stretch: Stretch, cursor: Cursor, kept: Kept, changes: list[Change]) -> int:
+        """Follow a trajectory on through a stretch, in slices between which Python may be interrupted; return the status.
+
+        Events are taken out of their tables when these are half full; the rest of them stays there.
+        """
         ground = Ground(stretch.acceleration, self.gains, self.motion.dt)
         cursor.place[BASE], cursor.place[BEYOND] = stretch.first, stretch.beyond
         last = stretch.first + stretch.acceleration.shape[1] - 1
@@ -151,6 +159,10 @@ class _Course:
             heed()
             cursor.place[STEPS_LEFT] = SLICE
             status = hybrid.integrate(*self.model.pointers, ground, self.model.shape, self.p, cursor, kept)
+            if status == PAUSED and 2 * (cursor.place[FOUND] - cursor.place[LOGGED]) > kept.times.size > 0:
+                check_budget(noted("changes of mode"), int(cursor.place[FOUND]), "SEISBLOCK_EVENTS")
+                changes += _changes(kept, cursor, self.motion.dt)
+                cursor.place[LOGGED] = cursor.place[FOUND]
             tell_samples(int(cursor.place[SAMPLE]), self.motion.samples - 1)
         return int(status)
 
@@ -161,7 +173,7 @@ class _Course:
         for stretch in self.stretches(start.sample):
             size = stretch.acceleration.shape[1]
             path, modes = np.empty((size, initial.size)), np.empty(size, dtype=np.int64)
-            status = self.follow_on(stretch, cursor, Kept(path, modes, *_no_events(initial.size), extrema, _NO_TALLY, _NO_STAYS))
+            status = self.follow_on(stretch, cursor, Kept(path, modes, *_no_events(initial.size), extrema, _NO_TALLY, _NO_STAYS), [])
             reached = int(cursor.place[SAMPLE])
             rows = slice(first - stretch.first, reached + 1 - stretch.first)
             ahead = passed
@@ -188,10 +200,11 @@ def _no_events(n_states: int) -> tuple[IntArray, FloatArray, FloatArray]:
     return np.empty((0, 4), dtype=np.int64), np.empty(0), np.empty((0, 2, n_states))
 
 
-def _changes(events: IntArray, times: FloatArray, limits: FloatArray, dt: float) -> tuple[Change, ...]:
-    """Return the events from the loop's tables."""
-    kept = limits.copy()
+def _changes(kept: Kept, cursor: Cursor, dt: float) -> list[Change]:
+    """Return the events in the loop's tables."""
+    count = int(cursor.place[FOUND] - cursor.place[LOGGED])
+    events, times, limits = kept.events[:count], kept.times[:count], kept.limits[:count].copy()
     at = map(Instant._make, zip(events[:, EVENT_SAMPLE].tolist(), times.tolist(), strict=True))
     time = (events[:, EVENT_SAMPLE] * dt + times).tolist()
     guard, source, target = (events[:, column].tolist() for column in (EVENT_GUARD, EVENT_FROM, EVENT_TO))
-    return tuple(map(Change._make, zip(at, time, guard, source, target, kept[:, 0], kept[:, 1], strict=True)))
+    return list(map(Change._make, zip(at, time, guard, source, target, limits[:, 0], limits[:, 1], strict=True)))

@@ -42,6 +42,7 @@ from seisblock.dynamics.arguments import (
     FOUND,
     GROUND,
     KEPT,
+    LOGGED,
     LONGEST,
     MODE,
     SAMPLE,
@@ -138,6 +139,7 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
     floors = p.size - y.size if shape.floored else -1
     keeps_path = kept.path.shape[0] > 0
     keeps_events = times.size > 0
+    logged = place[LOGGED]
     sample, mode, found, repeated, left = place[SAMPLE] - base, place[MODE], place[FOUND], place[AT_ONE_INSTANT], place[STEPS_LEFT]
     still = place[STILL] != 0
     tau = clock[TAU]
@@ -153,7 +155,7 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
             _keep_sample(kept, sample, y, mode)
     status = RECORD_ENDED
     while sample < last and status == RECORD_ENDED:
-        if left <= 0:
+        if left <= 0 or (keeps_events and 2 * (found - logged) > times.size):
             status = PAUSED
             break
         if tau == 0.0 and still:
@@ -192,18 +194,19 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
                     f[row, 0] += f[row, 1] * h
             if fired >= 0:
                 if keeps_events:
-                    if found >= times.size:
+                    if found - logged >= times.size:
                         status = TOO_MANY_EVENTS
                         break
-                    _keep_limit(kept, found, 0, y)
+                    _keep_limit(kept, found - logged, 0, y)
                 following = reset(mode, fired, y, f, p)
                 if keeps_events:
-                    events[found, EVENT_SAMPLE] = base + sample
-                    events[found, EVENT_GUARD] = fired
-                    events[found, EVENT_FROM] = mode
-                    events[found, EVENT_TO] = following
-                    times[found] = tau
-                    _keep_limit(kept, found, 1, y)
+                    row = found - logged
+                    events[row, EVENT_SAMPLE] = base + sample
+                    events[row, EVENT_GUARD] = fired
+                    events[row, EVENT_FROM] = mode
+                    events[row, EVENT_TO] = following
+                    times[row] = tau
+                    _keep_limit(kept, row, 1, y)
                 for i in range(shape.tracked):
                     keep(extrema, i, y[i], (base + sample) * dt + tau)
                 if found == 0:

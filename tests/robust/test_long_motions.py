@@ -15,6 +15,7 @@ from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.dynamics import follow_many
+from seisblock.errors import ParameterError
 from seisblock.solvers.rock import model as rocking
 from seisblock.solvers.rock.rocker import rocker
 
@@ -107,6 +108,28 @@ def test_curves_are_made_when_they_are_asked_for(monkeypatch):
     response = seisblock.solve_slide(0.1, Motion.from_arrays(np.sin(np.arange(300.0)), 0.01))
     assert response.outcome.slips and made.count == 0
     assert response.time.size == response["displacement"].size and made.count == 1
+
+
+NOISE = Motion.from_arrays(np.random.default_rng(1).normal(size=3000), 0.01)
+
+
+def test_more_changes_of_mode_than_the_tables_hold(monkeypatch):
+    """They are taken out in time: the answer is that of tables that hold all of them."""
+    whole = seisblock.solve_slide(0.05, NOISE)
+    assert len(whole.events) > 1000
+    monkeypatch.setattr("seisblock.dynamics.following._FIRST_CAPACITY", 16)
+    monkeypatch.setattr("seisblock.dynamics.following._LAST_CAPACITY", 16)
+    parts = seisblock.solve_slide(0.05, NOISE)
+    assert (parts.outcome, parts.phases) == (whole.outcome, whole.phases)
+    for one, other in zip(whole.events, parts.events, strict=True):
+        assert (one.name, one.time_s, *one.before, *one.after) == (other.name, other.time_s, *other.before, *other.after)
+
+
+def test_changes_of_mode_without_end_are_refused(monkeypatch):
+    """Each of them takes memory: the number is said, and what lifts the limit."""
+    monkeypatch.setenv("SEISBLOCK_EVENTS", "600")
+    with pytest.raises(ParameterError, match="changes of mode, and 600 are allowed: ask for fewer, or set SEISBLOCK_EVENTS to allow more"):
+        seisblock.solve_slide(0.05, NOISE)
 
 
 SHORTER, LONGER, LEAST = 2**17, 2**18, 8.0
