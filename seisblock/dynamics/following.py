@@ -47,6 +47,9 @@ _FIRST_CAPACITY = 1 << 12
 _LAST_CAPACITY = 1 << 18
 """Events for which the tables have room, half of them in a single interval between two samples: at first, and at the most."""
 
+_MANY, _MANY_PER_SAMPLE = 1 << 18, 4
+"""Events, and of a long motion events per sample, beyond which a motion changes its mode without end."""
+
 _NO_TALLY, _NO_STAYS = np.empty((0, 0), dtype=np.int64), np.empty((0, 2))
 
 
@@ -160,6 +163,8 @@ class _Course:
             cursor.place[STEPS_LEFT] = SLICE
             status = hybrid.integrate(*self.model.pointers, ground, self.model.shape, self.p, cursor, kept)
             if status == PAUSED and 2 * (cursor.place[FOUND] - cursor.place[LOGGED]) > kept.times.size > 0:
+                if cursor.place[FOUND] > max(_MANY, _MANY_PER_SAMPLE * self.motion.samples):
+                    return TOO_MANY_EVENTS
                 check_budget(noted("changes of mode"), int(cursor.place[FOUND]), "SEISBLOCK_EVENTS")
                 changes += _changes(kept, cursor, self.motion.dt)
                 cursor.place[LOGGED] = cursor.place[FOUND]

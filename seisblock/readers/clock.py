@@ -61,9 +61,20 @@ def even_dt(name: str, times: FloatArray, written: Callable[[], Sequence[str]] |
         for plain in _plain(dt, digits=4):
             if _explains(plain, seconds, slack):
                 return plain
+    steps = np.diff(seconds)
+    repeats = int(np.count_nonzero(steps == 0.0))
+    if steps.min() >= 0.0 and repeats > max(LEAST_ROUNDED, ROUNDED_SHARE * steps.size):
+        raise RecordFormatError(
+            "{name}: its times are printed to too few digits: {repeats} of {count} are those of the line before (the first: {first:g} s): "
+            "print more of them, or leave the column out and give `dt`, the sampling interval in s",
+            name=name,
+            repeats=repeats,
+            count=count,
+            first=seconds[int(np.argmin(steps))],
+        )
     if not usual > 0.0:
         raise RecordFormatError("{name}: its time does not increase (step {usual:g} s): expected an even time in s", name=name, usual=usual)
-    row = int(np.argmax(np.abs(np.diff(seconds) - usual)))
+    row = int(np.argmax(np.abs(steps - usual)))
     raise RecordFormatError(
         "{name}: its time is uneven: from {first:.9g} to {second:.9g} s, where most steps are {usual:.9g} s: a line is "
         "missing or stands twice, or the sampling is uneven; expected steps even to 1e-6 s or within the digits printed",

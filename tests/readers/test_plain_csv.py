@@ -135,6 +135,14 @@ def test_uneven_time_is_refused_and_a_last_digit_is_not(table):
         read(table("time,NS (gal)\n0,1\n0,1\n0,2\n"))
 
 
+@pytest.mark.parametrize(("dt", "printed"), [(0.01, "{:.0f}"), (0.01, "{:.1f}"), (0.005, "{:.2f}")])
+def test_times_printed_to_too_few_digits_are_named(table, dt, printed):
+    """Of 30 lines most repeat the time before: the column's trouble is said, not a missing line."""
+    text = "time,NS (gal)\n" + "".join(f"{printed.format(i * dt)},{i % 7}.5\n" for i in range(30))
+    with pytest.raises(RecordFormatError, match=r"printed to too few digits: \d+ of 30 are those of the line before .* leave the column out"):
+        read(table(text))
+
+
 @pytest.mark.parametrize(
     ("text", "options", "error", "says"),
     [
