@@ -20,7 +20,7 @@ from seisblock import __version__, _jit
 from seisblock.cli.command import lang_option, plainly
 from seisblock.cli.help import Context, rows_of
 from seisblock.cli.language import answering
-from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, printable
+from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, leave_at_once, printable
 from seisblock.cli.meant import asking, nearest, suggested
 from seisblock.cli.progress import progress
 from seisblock.cli.quiet import quietly
@@ -131,7 +131,12 @@ class SeisblockGroup(click.Group):
             importlib.import_module("seisblock.cli.completion")
         line = sys.argv[1:] if args is None else list(args)
         with printable(), answering(line):
-            return super().main(line, prog_name or "seisblock", obj=line, **extra)
+            try:
+                return super().main(line, prog_name or "seisblock", obj=line, **extra)
+            except SystemExit as end:
+                if args is None and end.code in (INTERRUPTED, TERMINATED):
+                    leave_at_once(end.code)
+                raise
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""

@@ -19,16 +19,43 @@ class Terminated(BaseException):
     """Somebody asked the program to end: temporary files go, the old ones stay."""
 
 
-def _terminate(number: int, frame: Any) -> NoReturn:
-    """Turn the signal into an exception, so that everything cleans up behind itself."""
-    raise Terminated
+AGAIN_S = 0.3
+"""After so long what asked the program to end asks again: finalizers and callbacks of libraries swallow what is raised in them."""
+
+ENDINGS: dict[int, type[BaseException]] = {signal.SIGINT: KeyboardInterrupt, signal.SIGTERM: Terminated}
+"""What asks a program to end, as the exception that lets everything clean up behind itself."""
 
 
 @contextlib.contextmanager
 def ending_in_order() -> Iterator[None]:
     """End on SIGTERM as on Ctrl-C inside the block; in the main thread of a program only, and nothing is left behind."""
-    with taken(signal.SIGTERM, _terminate, usual=signal.SIG_DFL):
-        yield
+    again = getattr(signal, "SIGALRM", None)
+    asked: list[int] = []
+
+    def end(number: int, frame: Any) -> NoReturn:
+        """Raise what ends the program, and see to it that it is raised again should it be lost."""
+        asked.append(number)
+        if again is not None:
+            signal.setitimer(signal.ITIMER_REAL, AGAIN_S)
+        raise ENDINGS[asked[0]]
+
+    with contextlib.ExitStack() as stack:
+        for number in (*ENDINGS, *(() if again is None else (again,))):
+            usual = signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL
+            stack.enter_context(taken(number, end, usual=usual))
+        try:
+            yield
+        finally:
+            if again is not None and asked:
+                signal.setitimer(signal.ITIMER_REAL, 0.0)
+
+
+def leave_at_once(code: int) -> NoReturn:
+    """End the process without taking it apart: freeing the libraries takes longer than somebody who pressed Ctrl-C waits."""
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(code)
 
 
 @contextlib.contextmanager
