@@ -72,8 +72,11 @@ LENGTH_UNITS = {
 
 MASS_UNITS = {"kg": 1.0, "t": 1e3, "g": 1e-3}
 
-_PIECE = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*([^\d\s.+-]+)")
-_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*\Z")
+LONGEST_TEXT = 200
+"""No number with its unit is longer."""
+
+_PIECE = re.compile(r"\s*+((?<!\d)\d++(?:\.\d*+)?|\.\d++)\s*+([^\d\s.+-]++)")
+_NUMBER = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(.*\S|)\s*\Z")
 
 
 def acceleration_unit(name: str) -> float:
@@ -113,7 +116,7 @@ def parse_length(text: str | float, *, what: str = "length") -> float:
     (0.2424, 0.7272)
     """
     if isinstance(text, str):
-        pieces = _PIECE.findall(text)
+        pieces = _PIECE.findall(text) if len(text) <= LONGEST_TEXT else []
         units = [LENGTH_UNITS.get(unit, 0.0) for _, unit in pieces]
         if len(pieces) > 1 and not _PIECE.sub("", text).strip() and all(a > b > 0.0 for a, b in pairwise(units)):
             return round(sum(float(number) * unit for (number, _), unit in zip(pieces, units, strict=True)), 15)
@@ -155,7 +158,7 @@ def parse_acceleration(text: str, *, what: str = "acceleration") -> float:
     >>> parse_acceleration("245gal")
     2.45
     """
-    match = _NUMBER.match(text)
+    match = _matched(text)
     if match is None:
         raise ParameterError(
             "{what} {text!r} is not a number with a unit: write for example 245gal, 2.45m/s2 or 0.25g", what=what, text=text
@@ -167,9 +170,14 @@ def parse_acceleration(text: str, *, what: str = "acceleration") -> float:
     return _parse(text.lower(), ACCELERATION_UNITS, "m/s2", what)
 
 
+def _matched(text: str) -> re.Match[str] | None:
+    """Return a number and its unit, or None: a text that is too long for them is not even looked at."""
+    return _NUMBER.match(text) if len(text) <= LONGEST_TEXT else None
+
+
 def _is_bare(text: str) -> bool:
     """Return whether a text is a number alone."""
-    match = _NUMBER.match(text)
+    match = _matched(text)
     return match is not None and not match[2]
 
 
@@ -178,7 +186,7 @@ def _parse(text: str | float, table: dict[str, float], default: str, what: str) 
     if not isinstance(text, str):
         value, unit = checks.finite(what, text), ""
     else:
-        match = _NUMBER.match(text)
+        match = _matched(text)
         if match is None:
             raise ParameterError("{what} {text!r} is not a number with a unit: write for example 0.24, 24cm or 8sun", what=what, text=text)
         value, unit = float(match[1]), match[2]

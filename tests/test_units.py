@@ -1,11 +1,13 @@
 """Lengths as people write them: units that add up, and numbers whose unit was forgotten."""
 
+import time
+
 import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
 from seisblock.errors import InputError, UnitError
-from seisblock.units import SHAKU, SUN, parse_length
+from seisblock.units import SHAKU, SUN, parse_acceleration, parse_length, parse_mass
 
 
 @pytest.mark.parametrize(
@@ -51,3 +53,13 @@ def test_no_command_computes_a_block_of_24_metres(command):
     found = CliRunner().invoke(main, words)
     assert found.exit_code == 2
     assert "without a unit a length is in metres: write 24cm or 24mm, or 24m if it is so large" in " ".join(found.stderr.split())
+
+
+@pytest.mark.parametrize("text", ["1" * 100_000, "1.1" * 30_000, " " * 100_000, "1" + " " * 50_000 + "x", "10.7sun" + "9" * 400], ids=len)
+@pytest.mark.parametrize("parse", [parse_length, parse_acceleration, parse_mass])
+def test_a_cell_without_end_is_refused_at_once(parse, text):
+    """Damaged tables hold such cells; looking for a number in them took minutes, growing with the cube of their length."""
+    start = time.process_time()
+    with pytest.raises(InputError):
+        parse(text)
+    assert time.process_time() - start < 0.5

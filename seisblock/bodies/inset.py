@@ -12,7 +12,7 @@ from seisblock.units import parse_length
 HALF = 0.5
 """At this share of the width per side nothing is left to stand on."""
 
-_PLAIN = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(%?)\s*\Z")
+_PLAIN = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(%?)\s*+\Z")
 
 
 @dataclass(frozen=True)

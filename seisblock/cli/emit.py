@@ -16,7 +16,7 @@ from seisblock.errors import OutputError
 from seisblock.present.documents.kind import Document
 from seisblock.present.documents.write import to_json
 from seisblock.present.faces import figure_of, film_of
-from seisblock.present.files import refuse_collisions
+from seisblock.present.files import check_figure, check_film, refuse_collisions
 from seisblock.results import Response
 from seisblock.words import language, speaking
 
@@ -64,12 +64,9 @@ def emit(
         warn(message)
     if output.plot is not None and figure is None:
         raise OutputError("{command} has no figure here: leave --plot out", command=document.command)
-    if output.plot is None and (output.size is not None or output.title is not None):
-        raise OutputError("--size and --title are the figure's: give --plot, too")
     if output.animate is not None and animation is None:
         raise OutputError("{command} has no animation here: leave --animate out", command=document.command)
-    _check_stdout(output)
-    refuse_collisions(*(None if path == STDOUT else path for path in (output.csv, output.animate, output.plot)))
+    check_output(output)
     if output.csv is not None:
         from seisblock.present.files import write_histories
 
@@ -93,6 +90,24 @@ def emit(
         answer(to_json(document))
     else:
         show(tables())
+
+
+def check_output(output: Output) -> None:
+    """Refuse what cannot be written: before anything is read, and again when it is known what was read.
+
+    Raises
+    ------
+    OutputError
+        If a name does not say a format, leads nowhere, or stands for two outputs, or if an option has no figure to change.
+    """
+    if output.plot is None and (output.size is not None or output.title is not None):
+        raise OutputError("--size and --title are the figure's: give --plot, too")
+    if output.plot is not None and output.plot != STDOUT:
+        check_figure(output.plot)
+    if output.animate is not None:
+        check_film(output.animate)
+    _check_stdout(output)
+    refuse_collisions(*(None if path == STDOUT else path for path in (output.csv, output.animate, output.plot)))
 
 
 def _check_stdout(output: Output) -> None:

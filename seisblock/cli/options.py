@@ -204,7 +204,20 @@ def output_options(*, histories: bool = True, film: bool = True, accelerations: 
     """
     texts = (_CSV_HISTORIES if histories else _CSV_ROWS, *_FIGURE_OPTIONS, *(_FILM_OPTIONS if film else ()))
     declarations = (_JSON, *texts, *((_GAL,) if accelerations else ()), _QUIET)
-    return lambda function: _collected(function, declarations, Output, "output")
+    return lambda function: _collected(_looking_ahead(function), declarations, Output, "output")
+
+
+def _looking_ahead(function: Function) -> Function:
+    """Let a command look at where its answer goes before it computes it."""
+
+    @functools.wraps(function)
+    def looking(*args: Any, output: Output, **kwargs: Any) -> Any:
+        from seisblock.cli.emit import check_output
+
+        check_output(output)
+        return function(*args, output=output, **kwargs)
+
+    return looking
 
 
 def gravity_option(function: Function) -> Function:

@@ -83,10 +83,11 @@ def report(
     from seisblock.cli.inputs import components, load
     from seisblock.cli.progress import progress
     from seisblock.present.figures.fonts import MISSING, drawable
-    from seisblock.present.files import write_text
+    from seisblock.present.files import refuse_collisions, write_text
     from seisblock.present.pages.report import report as page
     from seisblock.studies.assessment import assess
 
+    refuse_collisions(output)
     with quietly(quiet):
         names = body or DEFAULT_BODIES
         if not body:

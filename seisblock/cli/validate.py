@@ -28,11 +28,14 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: boo
     was explained, counts as one.
     """
     from seisblock.cli.progress import progress
+    from seisblock.present.files import refuse_collisions, write_text
     from seisblock.present.text import validate as shown
     from seisblock.validation import cases_of
     from seisblock.validation.case import counts
 
     chosen = [case for case in cases_of(paper) if case.quick or not quick]
+    if html is not None:
+        refuse_collisions(html)
     with quietly(quiet):
         results = []
         with progress("validating") as advance:
@@ -40,7 +43,6 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: boo
                 advance(done, len(chosen))
                 results.append(case.run())
         if html is not None:
-            from seisblock.present.files import write_text
             from seisblock.present.pages.gallery import gallery
 
             with progress("drawing"):

@@ -6,6 +6,7 @@ import contextlib
 import csv
 import os
 import secrets
+import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -17,6 +18,9 @@ from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import refuse_collision, wrote
 from seisblock.results import Response
 from seisblock.words import said
+
+FIGURES, FILMS = (".png", ".svg", ".pdf"), (".gif", ".mp4", ".html")
+"""What a figure and an animation may be."""
 
 BLOCK = 2**14
 """Rows of a time history that are made at a time."""
@@ -101,6 +105,33 @@ def refuse_collisions(*targets: Path | str | None) -> None:
         if real in seen and (real.is_file() or not real.exists()):
             raise OutputError("{first} and {target} are one file: give each output its own name", first=seen[real], target=target)
         seen[real] = target
+
+
+def check_figure(path: Path | str) -> None:
+    """Refuse a figure whose name does not say its format.
+
+    Raises
+    ------
+    OutputError
+        If the suffix is none of ``FIGURES``.
+    """
+    if Path(path).suffix.lower() not in FIGURES:
+        raise OutputError("cannot draw {target}: the name must end in {suffixes}", target=path, suffixes=list(FIGURES))
+
+
+def check_film(path: Path | str) -> None:
+    """Refuse an animation whose name does not say its format, or that nothing here can write.
+
+    Raises
+    ------
+    OutputError
+        If the suffix is none of ``FILMS``, or ffmpeg is missing for .mp4.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in FILMS:
+        raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=path, suffixes=list(FILMS))
+    if suffix == ".mp4" and shutil.which("ffmpeg") is None:
+        raise OutputError("cannot write {suffix}: ffmpeg is not installed; write a .gif or a .html instead", suffix=suffix)
 
 
 def _umask() -> int:

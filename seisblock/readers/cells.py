@@ -46,7 +46,8 @@ def turned_si(values: FloatArray, unit: str, sign: float = 1.0) -> FloatArray:
 
 def _has_decimals(values: FloatArray, places: int) -> bool:
     """Return whether numbers are those of so many decimals."""
-    whole = np.rint(values * 10.0**places)
+    with np.errstate(over="ignore"):
+        whole = np.rint(values * 10.0**places)
     return bool(np.abs(whole).max() < 2**53 and np.array_equal(whole / 10.0**places, values))
 
 

@@ -159,3 +159,10 @@ def test_similarity():
     np.testing.assert_allclose(small.max_rotation_ratio, large.max_rotation_ratio, rtol=1e-9)
     one = solve_rock(Block(0.5 * math.sin(0.15), 0.5 * math.cos(0.15)), Motion.from_arrays(a, 0.02)).outcome
     assert small.max_rotation_ratio[0, 0] == pytest.approx(one.max_rotation_ratio, rel=1e-12)
+
+
+@pytest.mark.parametrize("option", ["--height-over-width", "--sizes", "--frequency-parameter"])
+def test_numbers_that_nothing_can_be_computed_with_are_refused(option):
+    """Their reciprocals and squares leave the finite numbers: one sentence, no warning of numpy."""
+    done = CliRunner().invoke(main, ["spectrum", option, "1e-320", "--steps", "2"])
+    assert done.exit_code == 3 and "lies outside all that can be computed with" in " ".join(done.stderr.split())

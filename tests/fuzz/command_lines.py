@@ -51,6 +51,7 @@ FITTING: dict[str, Sequence[str]] = {
     "plot": ("out.png", "out.svg", "out.xyz", "small.csv", "/dev/null"),
     "animate": ("out.xyz", "small.csv"),
     "slow": ("1", "2"),
+    "grid": ("13", "29"),
     "block": ("gravestone", "chozusha", "wagata", "body.toml", "wide.toml", "small.csv", "nobody"),
     "stones": ("wagata", "lantern", "body.toml", "pile.toml"),
     "body": ("gravestone", "chozusha", "24cm x 72cm", "24x72", "body.toml", "wide.toml"),
@@ -81,7 +82,6 @@ FITTING: dict[str, Sequence[str]] = {
     "perturb": ("2", "5"),
     "steps": ("3", "5"),
     "points": ("2", "3"),
-    "grid": ("2",),
     "step": ("1e-4", "1e-3", "1"),
     "seed": ("1", "-1", "99999999999999999999"),
     "paper": ("Tsutsui", "Nobody"),
@@ -97,7 +97,7 @@ FITTING: dict[str, Sequence[str]] = {
 }
 """By the name of the option; others are lengths, shares or whole numbers, by their kind."""
 
-ALWAYS = {"validate": ["--quick"], "respond": ["--runs", "2"], "stack": ["--points", "2", "--grid", "2"], "spectrum": ["--steps", "3"]}
+ALWAYS = {"validate": ["--quick"], "respond": ["--runs", "2"], "stack": ["--points", "2", "--grid", "13"], "spectrum": ["--steps", "3"]}
 """Words that keep a command short, unless the dice say otherwise later on the line."""
 
 COMMONLY = {

@@ -108,7 +108,7 @@ def judge_sac(data: bytes, record: Record) -> str:
 def judge_slist(data: bytes, record: Record) -> str:
     """Compare the counts with the header's."""
     stated = [int(n) for n in re.findall(rb"TIMESERIES[^,\n]*,\s*(\d+)\s*samples", data)]
-    times = [time.upper() for time in re.findall(rb"^\s*(\d{4}-\S*)", data, re.MULTILINE)]
+    times = [re.sub(rb"\D", b"", time) for time in re.findall(rb"^\s*(\d{4}-\S*)", data, re.MULTILINE)]
     if times != sorted(set(times)):
         return "times out of order were believed"
     return "" if stated == [record.samples] * len(stated) else f"{record.samples} samples, the headers state {stated}"

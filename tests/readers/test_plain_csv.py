@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from seisblock.errors import ParameterError, RecordError, RecordFormatError, UnitError
+from seisblock.errors import InputError, ParameterError, RecordError, RecordFormatError, UnitError
 from seisblock.readers import read
 from seisblock.units import STANDARD_GRAVITY
 
@@ -139,7 +139,9 @@ def test_uneven_time_is_refused_and_a_last_digit_is_not(table):
 def test_times_printed_to_too_few_digits_are_named(table, dt, printed):
     """Of 30 lines most repeat the time before: the column's trouble is said, not a missing line."""
     text = "time,NS (gal)\n" + "".join(f"{printed.format(i * dt)},{i % 7}.5\n" for i in range(30))
-    with pytest.raises(RecordFormatError, match=r"printed to too few digits: \d+ of 30 are those of the line before .* leave the column out"):
+    with pytest.raises(
+        RecordFormatError, match=r"printed to too few digits: \d+ of 30 are those of the line before .* leave the column out"
+    ):
         read(table(text))
 
 
@@ -199,3 +201,9 @@ def test_a_missing_interval_is_told_before_the_numbers_are_read(tmp_path):
         read(path)
     with pytest.raises(RecordFormatError, match="line 4"):
         read(path, dt=0.01)
+
+
+def test_a_number_near_the_largest_is_refused_without_a_warning_of_numpy(table):
+    """A damaged exponent: the decimals of 1e307 cannot be counted, and no ground moves like that."""
+    with pytest.raises(InputError, match="no acceleration of the ground"):
+        read(table("NS (gal)\n1.5\n1e307\n2.5\n"), dt=0.01)

@@ -119,3 +119,66 @@ def test_a_call_of_the_library_ends_at_once(tmp_path):
     code, said, took = interrupted(LIBRARY, [], tmp_path)
     assert (code, said) == (130, "")
     assert took < AT_ONCE
+
+
+SWALLOWING = """
+import sys, time
+from seisblock.cli import main
+import seisblock.readers
+
+class Finalized:
+    def __del__(self):
+        print("go", flush=True)
+        time.sleep(60.0)
+
+def read_all(*args, **options):
+    Finalized()
+    time.sleep(60.0)
+
+seisblock.readers.read_all = read_all
+main()
+"""
+"""The first Ctrl-C meets a finalizer, which swallows what is raised in it, and the run goes on."""
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_what_a_library_swallows_comes_again(number, code, tmp_path):
+    """A signal that was lost in a finalizer ends the run all the same, and without a traceback."""
+    pipe = subprocess.PIPE
+    command = [sys.executable, "-c", SWALLOWING, "measure", "--quiet"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
+        assert process.stdout.readline() == "go\n"
+        process.send_signal(number)
+        try:
+            _, said = process.communicate(timeout=20)
+        finally:
+            process.kill()
+    assert process.returncode == code
+    assert ("no half-written file is left" in said) == (number == signal.SIGINT)
+
+
+FIGURE = """
+import atexit, os, sys, time
+atexit.register(lambda: time.sleep(60.0))
+from seisblock.cli import main
+print("go", flush=True)
+main()
+"""
+"""Whose libraries take their time to be taken apart."""
+
+
+def test_a_program_that_was_interrupted_is_not_taken_apart_first(tmp_path):
+    """Freeing what matplotlib and numba hold took most of the time between Ctrl-C and the prompt."""
+    pipe = subprocess.PIPE
+    command = [sys.executable, "-c", FIGURE, "stack", "--points", "25", "--quiet"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
+        assert process.stdout.readline() == "go\n"
+        began = spent(process.pid)
+        while spent(process.pid) < began + WELL_UNDER_WAY:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        try:
+            _, said = process.communicate(timeout=20)
+        finally:
+            process.kill()
+    assert process.returncode == 130 and said.strip().endswith("seisblock: interrupted; no half-written file is left")

@@ -248,3 +248,30 @@ def test_a_nameless_pipe_is_written_through(folder):
     done = subprocess.run(["bash", "-c", line], cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0 and (folder / "got.json").read_text().startswith("{")
     assert (folder / "got.csv").read_text().startswith("component,")
+
+
+REFUSED = {
+    "an unknown figure": (["--plot", "out.xyz"], "must end in .png, .svg, .pdf"),
+    "an unknown film": (["--animate", "out.avi"], "must end in .gif, .mp4, .html"),
+    "a film without ffmpeg": (["--animate", "out.mp4"], "ffmpeg is not installed"),
+    "a folder that is not there": (["--csv", "nowhere/out.csv"], "there is no directory nowhere"),
+    "two files of one name": (["--csv", "a.png", "--plot", "./a.png"], "one file"),
+    "a size of no figure": (["--size", "18x12"], "give --plot, too"),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_where_an_answer_goes_is_looked_at_before_it_is_computed(what, folder, monkeypatch):
+    """The first thing that a command does; the record need not even be there."""
+    words, says = REFUSED[what]
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    done = run("stack", "not_there.csv", *words)
+    assert done.exit_code == 3 and says in " ".join(done.stderr.split())
+    assert sorted(path.name for path in folder.iterdir()) == ["in.csv"]
+
+
+@pytest.mark.parametrize("words", [("report", "-o"), ("validate", "--html")], ids=" ".join)
+def test_a_page_that_leads_nowhere_is_refused_first(words, folder):
+    """Pages take long to make."""
+    done = run(words[0], *(["not_there.csv"] if words[0] == "report" else []), words[1], "nowhere/page.html")
+    assert done.exit_code == 3 and "there is no directory nowhere" in done.stderr

@@ -15,7 +15,7 @@ from matplotlib.transforms import ScaledTranslation
 from seisblock.errors import OutputError
 from seisblock.present.directions import phase as called
 from seisblock.present.figures.fonts import set_letters
-from seisblock.present.files import replacing
+from seisblock.present.files import check_figure, replacing
 from seisblock.present.wrap import columns
 from seisblock.results import Phase
 from seisblock.units import GAL
@@ -58,7 +58,6 @@ FAR = 2.0
 MARGIN = 1.15
 """Height of a panel over the largest that it shows."""
 
-SUFFIXES = (".png", ".svg", ".pdf")
 
 
 class Sheet(Figure):
@@ -253,8 +252,7 @@ def save(figure: Figure, path: Path | str) -> None:
         If the suffix is none of .png, .svg, .pdf, or the file cannot be written.
     """
     target = Path(path)
-    if target.suffix.lower() not in SUFFIXES:
-        raise OutputError("cannot draw {target}: the name must end in {suffixes}", target=target, suffixes=list(SUFFIXES))
+    check_figure(target)
     with replacing(target) as temporary:
         figure.savefig(temporary, format=target.suffix[1:].lower(), dpi=figure.dpi)
 

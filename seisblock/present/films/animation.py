@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from seisblock.errors import OutputError
-from seisblock.present.files import replacing
+from seisblock.present.files import check_film, replacing
 from seisblock.typing import Progress
 from seisblock.words import tell
 
@@ -45,8 +45,6 @@ class Filming:
 
 REAL_TIME = Filming()
 """As fast as life."""
-
-SUFFIXES = (".gif", ".mp4", ".html")
 
 
 def stage(figure: Figure, moving: Sequence[Any], draw: Callable[[int], None], count: int) -> Iterator[Image.Image]:
@@ -105,9 +103,10 @@ def animate(frames: Iterable[Image.Image], path: Path | str, *, fps: int = FRAME
     """
     target = Path(path)
     writers = {".gif": _write_gif, ".mp4": _write_mp4}
+    check_film(target)
     writer = writers.get(target.suffix.lower())
     if writer is None:
-        raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=target, suffixes=list(SUFFIXES))
+        raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=target, suffixes=list(writers))
     with replacing(target) as temporary:
         writer(frames, temporary, fps)
 
@@ -126,9 +125,7 @@ def _write_gif(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
 
 def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
     """Pipe the pictures through ffmpeg."""
-    program = shutil.which("ffmpeg")
-    if program is None:
-        raise OutputError("cannot write {suffix}: ffmpeg is not installed; write a .gif or a .html instead", suffix=path.suffix)
+    program = shutil.which("ffmpeg") or "ffmpeg"
     pictures = iter(frames)
     first = next(pictures)
     width, height = (size - size % 2 for size in first.size)

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seisblock.errors import OutputError
-from seisblock.present.files import write_text
+from seisblock.present.files import check_film, write_text
 from seisblock.present.films import animation
 from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Build
@@ -43,8 +42,7 @@ def animate_film(build: Build, span: tuple[float, float], path: Path | str, film
         If the suffix is another, ffmpeg is missing for .mp4, or the file cannot be written.
     """
     target = Path(path)
-    if target.suffix.lower() not in animation.SUFFIXES:
-        raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=target, suffixes=list(animation.SUFFIXES))
+    check_film(target)
     if target.suffix.lower() == ".html":
         count = int(min(max((span[1] - span[0]) * rate, 2), MOST_MOMENTS)) + 1
         write_text(target, film_page(build(np.linspace(*span, count)), filming))

@@ -123,4 +123,6 @@ def _grid(values: ArrayLike, what: str, unit: str, limit: float) -> FloatArray:
         text = "each {what} must be positive, in {unit}; found {found}"
         bounded = "each {what} must be positive and below {limit:.4g}, in {unit}; found {found}"
         raise ParameterError(text if limit == math.inf else bounded, what=said(what), limit=limit, unit=unit, found=found)
+    for end in (array.min(), array.max()):
+        checks.positive(said(what), float(end), unit)
     return array
