@@ -8,7 +8,8 @@ import click
 
 from seisblock.cli.bodies.options import block_options, rocking_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.output import Output
 from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.talk import say
 

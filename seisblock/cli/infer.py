@@ -13,7 +13,8 @@ from seisblock.cli import offered
 from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
-from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.output import Output
 from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, INSET, LENGTH, Count
 from seisblock.words import noted, said, tell

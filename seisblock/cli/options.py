@@ -13,6 +13,7 @@ import click
 from seisblock import checks
 from seisblock.cli import offered
 from seisblock.cli.command import argument, option
+from seisblock.cli.output import Output, check_output
 from seisblock.cli.quiet import quietly
 from seisblock.cli.types import SIZE, WINDOW
 from seisblock.errors import ParameterError
@@ -39,22 +40,6 @@ class Source:
     station: str | None
     level: str | None
     strict: bool
-
-
-@dataclass(frozen=True)
-class Output:
-    """Where the answer goes, and in which form."""
-
-    json: bool
-    csv: Path | None
-    plot: Path | None
-    size: Size | None
-    dpi: int
-    title: str | None
-    quiet: bool
-    gal: bool = True
-    animate: Path | None = None
-    slow: float = 1.0
 
 
 def checked(check: Callable[[str, float], float]) -> Callable[[click.Context, click.Parameter, float | None], float | None]:
@@ -212,8 +197,6 @@ def _looking_ahead(function: Function) -> Function:
 
     @functools.wraps(function)
     def looking(*args: Any, output: Output, **kwargs: Any) -> Any:
-        from seisblock.cli.emit import check_output
-
         check_output(output)
         return function(*args, output=output, **kwargs)
 

@@ -13,7 +13,8 @@ from seisblock.bodies.inset import HALF, WORN, Inset
 from seisblock.cli import offered
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
-from seisblock.cli.options import Output, Source, checked, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, checked, gravity_option, output_options, record_options
+from seisblock.cli.output import Output
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, INSET, LENGTH, Count

@@ -13,7 +13,8 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.offered import ALL_AZIMUTHS
-from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.output import Output
 from seisblock.cli.talk import say
 from seisblock.cli.types import LENGTH, Count
 from seisblock.words import noted

@@ -12,7 +12,8 @@ from seisblock.cli.bodies.options import block_options, rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
-from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.output import Output
 from seisblock.cli.talk import say
 from seisblock.cli.types import Count
 from seisblock.errors import ComponentError, ParameterError

@@ -12,7 +12,8 @@ from click.core import ParameterSource
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.output import Output
 from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.types import FLOATS, INSET, LENGTHS, Count
 from seisblock.errors import ParameterError

@@ -11,7 +11,8 @@ from seisblock.cli import offered
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
-from seisblock.cli.options import Output, Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.output import Output
 from seisblock.cli.talk import say
 from seisblock.cli.types import Count
 from seisblock.words import noted, said

@@ -1,0 +1,59 @@
+"""Where an answer goes, and whether it can: looked at before anything is computed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from seisblock.errors import OutputError
+from seisblock.present.files import check_figure, check_film, refuse_collisions
+from seisblock.units import Size
+
+STDOUT = Path("-")
+"""The name that stands for stdout."""
+
+
+@dataclass(frozen=True)
+class Output:
+    """Where the answer goes, and in which form."""
+
+    json: bool
+    csv: Path | None
+    plot: Path | None
+    size: Size | None
+    dpi: int
+    title: str | None
+    quiet: bool
+    gal: bool = True
+    animate: Path | None = None
+    slow: float = 1.0
+
+
+def check_output(output: Output) -> None:
+    """Refuse what cannot be written: before anything is read, and again when it is known what was read.
+
+    Raises
+    ------
+    OutputError
+        If a name does not say a format, leads nowhere, or stands for two outputs, or if an option has no figure to change.
+    """
+    if output.plot is None and (output.size is not None or output.title is not None):
+        raise OutputError("--size and --title are the figure's: give --plot, too")
+    if output.plot is not None and output.plot != STDOUT:
+        check_figure(output.plot)
+    if output.animate is not None:
+        check_film(output.animate)
+    _check_stdout(output)
+    refuse_collisions(*(None if path == STDOUT else path for path in (output.csv, output.animate, output.plot)))
+
+
+def _check_stdout(output: Output) -> None:
+    """Refuse two things that both go to stdout, and a name beside ``-`` that would be left unwritten."""
+    if STDOUT not in (output.csv, output.plot):
+        return
+    named = {"--csv": output.csv, "--plot": output.plot, "--json": output.json or None, "--animate": output.animate}
+    asked = [name for name, value in named.items() if value is not None]
+    first = "--csv" if output.csv == STDOUT else "--plot"
+    others = [name for name in asked if name != first and (first == "--csv" or named[name] in (STDOUT, True))]
+    if others:
+        raise OutputError("{first} - writes to stdout, and nothing else: leave {others} out", first=first, others=others)
