@@ -22,31 +22,30 @@ class Terminated(BaseException):
 AGAIN_S = 0.3
 """After so long what asked the program to end asks again: finalizers and callbacks of libraries swallow what is raised in them."""
 
-ENDINGS: dict[int, type[BaseException]] = {signal.SIGINT: KeyboardInterrupt, signal.SIGTERM: Terminated}
+ENDINGS: dict[signal.Signals, type[BaseException]] = {signal.SIGINT: KeyboardInterrupt, signal.SIGTERM: Terminated}
 """What asks a program to end, as the exception that lets everything clean up behind itself."""
 
 
 @contextlib.contextmanager
 def ending_in_order() -> Iterator[None]:
     """End on SIGTERM as on Ctrl-C inside the block; in the main thread of a program only, and nothing is left behind."""
-    again = getattr(signal, "SIGALRM", None)
-    asked: list[int] = []
+    asked: list[signal.Signals] = []
 
     def end(number: int, frame: Any) -> NoReturn:
         """Raise what ends the program, and see to it that it is raised again should it be lost."""
-        asked.append(number)
-        if again is not None:
+        asked.append(signal.Signals(number))
+        if repeats:
             signal.setitimer(signal.ITIMER_REAL, AGAIN_S)
         raise ENDINGS[asked[0]]
 
     with contextlib.ExitStack() as stack:
-        for number in (*ENDINGS, *(() if again is None else (again,))):
-            usual = signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL
-            stack.enter_context(taken(number, end, usual=usual))
+        repeats = hasattr(signal, "SIGALRM") and stack.enter_context(taken(signal.SIGALRM, end, usual=signal.SIG_DFL))
+        stack.enter_context(taken(signal.SIGTERM, end, usual=signal.SIG_DFL))
+        stack.enter_context(taken(signal.SIGINT, end, usual=signal.default_int_handler))
         try:
             yield
         finally:
-            if again is not None and asked:
+            if repeats:
                 signal.setitimer(signal.ITIMER_REAL, 0.0)
 
 
