@@ -17,7 +17,7 @@ from seisblock.cli.output import Output, check_output
 from seisblock.cli.quiet import quietly
 from seisblock.cli.types import SIZE, WINDOW
 from seisblock.errors import ParameterError
-from seisblock.units import STANDARD_GRAVITY, Size
+from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted, tell
 
 Function = Callable[..., Any]

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
 
-from seisblock.errors import OutputError
 from seisblock.present.directions import phase as called
 from seisblock.present.figures.fonts import set_letters
 from seisblock.present.files import check_figure, replacing
@@ -57,7 +56,6 @@ FAR = 2.0
 
 MARGIN = 1.15
 """Height of a panel over the largest that it shows."""
-
 
 
 class Sheet(Figure):
