@@ -50,6 +50,8 @@ _LAST_CAPACITY = 1 << 18
 _MANY, _MANY_PER_SAMPLE = 1 << 18, 4
 """Events, and of a long motion events per sample, beyond which a motion changes its mode without end."""
 
+_CHANGES = noted("changes of mode")
+
 _NO_TALLY, _NO_STAYS = np.empty((0, 0), dtype=np.int64), np.empty((0, 2))
 
 
@@ -119,6 +121,7 @@ def follow(
         at = motion.start_s + ended.sample * motion.dt + ended.tau
         raise SolverError("{name}: given up at {at:.6f} s, where {failure}", name=model.name, at=at, failure=said(FAILURES[status]))
     if keep_events:
+        check_budget(_CHANGES, found, "SEISBLOCK_EVENTS")
         changes += _changes(kept, cursor, motion.dt)
     logged = tuple(changes)
     if keeps:
@@ -165,7 +168,7 @@ class _Course:
             if status == PAUSED and 2 * (cursor.place[FOUND] - cursor.place[LOGGED]) > kept.times.size > 0:
                 if cursor.place[FOUND] > max(_MANY, _MANY_PER_SAMPLE * self.motion.samples):
                     return TOO_MANY_EVENTS
-                check_budget(noted("changes of mode"), int(cursor.place[FOUND]), "SEISBLOCK_EVENTS")
+                check_budget(_CHANGES, int(cursor.place[FOUND]), "SEISBLOCK_EVENTS")
                 changes += _changes(kept, cursor, self.motion.dt)
                 cursor.place[LOGGED] = cursor.place[FOUND]
             tell_samples(int(cursor.place[SAMPLE]), self.motion.samples - 1)
