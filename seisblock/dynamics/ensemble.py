@@ -32,7 +32,7 @@ from seisblock.dynamics.arrays import MATRIX
 from seisblock.dynamics.contract import FIELDS, LANES
 from seisblock.dynamics.following import SLICE, cursor_at
 from seisblock.dynamics.halt import heed
-from seisblock.dynamics.hybrid import POINTERS, go_on, room
+from seisblock.dynamics.hybrid import POINTERS, go_on, make_room, room
 from seisblock.dynamics.lanes import integrate_in_lanes
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.status import FAILURES, PAUSED, Status
@@ -197,8 +197,13 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
 def through_in_lanes(model: Model, grounds: Grounds, p: FloatArray, rows: Rows) -> None:
     """Follow all rows to the end of a motion, or of a stretch of it, in lanes."""
     chosen, waits = np.full(LANES, -1), np.ones(LANES, dtype=np.int64)
-    lanes = np.zeros(FIELDS * LANES)
+    lanes, n_states = np.zeros(FIELDS * LANES), rows.states.shape[1]
+    path, modes, events = np.empty((0, n_states)), np.empty(0, dtype=np.int64), np.empty((0, 4), dtype=np.int64)
+    times, limits = np.empty(0), np.empty((0, 2, n_states))
+    nothing = Kept(path, modes, events, times, limits, np.empty((0, 4)), np.empty((0, 0), dtype=np.int64), np.empty((0, 2)))
+    scratch = make_room(model.shape, n_states, grounds.acceleration.shape[0])
+    functions = (*model.pointers, model.stride_pointer)
     row = 0
     while row < p.shape[0] or (chosen >= 0).any():
         heed()
-        row = integrate_in_lanes(*model.pointers, model.stride_pointer, grounds, model.shape, p, rows, chosen, waits, lanes, row, SLICE)
+        row = integrate_in_lanes(*functions, grounds, model.shape, p, rows, chosen, waits, lanes, nothing, scratch, row, SLICE)

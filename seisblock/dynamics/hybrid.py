@@ -77,8 +77,7 @@ POINTERS = _t.FunctionType(SERIES), _t.FunctionType(RESET), _t.FunctionType(SKIP
 """Types of a model's three functions."""
 
 
-@kernel(SCRATCH(SHAPE, _t.int64, _t.int64), inline=True, allocates=True)
-def room(shape, n_states, rows):
+def make_room(shape, n_states, rows):
     """Return room for one step of a model with so many states, under a motion of so many rows."""
     terms = shape.order + 1
     return Scratch(
@@ -89,6 +88,10 @@ def room(shape, n_states, rows):
         np.zeros(terms),
         np.zeros(terms),
     )
+
+
+room = kernel(SCRATCH(SHAPE, _t.int64, _t.int64), inline=True, allocates=True)(make_room)
+"""The same for kernels."""
 
 
 @kernel(_t.void(KEPT, _t.int64, VECTOR, _t.int64), inline=True)
@@ -252,4 +255,4 @@ def integrate(series, reset, skip, ground, shape, p, cursor, kept):
     return go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch)
 
 
-__all__ = ["CONSTANT", "OFF", "POINTERS", "RESET", "SERIES", "SKIP", "go_on", "integrate", "room", "stay"]
+__all__ = ["CONSTANT", "OFF", "POINTERS", "RESET", "SERIES", "SKIP", "go_on", "integrate", "make_room", "room", "stay"]

@@ -8,8 +8,6 @@ is left to the engine, one trajectory after another.
 
 from __future__ import annotations
 
-import numpy as np
-
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arguments import (
     BASE,
@@ -28,18 +26,22 @@ from seisblock.dynamics.arguments import (
 )
 from seisblock.dynamics.arrays import INTEGERS, MATRIX, VECTOR
 from seisblock.dynamics.contract import STRIDE
-from seisblock.dynamics.hybrid import POINTERS, go_on, room
+from seisblock.dynamics.hybrid import POINTERS, go_on
 from seisblock.dynamics.status import PAUSED
 
 _t = types()
 
-LANE = GROUNDS, SHAPE, MATRIX, ROWS, INTEGERS, INTEGERS, VECTOR, _t.int64, _t.int64
+LANE = GROUNDS, SHAPE, MATRIX, ROWS, INTEGERS, INTEGERS, VECTOR, KEPT, SCRATCH, _t.int64, _t.int64
 """What the loop is given beside its functions."""
 
 
-@kernel(_t.int64(*POINTERS, _t.FunctionType(STRIDE), *LANE, KEPT, SCRATCH))
-def _go_on_in_lanes(series, reset, skip, stride, grounds, shape, parameters, rows, chosen, waits, lanes, first, steps, nothing, scratch):
-    """Do what :func:`integrate_in_lanes` says, in room that it made."""
+@kernel(_t.int64(*POINTERS, _t.FunctionType(STRIDE), *LANE))
+def integrate_in_lanes(series, reset, skip, stride, grounds, shape, parameters, rows, chosen, waits, lanes, nothing, scratch, first, steps):
+    """Follow one trajectory per row of `parameters`, from row `first` on, for so many steps in all; return the first that no lane has.
+
+    It is called again, with the lanes as they are, until all of them are empty. Of a single trajectory `nothing` is kept; it makes no
+    room of its own, whose counting of references would be the larger part of its machine code.
+    """
     last = grounds.acceleration.shape[1] - 1
     row = first
     busy = True
@@ -89,26 +91,3 @@ def _go_on_in_lanes(series, reset, skip, stride, grounds, shape, parameters, row
         if busy:
             steps -= stride(grounds, parameters, rows, chosen, waits, lanes, max(steps // chosen.size, 1))
     return row
-
-
-@kernel(_t.int64(*POINTERS, _t.FunctionType(STRIDE), *LANE), allocates=True)
-def integrate_in_lanes(series, reset, skip, stride, grounds, shape, parameters, rows, chosen, waits, lanes, first, steps):
-    """Follow one trajectory per row of `parameters`, from row `first` on, for so many steps in all; return the first that no lane has.
-
-    It is called again, with the lanes as they are, until all of them are empty.
-    """
-    n_states = rows.states.shape[1]
-    nothing = Kept(
-        np.empty((0, n_states)),
-        np.empty(0, np.int64),
-        np.empty((0, 4), np.int64),
-        np.empty(0),
-        np.empty((0, 2, n_states)),
-        np.empty((0, 4)),
-        np.empty((0, 0), np.int64),
-        np.empty((0, 2)),
-    )
-    scratch = room(shape, n_states, grounds.acceleration.shape[0])
-    return _go_on_in_lanes(
-        series, reset, skip, stride, grounds, shape, parameters, rows, chosen, waits, lanes, first, steps, nothing, scratch
-    )
