@@ -13,7 +13,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from seisblock.cli.quiet import is_quiet
@@ -43,6 +43,7 @@ class Work:
     text: str
     done: int = 0
     total: int | None = None
+    begun: float = field(default_factory=time.monotonic)
 
     def advance(self, done: int, total: int) -> None:
         """Take note of the number done and the number in all."""
@@ -52,7 +53,13 @@ class Work:
         """Return how much is done."""
         if self.total is None:
             return ""
-        return f"{self.done}/{self.total}" if self.total <= MOST_COUNTED else percent(self.done / self.total)
+        counted = f"{self.done}/{self.total}" if self.total <= MOST_COUNTED else percent(self.done / self.total)
+        passed = time.monotonic() - self.begun
+        return (
+            counted
+            if passed < PATIENCE_S or not self.done
+            else tell("{counted}, {rate:.3g} per s", counted=counted, rate=self.done / passed)
+        )
 
 
 class StatusLine:

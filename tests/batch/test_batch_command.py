@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+import tracemalloc
 from pathlib import Path
 
 import pytest
@@ -125,3 +126,23 @@ def test_an_interruption_loses_no_record_and_doubles_none(folder, how):
     assert run(LINE.replace("t.csv", "whole.csv")).exit_code == 0
     assert (folder / "t.csv").read_bytes() == (folder / "whole.csv").read_bytes()
     assert not journal.exists()
+
+
+def test_memory_does_not_grow_with_the_records(folder):
+    """Forty records hold no more than ten, but for what a row takes: each is read when it is its turn."""
+
+    def peak(count):
+        tracemalloc.start()
+        try:
+            assert run(f"batch {' '.join(names[:count])} --bodies bodies.csv --solver slide --force --out t.csv --workers 1").exit_code == 0
+            return tracemalloc.get_traced_memory()[1]
+        finally:
+            tracemalloc.stop()
+
+    names = [f"many/m{number:02d}.csv" for number in range(40)]
+    (folder / "many").mkdir()
+    for number, name in enumerate(names):
+        write_record(folder / name, number, samples=4000)
+    peak(2)
+    few, many = peak(10), peak(40)
+    assert many - few < 30 * 4000 * 3 * 8 / 10  # a tenth of the samples that thirty records more hold

@@ -1,0 +1,130 @@
+"""Which records a batch is of: what names stand for, each recording once, and nothing that is lost in silence."""
+
+import io
+import os
+import tarfile
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from seisblock.errors import RecordNotFoundError
+from seisblock.readers import read
+from seisblock.readers.dispatch import Options
+from seisblock.readers.gather import gather
+from seisblock.samples import sample_directory
+from tests.batch.conftest import write_record
+
+KNET = [sample_directory() / f"synthetic_knet.{code}" for code in ("EW", "NS", "UD")]
+
+
+def found(*names, **said):
+    """Return what some names stand for."""
+    return list(gather([str(name) for name in names], Options(**said)))
+
+
+def test_files_patterns_folders_and_lists(folder):
+    """Each recording once, in the order in which it is first named, by whatever name."""
+    (folder / "list.txt").write_text("# the two\nr3.csv\n\nr0.csv\n")
+    (folder / "records" / "near.txt").write_text("r2.csv\n")
+    names = [each.name for each in found("records/r1.csv", "records/r[12].csv", "records", "@records/near.txt")]
+    assert names == ["r1.csv", "r2.csv", "r0.csv", "r3.csv"]
+    os.link("records/r0.csv", "other.csv")
+    assert [each.path for each in found("records/r0.csv", Path("records").resolve() / "r0.csv", "other.csv")] == [
+        "records/r0.csv",
+        "other.csv",
+    ]
+    with pytest.raises(RecordNotFoundError, match=r"no file fits the pattern"):
+        found("*.knt")
+    with pytest.raises(RecordNotFoundError, match=r"the list of records cannot be read"):
+        found("@gone.txt")
+    (folder / "empty.txt").write_text("# nothing\n")
+    with pytest.raises(RecordNotFoundError, match=r"names no record"):
+        found("@empty.txt")
+
+
+def test_a_folder_leaves_out_what_is_no_record(folder):
+    """Pictures, notes, hidden files, empty ones; with what is said of a format nothing but those is passed over."""
+    for name in ("records/photo.png", "records/notes.md", "records/.hidden.csv", "records/empty.csv"):
+        (folder / name).write_bytes(b"" if "empty" in name else b"time,NS (gal)\n0,1\n0.01,2\n")
+    (folder / "records" / "noise.bin").write_bytes(bytes(range(256)) * 8)
+    assert [each.name for each in found("records")] == [f"r{n}.csv" for n in range(4)]
+    (folder / "nothing").mkdir()
+    (folder / "nothing" / "photo.png").write_bytes(b"x")
+    with pytest.raises(RecordNotFoundError, match=r"no record in this folder, 1 other files"):
+        found("nothing")
+
+
+def test_the_files_of_one_station_are_one_record(folder):
+    """Named one by one, in a folder beside others, or one for all."""
+    for path in KNET:
+        (folder / path.name).write_bytes(path.read_bytes())
+        (folder / path.name.replace("synthetic", "other")).write_bytes(path.read_bytes())
+    both = found(*[each.name for each in KNET], "other_knet.EW", "other_knet.NS")
+    assert [each.name for each in both] == ["synthetic_knet.EW", "other_knet.EW"]
+    assert [each.read(Options()).codes for each in both] == [("NS", "EW", "UD"), ("NS", "EW")]
+    (alone,) = found("synthetic_knet.NS")
+    np.testing.assert_array_equal(
+        alone.read(Options()).component("NS").acceleration, read("synthetic_knet.NS").component("NS").acceleration
+    )
+    assert alone.read(Options()).codes == ("NS", "EW", "UD")
+
+
+def packed(path, members):
+    """Write a zip or a tar.gz with some members, in their order."""
+    if path.suffix == ".zip":
+        with zipfile.ZipFile(path, "w") as archive:
+            for name, data in members:
+                archive.writestr(name, data)
+    else:
+        with tarfile.open(path, "w:gz") as archive:
+            for name, data in members:
+                info = tarfile.TarInfo(name)
+                info.size = len(data)
+                archive.addfile(info, io.BytesIO(data))
+    return path
+
+
+@pytest.mark.parametrize("suffix", [".zip", ".tar.gz"])
+@pytest.mark.parametrize("order", ["by station", "by component"])
+def test_each_station_of_a_bundle_is_a_record(folder, suffix, order):
+    """However its members are sorted; a component that is missing is no reason to lose the others."""
+    members = [
+        (f"{station}1604160125.{path.suffix[1:]}", path.read_bytes().replace(b"SYN001", station.encode()))
+        for station in ("AAA001", "BBB002")
+        for path in KNET
+    ]
+    members = [*members, ("map.png", b"not a record"), ("CCC0031604160125.EW", KNET[0].read_bytes().replace(b"SYN001", b"CCC003"))]
+    if order == "by component":
+        members.sort(key=lambda each: each[0].rsplit(".", 1)[-1])
+    bundle = packed(folder / f"event{suffix}", members)
+    records = {each.name[:6]: each.read(Options()) for each in found(bundle)}
+    assert {name: (record.station, record.codes) for name, record in records.items()} == {
+        "AAA001": ("AAA001", ("NS", "EW", "UD")),
+        "BBB002": ("BBB002", ("NS", "EW", "UD")),
+        "CCC003": ("CCC003", ("EW",)),
+    }
+
+
+def test_a_damaged_bundle_keeps_what_came_before_the_damage(folder):
+    """And says in a row of its own what is wrong with the rest."""
+    members = [(path.name, path.read_bytes()) for path in KNET] + [("z.csv", write_record(folder / "z.csv", 1).read_bytes())]
+    bundle = packed(folder / "event.zip", members)
+    data = bytearray(bundle.read_bytes())
+    place = data.rfind(b"z.csv", 0, data.find(b"PK\x01\x02"))
+    data[place + 200 : place + 400] = bytes(200)
+    bundle.write_bytes(bytes(data))
+    good, bad = found(bundle)
+    assert good.read(Options()).codes == ("NS", "EW", "UD")
+    with pytest.raises(ValueError, match="damaged"):
+        bad.read(Options())
+
+
+def test_the_sensor_of_a_borehole_is_chosen(folder):
+    """Six files are one station; without a word its surface."""
+    for path in KNET:
+        for sensor in "12":
+            (folder / f"SYNH011604160125{path.suffix}{sensor}").write_bytes(path.read_bytes().replace(b"SYN001", b"SYNH01"))
+    (station,) = found(*sorted(str(each.name) for each in folder.glob("SYNH01*")))
+    assert len(station.files) == 6

@@ -1,0 +1,60 @@
+"""What a row of a batch costs beside the solver's own call, and what a record costs beside its rows."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.records import Component, Record, motion_of
+from seisblock.solvers.respond import solve_respond
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.solvers.slide.solve import solve_slide
+from seisblock.studies.batch.run import run_batch
+from tests.batch.conftest import shaking
+
+BODIES = {f"block {number}": Block(0.15 + 0.01 * number, 1.0) for number in range(20)}
+FRICTIONS = {f"mu {number}": 0.05 + 0.02 * number for number in range(20)}
+
+
+def minute(seed, peak=3.0):
+    """Return 60 s of three components at 100 Hz."""
+    _, rows = shaking(seed, samples=6000, peak=peak)
+    return Record(tuple(Component(code, row) for code, row in zip(("NS", "EW", "UD"), rows, strict=True)), 0.01, source=f"{seed}.csv")
+
+
+@pytest.mark.parametrize(
+    ("solver", "bodies", "options", "single"),
+    [
+        ("rock", BODIES, {}, solve_rock),
+        ("respond", BODIES, {"mu": 0.5}, solve_respond),
+        ("slide", FRICTIONS, {}, solve_slide),
+    ],
+    ids=["rock", "respond", "slide"],
+)
+def test_a_row(benchmark, solver, bodies, options, single):
+    """At most 0.3 ms more than the solver's own call, on one thread."""
+    record = minute(3)
+    motion = motion_of(record, "NS")
+
+    def rows():
+        return run_batch([record], bodies, solver, components="NS", workers=1, **options)
+
+    def calls():
+        return [single(body, motion, **options) for body in bodies.values()]
+
+    assert len(rows()) == len(calls()) == 20
+    benchmark(rows)
+    if benchmark.stats is not None:
+        alone = min(_seconds(calls) for _ in range(5)) / 20
+        together = benchmark.stats.stats.min / 20
+        benchmark.extra_info |= {"ms_per_row": 1e3 * together, "ms_per_call": 1e3 * alone}
+        assert together < alone + 0.3e-3
+
+
+def _seconds(work):
+    """Return how long something takes."""
+    begun = time.perf_counter()
+    work()
+    return time.perf_counter() - begun

@@ -1,0 +1,74 @@
+"""Lists of bodies as people keep them: spreadsheets in two languages, units where they like, and slips of the pen."""
+
+import pytest
+
+from seisblock.bodies.inset import Inset
+from seisblock.bodies.roster import read_bodies
+from seisblock.errors import BodyError
+from seisblock.units import SUN
+
+
+def told(tmp_path, text, encoding="utf-8"):
+    """Return what a table says of its bodies."""
+    path = tmp_path / "bodies.csv"
+    path.write_bytes(text.encode(encoding))
+    return {body.name: dict(body.told) for body in read_bodies(path)}
+
+
+def test_units_stand_in_headings_or_cells(tmp_path):
+    """A cell's own unit counts, then that of its column, then metres and kilograms."""
+    text = "# the museum\nname,width (cm),height,mass_t,inset,slope (deg)\na,12,40cm,0.5,5%,\nb,8sun,1.6,900kg,1cm,3\n"
+    assert told(tmp_path, text.replace("slope (deg)", "slope_deg (deg)")) == {
+        "a": {"width": 0.12, "height": 0.4, "mass": 500.0, "inset": Inset(share=0.05)},
+        "b": {"width": pytest.approx(8 * SUN), "height": 1.6, "mass": 900.0, "inset": Inset(length_m=0.01), "slope_deg": 3.0},
+    }
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp932", "utf-16"])
+def test_japanese_tables(tmp_path, encoding):
+    """Names, full-width digits and encodings as spreadsheets in Japan write them."""
+    found = told(tmp_path, "名前,幅(cm),高さ,静摩擦係数,接触面\n仏像,４５,160cm,0.5,\n灯籠,30,1.8,,wood/stone\n", encoding)
+    assert found == {"仏像": {"width": 0.45, "height": 1.6, "mu": 0.5}, "灯籠": {"width": 0.3, "height": 1.8, "surface": "wood/stone"}}
+
+
+def test_rows_may_take_a_body_from_elsewhere(tmp_path):
+    """A bundled body or a file, beside bodies named by themselves."""
+    (tmp_path / "b.csv").write_text("name,body,mu,side\npavilion,chozusha,0.3,long\n")
+    row, alone = read_bodies([tmp_path / "b.csv", "gravestone"])
+    assert (row.description["kind"], row.told, alone.name) == ("two-layer", {"mu": 0.3, "side": "long"}, "gravestone")
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "no body in it"),
+        ("name,width\n", "no body in it"),
+        ("name,width,colour\na,1,red\n", "line 1: unknown column 'colour'"),
+        ("width,height\n1,2\n", "line 1: expected a column name"),
+        ("name,width,幅\na,1,2\n", "two columns mean width"),
+        ("name,width (gal)\na,1\n", "gal"),
+        ("name,mu (cm)\na,1\n", "unit 'cm'; expected none"),
+        ("name,width\na,wide\n", "line 2"),
+        ("name,width\n,1\n", "line 2: a body without a name"),
+        ("name,width\na,1,2,3\n", "line 2: expected 2 cells"),
+        ("name,width\na,250\nb,300\nc,1\n", r"line 2: .*\(and 1 more bad rows: lines 3\)"),
+        ("name,mu\na,nan\n", "line 2"),
+        ("name,body\na,gone\n", "line 2: .*gone"),
+    ],
+)
+def test_a_slip_of_the_pen_is_named_by_its_line(tmp_path, text, says):
+    """One sentence, with the file."""
+    with pytest.raises(BodyError, match=says) as error:
+        told(tmp_path, text)
+    assert "bodies.csv" in str(error.value)
+
+
+def test_what_is_no_table(tmp_path):
+    """A directory, a picture, a file that is not there, nothing at all."""
+    (tmp_path / "dir.csv").mkdir()
+    (tmp_path / "image.csv").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0")
+    for name in ("dir.csv", "image.csv", "gone.csv"):
+        with pytest.raises(BodyError, match=name):
+            read_bodies(tmp_path / name)
+    with pytest.raises(BodyError, match="no body was named"):
+        read_bodies([])
