@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.cli.bodies.two_layer import two_layer_choice
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.readers import read
@@ -85,3 +86,13 @@ def test_impossible_questions_are_refused():
     north = read("synthetic_jma.csv").component("NS")
     with pytest.raises(ComponentError, match="no vertical component"):
         slid(0.3, motion_of(Record((north,), 0.01), "NS"), vertical=1.0)
+
+
+@pytest.mark.parametrize("factor", [0.3, 1.0, 1.7])
+def test_the_slip_at_a_factor_is_that_of_the_scaled_record(factor):
+    """Only the end is followed, with the vertical motion scaled alike: the numbers of `solve_slide` on the record times the factor."""
+    base = SlidingBase(0.15, 0.1, 4.0)
+    outcome = solve_slide(base, scaled(MOTION, factor), vertical=0.5).outcome
+    assert outcome.max_slip_m > 0.0
+    assert slid(base, MOTION, vertical=0.5)(factor) == pytest.approx(abs(outcome.residual_slip_m), rel=1e-10)
+    assert slid(base, MOTION, largest=True, vertical=0.5)(factor) == pytest.approx(outcome.max_slip_m, rel=1e-10)

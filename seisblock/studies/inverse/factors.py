@@ -16,11 +16,13 @@ import numpy as np
 from seisblock import checks
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
+from seisblock.dynamics import follow
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import check_call, check_motion
 from seisblock.solvers.jump.solve import solve_jump
-from seisblock.solvers.slide.solve import solve_slide
+from seisblock.solvers.slide.model import SLIDE, SLIP, STICK, UNDEFINED, parameters
+from seisblock.solvers.slide.solve import refuse_lift_off, solve_slide
 from seisblock.studies.runs import in_threads
 from seisblock.typing import Progress
 from seisblock.words import noted
@@ -230,10 +232,15 @@ def slid(base: SlidingBase | float, motion: Motion, *, largest: bool = False, **
     >>> round(displacement(1.0), 2), displacement(0.1)
     (0.44, 0.0)
     """
-    solve_slide(base, motion, **options)  # what cannot be solved is refused here, where the record is still known
+    start = solve_slide(base, motion, **options)  # what cannot be solved is refused here
+    p, up = parameters(start.body, start.options["gravity_m_s2"]), start.options["vertical"]
 
     def displacement(factor: float) -> float:
-        outcome = solve_slide(base, scaled(motion, factor), **options).outcome
-        return outcome.max_slip_m if largest else abs(outcome.residual_slip_m)
+        gains = factor, 0.0, factor * up
+        end = follow(SLIDE, motion, p, np.zeros(4), STICK, gains=gains, keep_path=False, keep_events=False)
+        if end.final_mode == UNDEFINED:
+            refuse_lift_off(motion, end.end_time)
+        highest, _, lowest, _ = end.extrema[SLIP].tolist()
+        return max(highest, -lowest) if largest else abs(float(end.final[SLIP]))
 
     return displacement
