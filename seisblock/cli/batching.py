@@ -126,8 +126,6 @@ def _solve(
 
 def _plan(source: Source, asked: Asked) -> tuple[Plan, tuple[str, ...]]:
     """Return what is done with each record, and say what is to be known of it."""
-    if source.station not in (None, "all"):
-        raise ParameterError("a batch takes every station of a bundle: leave `station` out, and pick the rows from the table")
     if len(source.window) > 1:
         raise ParameterError("this command takes one --window, found {count}", count=len(source.window))
     components = tuple(name for name in source.component if name.lower() != "all")
@@ -144,7 +142,7 @@ def _plan(source: Source, asked: Asked) -> tuple[Plan, tuple[str, ...]]:
         asked.solver,
         components=components,
         preparation=preparation,
-        reading=Options(source.format, source.units, source.dt, None, source.level),
+        reading=Options(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level),
         runs=asked.runs,
         seed=asked.seed,
         strict=source.strict,
@@ -180,7 +178,7 @@ def _check_target(out: Path, *, resume: bool, force: bool) -> None:
 def _journal(path: Path, plan: Plan, *, resume: bool, force: bool) -> Journal:
     """Return the journal of a batch: the one that was interrupted, or a new one."""
     told = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
-    reading = repr([getattr(plan.reading, key) for key in ("format", "units", "dt", "level")])
+    reading = repr([getattr(plan.reading, key) for key in ("format", "units", "dt", "station", "level")])
     purpose = {"seisblock": "batch", "of": hashlib.sha256((told + reading).encode()).hexdigest()}
     return Journal.resume(path, purpose) if resume and path.exists() else Journal.begin(path, purpose)
 

@@ -42,7 +42,6 @@ def test_outputs_are_never_harmed(folder):
         ("--bodies none.csv", "none.csv"),
         ("--bodies wrong.csv", "unknown column 'colour'"),
         ("--solver slide --runs 5", "no perturbed versions"),
-        ("--station ABC", "every station"),
         ("--cluster tcp://127.0.0.1:9", "no Dask scheduler answers"),
         ("--cluster local:none", "1 to 512"),
         ("--window 0:5 --window 6:7", "one --window"),

@@ -14,7 +14,7 @@ from seisblock.readers import read
 from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import gather
 from seisblock.samples import sample_directory
-from tests.batch.conftest import write_record
+from tests.batch.conftest import run, write_record
 
 KNET = [sample_directory() / f"synthetic_knet.{code}" for code in ("EW", "NS", "UD")]
 
@@ -105,6 +105,19 @@ def test_each_station_of_a_bundle_is_a_record(folder, suffix, order):
         "BBB002": ("BBB002", ("NS", "EW", "UD")),
         "CCC003": ("CCC003", ("EW",)),
     }
+
+
+def test_one_station_of_a_bundle(folder):
+    """The others have no rows."""
+    members = [
+        (f"{station}1604160125.{path.suffix[1:]}", path.read_bytes().replace(b"SYN001", station.encode()))
+        for station in ("AAA001", "BBB002")
+        for path in KNET
+    ]
+    packed(folder / "event.zip", members)
+    assert run("batch event.zip --station BBB002 --bodies gravestone --solver rock --out t.csv").exit_code == 0
+    assert {line.split(",")[2] for line in Path("t.csv").read_text().splitlines()[1:]} == {"BBB002"}
+    assert run("batch event.zip --station ZZZ --bodies gravestone --solver rock --out u.csv").exit_code == 3
 
 
 def test_a_damaged_bundle_keeps_what_came_before_the_damage(folder):

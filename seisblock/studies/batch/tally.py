@@ -37,7 +37,7 @@ class Tally:
 
     def counted(self, rows: Sequence[Row]) -> Sequence[Row]:
         """Take the rows of one record into account, and return them."""
-        self.records += 1
+        self.records += bool(rows)
         for row in rows:
             reason = row.get(REASON)
             if reason:

@@ -88,6 +88,8 @@ def placed(model: BatchModel, bodies: Sequence[ListedBody | Placed], options: Ma
 def rows_of(recording: Recording | Record, plan: Plan) -> list[Row]:
     """Return the rows of one record: each component with each body; one with the reason where the record cannot be read.
 
+    A station of a bundle that is not the one asked for has none.
+
     Parameters
     ----------
     recording : Recording or Record
@@ -96,6 +98,8 @@ def rows_of(recording: Recording | Record, plan: Plan) -> list[Row]:
     known = _known(recording, plan)
     try:
         record = recording if isinstance(recording, Record) else recording.read(plan.reading)
+        if record.station != (plan.reading.station or record.station):
+            return []
         known |= {"station": record.station or None, "start": record.start.isoformat() if record.start else None}
         if plan.strict:
             refuse_doubtful(record)
