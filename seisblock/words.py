@@ -134,6 +134,25 @@ def percent(share: float, digits: str = ".0") -> str:
     return f"{format(100.0 * share, digits if digits[-1:].isalpha() else f'{digits}f')} %"
 
 
+def roughly(share: float) -> str:
+    """Return a share, told in whole per cent; neither 0 % nor 100 % where it is not quite.
+
+    Parameters
+    ----------
+    share : float, 1
+
+    Examples
+    --------
+    >>> roughly(0.0), roughly(0.004), roughly(0.43), roughly(0.998), roughly(1.0)
+    ('0 %', 'less than 1 %', '43 %', 'more than 99 %', '100 %')
+    """
+    if 0.0 < share < 0.01:
+        return tell("less than 1 %")
+    if 0.99 < share < 1.0:
+        return tell("more than 99 %")
+    return percent(share)
+
+
 def language(asked: str | None = None) -> str:
     """Return a language: the one asked for, else that of the block of :func:`speaking`, else Japanese in a Japanese locale, else English.
 

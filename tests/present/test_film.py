@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from seisblock.bodies.toml import read_table
 from seisblock.bodies.two_layer import Contact, contact, two_layer_block
 from seisblock.measures import ground_history
 from seisblock.present.films.animation import Filming
-from seisblock.present.films.film import Film
+from seisblock.present.films.film import Film, Line, Strip
 from seisblock.present.films.frames import pace
 from seisblock.present.films.jump import animate_jump, jump_film
 from seisblock.present.films.page import film_page
@@ -149,7 +150,28 @@ def test_a_browser_draws_the_page(film, tmp_path, width):
     """The script runs: the clock shows the time, and the scene is not empty."""
     path = tmp_path / "film.html"
     path.write_text(film_page(film, Filming()) + "<script>document.title = String(byId('scene').width > 300)</script>")
-    done = subprocess.run(
+    shown = browsed(path, tmp_path, width)
+    assert re.search(r'id="clock">2[67]\.\d{3} s<', shown)
+    assert "<title>true</title>" in shown
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no browser is installed")
+def test_the_longest_number_beside_a_strip_is_not_cut(film, tmp_path):
+    """Numbers end left of their strip and begin right of the page's edge, however many digits they have."""
+    tiny = replace(film, strips=(Strip("x (m)", (Line(film.time, np.linspace(0.0, -0.000602, film.time.size)),)),))
+    path = tmp_path / "film.html"
+    seen = """<script>
+      const told = []; CanvasRenderingContext2D.prototype.fillText = function (text, x) {
+        told.push([text, this.textAlign === "right" ? x - this.measureText(text).width : x]); };
+      draw(); document.title = JSON.stringify(told.filter(each => each[0].includes("0.000602")).map(each => each[1] >= 0));
+    </script>"""
+    path.write_text(film_page(tiny, Filming()) + seen)
+    assert "<title>[true]</title>" in browsed(path, tmp_path, 390)
+
+
+def browsed(path, folder, width):
+    """Return a page as a browser has it after its script has run."""
+    return subprocess.run(
         [
             CHROMIUM,
             "--headless=new",
@@ -157,7 +179,7 @@ def test_a_browser_draws_the_page(film, tmp_path, width):
             "--disable-gpu",
             f"--window-size={width},900",
             "--virtual-time-budget=500",
-            f"--user-data-dir={tmp_path}/profile",
+            f"--user-data-dir={folder}/profile",
             "--dump-dom",
             path.as_uri(),
         ],
@@ -165,6 +187,4 @@ def test_a_browser_draws_the_page(film, tmp_path, width):
         text=True,
         check=True,
         timeout=60,
-    )
-    assert re.search(r'id="clock">2[67]\.\d{3} s<', done.stdout)
-    assert "<title>true</title>" in done.stdout
+    ).stdout

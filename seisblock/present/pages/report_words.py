@@ -9,6 +9,7 @@ from typing import Any
 from seisblock.present.directions import moved, side
 from seisblock.present.text.respond import share
 from seisblock.present.text.respond import verdict as told
+from seisblock.present.text.rock import way_to_alpha
 from seisblock.solvers.jump.chain import JUMPED
 from seisblock.studies.assessment import Effect
 from seisblock.words import noted, tell
@@ -58,8 +59,7 @@ def verdict(effect: Effect) -> str:
         if outcome.overturned:
             return tell("overturns to {side}", side=side(name, outcome.overturned_towards))
         if outcome.rocks:
-            text = noted("rocks and stands: {share:.0%} of the way to overturning ({name})")
-            return tell(text, share=outcome.max_rotation_ratio, name=name)
+            return tell("rocks and stands: {way} ({name})", way=way_to_alpha(outcome.max_rotation_ratio), name=name)
         return tell("stands still")
     if effect.kind == "slide":
         if not outcome.slips:
@@ -126,8 +126,8 @@ def _rock(effect: Effect, outcome: Any) -> Iterator[str]:
             text = noted("The body overturns to {side}; it lies down at {time:.2f} s.")
         yield tell(text, side=side(effect.response.motion.name, outcome.overturned_towards), time=when)
     else:
-        text = noted("The body rocks from {time:.2f} s and stands; it leans to {share:.0%} of its slenderness.")
-        yield tell(text, time=outcome.rocking_start_s, share=outcome.max_rotation_ratio)
+        text = noted("The body rocks from {time:.2f} s and stands; largest lean: {way}.")
+        yield tell(text, time=outcome.rocking_start_s, way=way_to_alpha(outcome.max_rotation_ratio))
     margin = effect.margin
     if margin is not None:
         if margin.nearest_flip is None:

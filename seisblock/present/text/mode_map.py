@@ -10,13 +10,12 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.present.files import write_table
-from seisblock.present.text.respond import roughly
 from seisblock.present.text.spectrum import thinned
 from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.studies.standing.mode_map import GOVERNING, ModeMap
-from seisblock.words import listed, noted, strung, tell
+from seisblock.words import listed, noted, roughly, strung, tell
 
 Maps = Sequence[tuple[Motion, ModeMap]]
 

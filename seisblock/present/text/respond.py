@@ -14,7 +14,7 @@ from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.probability import Probability
 from seisblock.units import GAL
-from seisblock.words import listed, noted, percent, tell
+from seisblock.words import listed, noted, roughly, tell
 
 Responds = Sequence[Response[RespondOutcome]]
 
@@ -70,10 +70,8 @@ def _stays(response: Response[RespondOutcome]) -> Iterator[str]:
     outcome, name = response.outcome, response.motion.name
     time = outcome.time_in_mode_s
     rocks = bool(time["rock"] or time["slide_rock"])
-    if rocks and outcome.max_rotation_ratio >= 0.01:
+    if rocks:
         yield tell("rocks to {share} of the way to alpha", share=roughly(outcome.max_rotation_ratio))
-    elif rocks:
-        yield tell("rocks, less than 1 % of the way to alpha")
     if outcome.slip_path_m >= STIRS_M:
         yield tell("slides {path} in all", path=length(outcome.slip_path_m))
     elif outcome.slip_path_m > 0.0 and not rocks:
@@ -130,15 +128,6 @@ def share(found: Probability) -> str:
         else:
             middle = tell("; nine in ten of those that stand end between {low} and {high}", low=least, high=most)
     return tell("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
-
-
-def roughly(share: float) -> str:
-    """Return a share in per cent; neither 0 % nor 100 % where it is not quite."""
-    if 0.0 < share < 0.01:
-        return tell("below 1 %")
-    if 0.99 < share < 1.0:
-        return tell("over 99 %")
-    return percent(share)
 
 
 def signed(value_m: float) -> str:

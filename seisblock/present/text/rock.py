@@ -15,7 +15,7 @@ from seisblock.present.text.tables import acceleration, acceleration_unit, answe
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome, friction_suffices
 from seisblock.studies.rocking.margin import Margin
-from seisblock.words import noted, strung, tell
+from seisblock.words import noted, roughly, strung, tell
 
 Rockings = Sequence[Response[RockOutcome]]
 
@@ -120,9 +120,7 @@ def verdict(outcome: RockOutcome, direction: str) -> str:
 
 def way_to_alpha(ratio: float) -> str:
     """Return how far a block leaned, in words."""
-    if ratio < 0.01:
-        return tell("it hardly moves, less than 1 % of the way to alpha")
-    return tell("{share:.0%} of the way to alpha", share=ratio)
+    return tell("{share} of the way to alpha", share=roughly(ratio))
 
 
 def _margin_lines(margin: Margin) -> Iterator[str]:

@@ -2,8 +2,8 @@
 "use strict";
 const byId = name => document.getElementById(name);
 const INK = "#1c1f23", SOFT = "#626a73", FLOOR = "#c9ccd0", FONT = "11px system-ui, -apple-system, 'Hiragino Sans', 'Noto Sans JP', sans-serif";
-const LEFT = 46, RIGHT = 6;
-let film = null, now = 0, playing = true, pace = 1, before = null;
+const RIGHT = 6;
+let film = null, left = 46, now = 0, playing = true, pace = 1, before = null;
 
 function canvasOf(id, height) {
   const canvas = byId(id), ratio = window.devicePixelRatio || 1, width = canvas.clientWidth;
@@ -47,14 +47,22 @@ function ticks(low, high, most) {
   return found;
 }
 
+const numeral = value => String(+value.toPrecision(3)).replace("-", "\u2212");
+
+function gutter(pen) {
+  // room for the longest number beside any strip, so that all of them stand on one clock
+  pen.font = FONT;
+  return Math.ceil(Math.max(38, ...film.strips.flatMap(data => data.inner.map(value => pen.measureText(numeral(value)).width))) + 8);
+}
+
 function strip(index, height) {
   const data = film.strips[index], [pen, width] = canvasOf("strip" + index, height), ends = index === film.strips.length - 1;
   const right = width - RIGHT, top = 16, bottom = height - (ends ? 16 : 4), [low, high] = data.range;
-  const x = t => LEFT + (t - film.first) / (film.last - film.first) * (right - LEFT), y = v => bottom - (v - low) / (high - low) * (bottom - top);
-  pen.save(); pen.beginPath(); pen.rect(LEFT, top, right - LEFT, bottom - top); pen.clip();
+  const x = t => left + (t - film.first) / (film.last - film.first) * (right - left), y = v => bottom - (v - low) / (high - low) * (bottom - top);
+  pen.save(); pen.beginPath(); pen.rect(left, top, right - left, bottom - top); pen.clip();
   film.phases.forEach(([start, end, colour]) => { pen.fillStyle = colour; pen.fillRect(x(start), top, Math.max(x(end) - x(start), .5), bottom - top); });
   pen.strokeStyle = "#333"; pen.lineWidth = .8; pen.setLineDash([6, 3]);
-  data.levels.filter(level => low <= level && level <= high).forEach(level => { pen.beginPath(); pen.moveTo(LEFT, y(level)); pen.lineTo(right, y(level)); pen.stroke(); });
+  data.levels.filter(level => low <= level && level <= high).forEach(level => { pen.beginPath(); pen.moveTo(left, y(level)); pen.lineTo(right, y(level)); pen.stroke(); });
   data.lines.forEach(line => {
     pen.strokeStyle = line.colour; pen.lineWidth = 1.1; pen.setLineDash(line.dashes); pen.beginPath();
     let broken = true;
@@ -68,10 +76,10 @@ function strip(index, height) {
   pen.setLineDash([]);
   pen.strokeStyle = INK; pen.lineWidth = 1.2; pen.beginPath(); pen.moveTo(x(now), top); pen.lineTo(x(now), bottom); pen.stroke();
   pen.restore();
-  pen.fillStyle = SOFT; pen.fillText(data.label, LEFT, 11);
+  pen.fillStyle = SOFT; pen.fillText(data.label, left, 11);
   pen.textAlign = "right";
   [data.inner[1], 0, data.inner[0]].filter((v, i, all) => all.indexOf(v) === i).forEach(v => {
-    if (v === 0 || Math.abs(y(v) - y(0)) > 11) pen.fillText(String(+v.toPrecision(3)).replace("-", "\u2212"), LEFT - 5, y(v) + 4);
+    if (v === 0 || Math.abs(y(v) - y(0)) > 11) pen.fillText(numeral(v), left - 5, y(v) + 4);
   });
   if (ends) {
     pen.textAlign = "center";
@@ -85,6 +93,7 @@ function strip(index, height) {
 
 function draw() {
   drawScene((now - film.first) / (film.last - film.first) * (film.count - 1));
+  if (film.strips.length) left = gutter(byId("strip0").getContext("2d"));
   film.strips.forEach((_, i) => strip(i, i === film.strips.length - 1 ? 108 : 96));
   const phase = film.names.filter(([start, end]) => start <= now && now <= end).pop();
   byId("clock").textContent = now.toFixed(3) + " s";
@@ -109,7 +118,7 @@ function toggle() { playing = !playing; draw(); }
 
 function follow(event) {
   if (event.type === "pointermove" && !event.buttons) return;
-  const box = event.currentTarget.getBoundingClientRect(), share = (event.clientX - box.left - LEFT) / (box.width - LEFT - RIGHT);
+  const box = event.currentTarget.getBoundingClientRect(), share = (event.clientX - box.left - left) / (box.width - left - RIGHT);
   hold(film.first + share * (film.last - film.first));
 }
 
