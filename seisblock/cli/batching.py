@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from seisblock import __version__
 from seisblock.bodies.roster import read_bodies
+from seisblock.cli.inputs import preparation_of, refuse_windows
 from seisblock.cli.options import Source
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import answer, say, show, warn
@@ -25,7 +26,6 @@ from seisblock.present.text import batch as shown
 from seisblock.readers import DEFAULT_SAMPLE
 from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import gather
-from seisblock.records import Preparation
 from seisblock.studies.batch.cluster import connected
 from seisblock.studies.batch.run import each_record, make_plan
 from seisblock.studies.batch.table import REASON, Row, cells_of, columns_of
@@ -126,22 +126,13 @@ def _solve(
 
 def _plan(source: Source, asked: Asked) -> tuple[Plan, tuple[str, ...]]:
     """Return what is done with each record, and say what is to be known of it."""
-    if len(source.window) > 1:
-        raise ParameterError("this command takes one --window, found {count}", count=len(source.window))
+    refuse_windows(source)
     components = tuple(name for name in source.component if name.lower() != "all")
-    preparation = Preparation(
-        demean=source.demean,
-        highpass_hz=source.highpass,
-        scale=1.0 if source.scale is None else source.scale,
-        target_pga=None if source.target_pga is None else source.target_pga / 100.0,
-        components=components,
-        window=source.window[0] if source.window else None,
-    )
     plan, notes = make_plan(
         read_bodies(asked.bodies),
         asked.solver,
         components=components,
-        preparation=preparation,
+        preparation=preparation_of(source, components),
         reading=Options(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level),
         runs=asked.runs,
         seed=asked.seed,

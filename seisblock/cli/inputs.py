@@ -25,8 +25,8 @@ def load(source: Source, *, vertical_counts: bool = False, whole: bool = False) 
     whole : bool
         Whether the record stays whole, because its windows are the solver's.
     """
-    if len(source.window) > 1 and not whole:
-        raise ParameterError("this command takes one --window, found {count}", count=len(source.window))
+    if not whole:
+        refuse_windows(source)
     from seisblock.readers import DEFAULT_SAMPLE, read_all
 
     names: tuple[str, ...] = source.record
@@ -56,18 +56,29 @@ def _tell_doubts(records: list[Record], *, strict: bool) -> None:
 
 def _prepared(record: Record, source: Source, *, vertical_counts: bool, whole: bool) -> Record:
     """Return a record that went through the steps asked for, and say them."""
-    preparation = Preparation(
+    peaks = () if source.target_pga is None else components(record, source, vertical_counts=vertical_counts)
+    record = preparation_of(source, peaks, whole=whole).apply(record)
+    for line in record.history:
+        say("{record}: {did}", record=record.station or record.source, did=line)
+    return record
+
+
+def preparation_of(source: Source, peaks: tuple[str, ...], *, whole: bool = False) -> Preparation:
+    """Return what the options ask to be done to a record; `peaks` are the components among which the target PGA is looked for."""
+    return Preparation(
         demean=source.demean,
         highpass_hz=source.highpass,
         scale=1.0 if source.scale is None else source.scale,
         target_pga=None if source.target_pga is None else source.target_pga / 100.0,
-        components=() if source.target_pga is None else components(record, source, vertical_counts=vertical_counts),
+        components=peaks,
         window=source.window[0] if source.window and not whole else None,
     )
-    record = preparation.apply(record)
-    for line in record.history:
-        say("{record}: {did}", record=record.station or record.source, did=line)
-    return record
+
+
+def refuse_windows(source: Source) -> None:
+    """Refuse several windows where a command takes one."""
+    if len(source.window) > 1:
+        raise ParameterError("this command takes one --window, found {count}", count=len(source.window))
 
 
 def components(record: Record, source: Source, *, vertical_counts: bool = False) -> tuple[str, ...]:
