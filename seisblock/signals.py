@@ -1,4 +1,4 @@
-"""A signal that is heard in another way for a while."""
+"""A signal that is heard in another way for a while, and one that is never lost."""
 
 from __future__ import annotations
 
@@ -43,3 +43,35 @@ def taken(number: signal.Signals, handler: Handler, *, usual: Any) -> Iterator[b
     finally:
         if ours:
             signal.signal(number, usual)
+
+
+_interrupted = False
+"""Whether Ctrl-C was heard where none may be lost."""
+
+
+@contextlib.contextmanager
+def losing_no_interrupt() -> Iterator[None]:
+    """Raise KeyboardInterrupt out of the block where Ctrl-C came inside it, whatever became of it there.
+
+    A finalizer swallows what is raised in it; a class whose body is executed raises a RuntimeError in its place.
+    """
+    global _interrupted
+    with taken(signal.SIGINT, _hear, usual=signal.default_int_handler) as outermost:
+        try:
+            yield
+            if _interrupted:
+                raise KeyboardInterrupt
+        except Exception as error:
+            if _interrupted:
+                raise KeyboardInterrupt from error
+            raise
+        finally:
+            if outermost:
+                _interrupted = False
+
+
+def _hear(number: int, frame: FrameType | None) -> None:
+    """Take note of Ctrl-C, and do what Python does."""
+    global _interrupted
+    _interrupted = True
+    signal.default_int_handler(number, frame)

@@ -2,38 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import functools
-import signal
-from collections.abc import Callable, Iterator
-from types import FrameType
+from collections.abc import Callable
 from typing import Any
 
-from seisblock.signals import taken
-
-_interrupted = False
-"""Whether Ctrl-C was heard while a kernel was made."""
-
-
-@contextlib.contextmanager
-def _losing_no_interrupt() -> Iterator[None]:
-    """Raise KeyboardInterrupt after the block where one came and was lost: a compiler's finalizers swallow what is raised in them."""
-    global _interrupted
-    with taken(signal.SIGINT, _hear, usual=signal.default_int_handler) as outermost:
-        try:
-            yield
-            if _interrupted:
-                raise KeyboardInterrupt
-        finally:
-            if outermost:
-                _interrupted = False
-
-
-def _hear(number: int, frame: FrameType | None) -> None:
-    """Take note of Ctrl-C, and do what Python does."""
-    global _interrupted
-    _interrupted = True
-    signal.default_int_handler(number, frame)
+from seisblock.signals import losing_no_interrupt
 
 
 class OnDemand:
@@ -62,7 +35,7 @@ class OnDemand:
         No lock is held while it is made: two threads may both make it, one of them from what the other one kept.
         """
         if self._compiled is None:
-            with _losing_no_interrupt():
+            with losing_no_interrupt():
                 self._compiled = self._make()
         return self._compiled
 

@@ -1,5 +1,6 @@
 """Ctrl-C ends a long run at once, though compiled code and threads hear no signal."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -8,6 +9,11 @@ import time
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from seisblock.cli.cite import cite
+from seisblock.signals import losing_no_interrupt
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads what a process has spent from /proc")
 
@@ -182,3 +188,55 @@ def test_a_program_that_was_interrupted_is_not_taken_apart_first(tmp_path):
         finally:
             process.kill()
     assert process.returncode == 130 and said.strip().endswith("seisblock: interrupted; no half-written file is left")
+
+
+class Wrapping:
+    """A descriptor: what Python raises for an exception in it while a class is made is a RuntimeError."""
+
+    def __set_name__(self, owner, name):
+        """Hear Ctrl-C here, as any import may."""
+        signal.raise_signal(signal.SIGINT)
+
+
+def make_a_class():
+    """Turn the interrupt into another error."""
+    type("Made", (), {"attribute": Wrapping()})
+
+
+def swallow():
+    """Go on without something that was imported on trial."""
+    with contextlib.suppress(BaseException):
+        signal.raise_signal(signal.SIGINT)
+
+
+@pytest.mark.parametrize("become", [make_a_class, swallow])
+def test_an_interrupt_is_one_whatever_became_of_it(become):
+    """Wrapped by an import or swallowed by a library, Ctrl-C leaves the block as itself, and the next block knows nothing of it."""
+    with pytest.raises(KeyboardInterrupt), losing_no_interrupt(), losing_no_interrupt():
+        become()
+    with losing_no_interrupt():
+        pass
+    with pytest.raises(ValueError, match="mine"), losing_no_interrupt():
+        raise ValueError("mine")
+
+
+@pytest.mark.parametrize(("number", "code", "said"), [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "")])
+def test_a_command_whose_import_is_interrupted_says_so(number, code, said, monkeypatch):
+    """No traceback of a RuntimeError while matplotlib is being imported."""
+    monkeypatch.setattr(signal, "raise_signal", lambda _, send=signal.raise_signal: send(number))
+    monkeypatch.setattr(cite, "callback", lambda **_: make_a_class())
+    done = CliRunner().invoke(main, ["cite"])
+    assert done.exit_code == code
+    assert said in done.stderr and "Traceback" not in done.stderr
+
+
+def test_an_interrupt_before_the_command_begins_is_no_traceback(tmp_path):
+    """Ctrl-C while the program itself is imported: exit 130 in silence."""
+    script = (
+        "import signal, sys\nfrom seisblock.__main__ import run\n"
+        "class Finder:\n    def find_spec(self, name, *rest):\n"
+        "        if name == 'seisblock.cli':\n            signal.raise_signal(signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Finder())\nrun()\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
