@@ -38,6 +38,12 @@ def pytest_addoption(parser):
     parser.addoption("--fuzz-from", type=int, default=0, help="the seed of its first accident (default 0)")
 
 
+def pytest_configure(config):
+    """Leave what is marked slow out of a run of the whole suite: ``-m slow`` runs it by itself, and a file that is named runs whole."""
+    if config.args_source is pytest.Config.ArgsSource.TESTPATHS and not config.option.markexpr:
+        config.option.markexpr = "not slow"
+
+
 ROOMS = ("seisblock.dynamics", "seisblock.solvers.respond", "seisblock.solvers.jump", "seisblock.solvers.stack")
 ROOMS += ("seisblock.solvers.slide", "seisblock.solvers.rock", "seisblock.solvers.uplift", "seisblock.measures")
 """Where kernels are, in such an order that two workers who take turns have as much to compile."""

@@ -41,6 +41,14 @@ def test_the_floors_are_the_contract():
     assert set(re.findall(r"`(\w+)`", ground.split("|")[2])) == set().union(*layers[len(drawn) :])
 
 
+def test_what_the_suite_leaves_out_is_run():
+    """The one definition of green runs the suite as the README says, and what is marked slow after it."""
+    readme, definition = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", ".ci/run"))
+    told = re.search(r"python -m (pytest .+)", readme)[1]
+    run = re.findall(r"-m (pytest -n 2 --benchmark-disable.*?)(?: --durations.*)?$", definition, re.M)
+    assert run == [told, f"{told} -m slow"]
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_files_that_are_named_exist(page):
     """Every path in a page leads to a file or folder of the repository."""

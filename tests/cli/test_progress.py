@@ -13,40 +13,42 @@ from seisblock import Motion, solve_slide
 from seisblock.dynamics.halt import hearing
 from tests.brief_record import brief_record
 
-COMMAND = """
-import sys
+COMMANDS = """
+import shlex, sys
 from seisblock.cli import main
 shown = sys.modules["seisblock.cli.progress"]
 shown.PATIENCE_S, shown.TICK_S = 0.0, 0.001
-main(sys.argv[1:])
+for line in sys.argv[1:]:
+    try:
+        main(shlex.split(line))
+    except SystemExit as end:
+        assert not end.code, line
+    print("END OF", line, file=sys.stderr, flush=True)
 """
-"""A command whose user has no patience: what would be shown after a second is shown at once."""
+"""Commands whose user has no patience, one after the other: what would be shown after a second is shown at once."""
 
 LONG_MOTION = """
+import importlib
 import numpy as np
 from seisblock import Motion, solve_slide
-from seisblock.cli.progress import progress
-motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(3e6)), 0.01)
-with progress("working"):
+shown = importlib.import_module("seisblock.cli.progress")
+shown.PATIENCE_S, shown.TICK_S = 0.0, 0.001
+motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(1e6)), 0.01)
+with shown.progress("working"):
     solve_slide(0.2, motion)
 """
 
 WORKS = {
-    "working": ["measure", "record.csv"],
-    "reading record.csv": ["measure", "record.csv"],
-    "margin": ["rock", "record.csv", "--block", "gravestone", "--margin"],
-    "versions": ["respond", "record.csv", "--block", "gravestone", "--runs", "400"],
-    "drawing": ["slide", "record.csv", "--mu", "0.2", "--plot", "slide.png"],
-    "writing slide.csv": ["slide", "record.csv", "--mu", "0.2", "--csv", "slide.csv"],
+    "working": "measure record.csv",
+    "reading record.csv": "measure record.csv",
+    "margin": "rock record.csv --block gravestone --margin",
+    "versions": "respond record.csv --block gravestone --runs 400",
+    "drawing": "slide record.csv --mu 0.2 --plot slide.png",
+    "writing slide.csv": "slide record.csv --mu 0.2 --csv slide.csv",
 }
 """What a line says, and a command that says so."""
 
-
-@pytest.fixture
-def workshop(tmp_path):
-    """A directory with a record."""
-    (tmp_path / "record.csv").write_bytes(brief_record())
-    return tmp_path
+QUIET = f"{WORKS['drawing']} --quiet"
 
 
 def on_a_terminal(script, words, cwd):
@@ -64,9 +66,27 @@ def on_a_terminal(script, words, cwd):
     return text.decode()
 
 
-def off_a_terminal(words, cwd):
-    """Return what a command says where its stderr is a pipe."""
-    return subprocess.run([sys.executable, "-c", COMMAND, *words], cwd=cwd, capture_output=True, text=True, check=True).stderr
+def off_a_terminal(script, words, cwd):
+    """Return what a script writes where its stderr is a pipe."""
+    return subprocess.run([sys.executable, "-c", script, *words], cwd=cwd, capture_output=True, text=True, check=True).stderr
+
+
+def by_line(text):
+    """Return what commands wrote, by the line that was typed."""
+    pieces = re.split(r"END OF ([^\r\n]*)\r?\n", text)
+    return dict(zip(pieces[1::2], pieces[:-1:2], strict=True))
+
+
+@pytest.fixture(scope="module")
+def said(tmp_path_factory):
+    """What each command writes off a terminal and on one, after the kernels have been compiled."""
+    workshop = tmp_path_factory.mktemp("workshop")
+    (workshop / "record.csv").write_bytes(brief_record())
+    lines = [*dict.fromkeys(WORKS.values()), QUIET]
+    off = off_a_terminal(COMMANDS, lines, workshop)
+    if "compiling the kernels" in off:
+        off = off_a_terminal(COMMANDS, lines, workshop)
+    return by_line(off), by_line(on_a_terminal(COMMANDS, lines, workshop))
 
 
 def read(terminal):
@@ -94,20 +114,17 @@ def left(text):
 
 
 @pytest.mark.parametrize("work", WORKS)
-def test_what_takes_long_is_said(work, workshop):
+def test_what_takes_long_is_said(work, said):
     """While a command reads, computes, draws and writes, a line says so; in the end only what was said stands there."""
-    said = off_a_terminal(WORKS[work], workshop)
-    if "compiling the kernels" in said:
-        said = off_a_terminal(WORKS[work], workshop)
-    text = on_a_terminal(COMMAND, WORKS[work], workshop)
-    assert re.search(rf"{work}[^\n]*━", text)
-    assert "━" not in said
-    assert left(text) == said.splitlines()
+    off, on = (where[WORKS[work]] for where in said)
+    assert re.search(rf"{work}[^\n]*━", on)
+    assert "━" not in off
+    assert left(on) == off.splitlines()
 
 
-def test_silence_is_kept(workshop):
+def test_silence_is_kept(said):
     """--quiet leaves a terminal empty."""
-    assert on_a_terminal(COMMAND, [*WORKS["drawing"], "--quiet"], workshop) == ""
+    assert said[1][QUIET] == ""
 
 
 def test_a_single_long_motion_says_how_far_it_is(tmp_path):

@@ -68,7 +68,6 @@ def held_of_200(form: str, seed: int) -> float:
     return held / 200
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("form", ["stone by stone", "counted"])
 def test_the_interval_holds_the_truth_as_often_as_it_claims(form):
     """Of 200 simulated surveys the 90 % interval holds the truth in 85 to 95 %; where none or all fell the bound counts."""
