@@ -26,11 +26,13 @@ LIMITS = {
     "SEISBLOCK_PILE_STONES": 200,
     "SEISBLOCK_PILE_POINTS": 25,
     "SEISBLOCK_EVENTS": 2_000_000,
+    "SEISBLOCK_TRANSFORM_MIB": 768,
 }
 """The environment variables that lift a limit, and the limits without them: MiB read and unpacked, members of archives, archives within
 archives, samples of all components; MiB of the curves of one answer; versions of one body and factors on one motion; values of one option;
 combinations of one study; stones of a cemetery, bodies of a list, stones of a pile, each pair of which is looked at, and points along a
-side of its joints; changes of mode of one answer, each of some 0.8 kB."""
+side of its joints; changes of mode of one answer, each of some 0.8 kB; MiB of a record and of the transform of so many samples that they
+cannot be transformed in parts."""
 
 
 def limit(variable: str) -> int:

@@ -7,11 +7,20 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from seisblock.limits import AT_A_TIME
+from seisblock.limits import AT_A_TIME, MIB
 from seisblock.typing import FloatArray
 
 LONG = 2**20
 """Samples beyond which a transform is made of shorter ones."""
+
+BYTES_FILTERED = 44
+"""Of a sample of a long record: its three components, the spectrum of one, the weights and the sum of squares."""
+
+BYTES_CONVOLVED = 140
+"""Of a sample of a column with a large prime among the divisors of its length, whose transform is a convolution four times as long."""
+
+LARGE_PRIME = 1000
+"""A divisor from which on it is."""
 
 
 def weights_of(samples: int, dt: float, gain: Callable[[FloatArray], FloatArray]) -> FloatArray:
@@ -68,6 +77,36 @@ def add_filtered_square(total: FloatArray, samples: FloatArray, weights: FloatAr
         filtered = np.fft.irfft(spectrum[:, columns], len(table), axis=0)
         filtered *= filtered
         sums[:, columns] += filtered
+
+
+def mib_of_transform(samples: int) -> int:
+    """Return what a long record and its filter take, MiB, where the number of samples has a large prime divisor; else 0: little enough.
+
+    Parameters
+    ----------
+    samples : int
+        Of the whole record.
+
+    Examples
+    --------
+    >>> mib_of_transform(17_280_000), mib_of_transform(17_280_002)
+    (0, 1878)
+    """
+    height = samples // _width(samples)
+    if samples <= LONG or _largest_prime(height) < LARGE_PRIME:
+        return 0
+    return (BYTES_FILTERED * samples + BYTES_CONVOLVED * height) // MIB
+
+
+def _largest_prime(number: int) -> int:
+    """Return the largest prime divisor of a whole number."""
+    divisor = 2
+    while divisor * divisor <= number:
+        if number % divisor == 0:
+            number //= divisor
+        else:
+            divisor += 1
+    return number
 
 
 def _width(samples: int) -> int:

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from seisblock import checks
-from seisblock.limits import AT_A_TIME
-from seisblock.measures.circular import add_filtered_square, weights_of
+from seisblock.limits import AT_A_TIME, limit
+from seisblock.measures.circular import add_filtered_square, mib_of_transform, weights_of
 from seisblock.records.motion import motion_of
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
@@ -26,6 +26,9 @@ ASKEW = 1e-9
 
 LEAST_SINE = 1e-6
 """Sine below which they are parallel and tell no other direction."""
+
+TRANSFORM = "SEISBLOCK_TRANSFORM_MIB"
+"""The limit on the memory of a filter that cannot work in parts."""
 
 _HALVES = ((5.0, noted("5-")), (5.5, noted("5+")), (6.0, noted("6-")), (6.5, noted("6+")))
 _CLASSES = ((0.5, "0"), (1.5, "1"), (2.5, "2"), (3.5, "3"), (4.5, "4"), *_HALVES)
@@ -112,7 +115,8 @@ def jma_intensity(record: Record) -> float | None:
     -------
     float or None
         None when the intensity is not defined: a component is missing, the record is shorter than 0.3 s, or so still that the scale says
-        nothing (below -3, 0.01 gal: an offset alone would give -26). :func:`why_no_intensity` tells which.
+        nothing (below -3, 0.01 gal: an offset alone would give -26), or its filter would take more memory than it may.
+        :func:`why_no_intensity` tells which.
 
     Examples
     --------
@@ -123,6 +127,8 @@ def jma_intensity(record: Record) -> float | None:
     checks.instance(record, Record)
     needed = _samples_needed(record)
     if record.vertical is None or len(record.horizontals) != 2 or needed > record.samples:
+        return None
+    if mib_of_transform(record.samples) > limit(TRANSFORM):
         return None
     weights = weights_of(record.samples, record.dt, _jma_filter)
     squared = np.zeros(record.samples)
@@ -140,6 +146,15 @@ def why_no_intensity(record: Record) -> str:
         return said("it needs two horizontals and the vertical (UD); the record has {codes}", codes=record.codes)
     if _samples_needed(record) > record.samples:
         return said("the record is shorter than 0.3 s ({duration:g} s)", duration=record.duration_s)
+    if (found := mib_of_transform(record.samples)) > (most := limit(TRANSFORM)):
+        return said(
+            "{samples} samples cannot be filtered in parts, and together would take {found} MiB of {most}: cut a sample or two off the "
+            "record, or set {variable} to take more",
+            samples=record.samples,
+            found=found,
+            most=most,
+            variable=TRANSFORM,
+        )
     if not any(np.any(c.acceleration) for c in record.components):
         return said("the record is zero throughout")
     return said("the motion is too weak for the scale: filtered, it does not reach 0.01 gal for 0.3 s")

@@ -108,3 +108,18 @@ def test_a_corner_that_would_take_gigabytes_is_refused():
     """A high-pass of 1e-6 Hz pads by a month: refused with the number and the corner that is possible."""
     with pytest.raises(ParameterError, match=r"samples of padding .* choose a corner of"):
         highpass(read(sample_path("synthetic_jma.csv")), 1e-6)
+
+
+def test_a_record_that_cannot_be_filtered_in_parts_is_refused_with_what_lifts_it(monkeypatch):
+    """A prime number of samples has one long transform: beyond the limit no intensity, and a reason with a remedy that works."""
+    samples = 2**18 + 3  # a prime
+    found = recorded(samples)
+    whole = jma_intensity(found)
+    monkeypatch.setenv("SEISBLOCK_TRANSFORM_MIB", "45")
+    assert whole is not None and jma_intensity(found) is None
+    reason = "262147 samples cannot be filtered in parts, and together would take 46 MiB of 45: cut a sample or two off"
+    assert any(reason in warning for warning in measure(found).warnings)
+    shorter = Record(tuple(Component(c.code, c.acceleration[:-3]) for c in found.components), found.dt)
+    assert jma_intensity(shorter) == pytest.approx(whole, abs=1e-3)
+    monkeypatch.setenv("SEISBLOCK_TRANSFORM_MIB", "46")
+    assert jma_intensity(found) == whole
