@@ -81,7 +81,7 @@ def test_a_journals_column_holds_it(name):
     """At 85 mm, or 180, letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
     with speaking("ja"):
         figure = EVERY[name][1](True)
-        fitted(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
+        figure = fitted(figure, size=(PAGE if figure.get_figwidth() >= WIDE else COLUMN, 0.0254 * figure.get_figheight()), dpi=300)
         figure.draw_without_rendering()
     texts = tuple(visible_texts(figure))
     assert crowded(figure, texts) == []
@@ -103,12 +103,12 @@ def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatc
     with speaking("en"):
         figure = EVERY[name][1](True)
         try:
-            fitted(figure, size=Size(COLUMN, 0.06, "mm"))
+            figure = fitted(figure, size=Size(COLUMN, 0.06, "mm"))
         except OutputError as error:
             assert name in TOO_SMALL
             figure = EVERY[name][1](True)
             told = [float(side) / 1000 for side in re.findall(r"(\d+) mm", str(error).rpartition(": ")[2])]
-            fitted(figure, size=Size(*([COLUMN, *told] if len(told) == 1 else told), "mm"))
+            figure = fitted(figure, size=Size(*([COLUMN, *told] if len(told) == 1 else told), "mm"))
         else:
             assert name not in TOO_SMALL
             assert tuple(figure.get_size_inches()) == pytest.approx((COLUMN / 0.0254, 0.06 / 0.0254))
@@ -116,6 +116,18 @@ def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatc
     texts = tuple(visible_texts(figure))
     assert crowded(figure, texts) == []
     assert min(text.get_fontsize() for text in texts) >= 6.5 * SMALLEST_LETTERS
+
+
+@pytest.mark.parametrize("lang", ["en", "ja"])
+@pytest.mark.parametrize("name", ["rock", "rock, two", "slide, two", "jump, two", "respond, two"])
+def test_columns_stand_below_each_other_where_the_width_is_one_of_a_journal(name, lang):
+    """A column of 85 mm as high as a page holds histories, phase planes and both components; the title that was asked for goes along."""
+    with speaking(lang):
+        figure = fitted(EVERY[name][1](True), size=(COLUMN, 0.235), title="as asked")
+        figure.draw_without_rendering()
+    assert crowded(figure, tuple(visible_texts(figure))) == []
+    assert figure.get_size_inches() == pytest.approx((COLUMN / 0.0254, 0.235 / 0.0254))
+    assert figure.heading.get_text() == "as asked"
 
 
 @pytest.mark.parametrize("name", OF_THE_RECORD)

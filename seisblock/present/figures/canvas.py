@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import IO, Any
 
@@ -18,7 +18,7 @@ from seisblock.present.files import check_figure, replacing
 from seisblock.present.wrap import columns
 from seisblock.results import Phase
 from seisblock.units import GAL
-from seisblock.words import language, tell
+from seisblock.words import language, speaking, tell
 
 INPUT = "0.45"
 ACCENT = "#c0392b"
@@ -67,6 +67,7 @@ class Sheet(Figure):
         self.spoken = language()
         self.heading: Text | None = None
         self.narrowed = False
+        self.stacked: Callable[[], Sheet] | None = None
         self.keys: dict[Axes | None, tuple[list[Any], dict[str, Any]]] = {}
 
     def entitle(self, text: str) -> None:
@@ -74,6 +75,15 @@ class Sheet(Figure):
         if self.heading is not None:
             self.heading.set_text("")
         self.heading = self.suptitle(text, fontsize=10, x=0.01, ha="left", parse_math=False) if text else None
+
+    def in_a_column(self, build: Callable[[], Sheet], title: str | None) -> Sheet:
+        """Return this figure as it is built for a narrow page, in its language, at its resolution, under a title if one is given."""
+        with speaking(self.spoken):
+            made = build()
+        made.set_dpi(self.dpi)
+        if title is not None:
+            made.entitle(title)
+        return made
 
     def draw(self, renderer: Any) -> None:
         """Draw, in fonts that hold the letters."""

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
+from matplotlib.gridspec import SubplotSpec
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
@@ -35,6 +36,7 @@ def columns_of(
     rows: int | Sequence[int],
     *,
     heights: Sequence[float] = (),
+    stacked: bool = False,
 ) -> list[list[Axes]]:
     """Return the panels of each motion from above downwards, all of a column on one clock that runs over its stretch.
 
@@ -49,26 +51,49 @@ def columns_of(
         Panels of a column; a shorter one leaves the places below it empty.
     heights : sequence of float
         Of the rows, relative; alike when left out.
+    stacked : bool
+        Columns stand below each other, for a figure that is no wider than one.
     """
     names = names_of(motions)
     partial = [is_part(motion.time, stretch) for motion, stretch in zip(motions, stretches, strict=True)]
     counts = [rows] * len(motions) if isinstance(rows, int) else rows
     tall = list(heights) or [1.0] * max(counts)
-    lead = [STRIP * float(np.mean(tall))] if any(partial) else []
-    grid = figure.add_gridspec(len(lead) + len(tall), len(motions), height_ratios=[*lead, *tall])
+    low = STRIP * float(np.mean(tall))
+    places = _below(figure, counts, partial, tall, low) if stacked else _beside(figure, counts, any(partial), tall, low)
     columns = []
     for index, (motion, stretch) in enumerate(zip(motions, stretches, strict=True)):
+        above, *below = places[index]
         if partial[index]:
-            strip(figure.add_subplot(grid[0, index]), motion.time, motion.horizontal, stretch, names[index])
+            strip(figure.add_subplot(above), motion.time, motion.horizontal, stretch, names[index])
         panels: list[Axes] = []
-        for row in range(counts[index]):
-            panels.append(figure.add_subplot(grid[len(lead) + row, index], sharex=panels[0] if panels else None))
+        for row, place in enumerate(below):
+            panels.append(figure.add_subplot(place, sharex=panels[0] if panels else None))
             canvas.dress(panels[-1])
             panels[-1].tick_params(labelbottom=row + 1 == counts[index])
         panels[0].set_xlim(*stretch)
         canvas.label(panels[-1], x=tell("t (s)"))
         columns.append(panels)
     return columns
+
+
+def _beside(figure: Figure | SubFigure, counts: Sequence[int], strips: bool, tall: Sequence[float], low: float) -> list[list[SubplotSpec]]:
+    """Return where the strip and the panels of columns beside each other stand."""
+    lead = [low] if strips else []
+    grid = figure.add_gridspec(len(lead) + len(tall), len(counts), height_ratios=[*lead, *tall])
+    return [[grid[0, index], *(grid[len(lead) + row, index] for row in range(count))] for index, count in enumerate(counts)]
+
+
+def _below(
+    figure: Figure | SubFigure, counts: Sequence[int], partial: Sequence[bool], tall: Sequence[float], low: float
+) -> list[list[SubplotSpec]]:
+    """Return where the strip and the panels of columns below each other stand."""
+    ratios = [[*([low] if part else []), *tall[:count]] for count, part in zip(counts, partial, strict=True)]
+    grid = figure.add_gridspec(sum(map(len, ratios)), 1, height_ratios=[ratio for each in ratios for ratio in each])
+    firsts = np.cumsum([0, *map(len, ratios)])
+    return [
+        [grid[first, 0], *(grid[first + part + row, 0] for row in range(count))]
+        for first, count, part in zip(firsts[:-1].tolist(), counts, partial, strict=True)
+    ]
 
 
 def is_part(time: FloatArray, stretch: Stretch) -> bool:

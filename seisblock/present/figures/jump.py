@@ -24,10 +24,18 @@ COLOURS = {ROCKING: "#f4d9c6", FLIGHT: "#8fb89b", LANDED: "#7183bb"}
 
 def figure(responses: Jumps, *, gal: bool = True) -> Figure:
     """Return the figure: per component the record with its thresholds (fig. 12); where it rocks tilt, rise, displacement (fig. 14)."""
+    made = _drawn(responses, gal=gal)
+    made.stacked = lambda: _drawn(responses, gal=gal, stacked=True)
+    return made
+
+
+def _drawn(responses: Jumps, *, gal: bool, stacked: bool = False) -> canvas.Sheet:
+    """Return the figure, its columns beside or below each other."""
     motions = [response.motion for response in responses]
     rows = [4 if response.outcome.chains else 1 for response in responses]
-    made = canvas.titled(heading_of(motions), width=4.0 + 4.0 * len(responses), height=1.0 + 1.8 * max(rows))
-    columns = columns_of(made, motions, [stretch(r) for r in responses], rows)
+    wide, high = (8.0, 1.0 + 1.8 * sum(rows)) if stacked else (4.0 + 4.0 * len(responses), 1.0 + 1.8 * max(rows))
+    made = canvas.titled(heading_of(motions), width=wide, height=high)
+    columns = columns_of(made, motions, [stretch(r) for r in responses], rows, stacked=stacked)
     for panels, name, response in zip(columns, names_of(motions), responses, strict=True):
         _column(panels, name, response, gal=gal)
     return made

@@ -33,11 +33,19 @@ GROUND, DISPLACEMENT, LEAN, LIFT = range(4)
 
 def figure(responses: Responds, *, gal: bool = True) -> Figure:
     """Return the figure: per component a column with ground acceleration and, where it moves, leans, flies, what of this it did."""
+    made = _drawn(responses, gal=gal)
+    made.stacked = lambda: _drawn(responses, gal=gal, stacked=True)
+    return made
+
+
+def _drawn(responses: Responds, *, gal: bool, stacked: bool = False) -> canvas.Sheet:
+    """Return the figure, its columns beside or below each other."""
     shown = [happened(response) for response in responses]
     rows = [len(kinds) for kinds in shown]
     motions, stretches = [response.motion for response in responses], [stretch(response) for response in responses]
-    made = canvas.titled(heading_of(motions), width=2.0 + 5.4 * len(responses), height=1.2 + 1.75 * max(rows))
-    columns, names = columns_of(made, motions, stretches, rows), names_of(motions)
+    wide, high = (7.4, 1.2 + 1.75 * sum(rows)) if stacked else (2.0 + 5.4 * len(responses), 1.2 + 1.75 * max(rows))
+    made = canvas.titled(heading_of(motions), width=wide, height=high)
+    columns, names = columns_of(made, motions, stretches, rows, stacked=stacked), names_of(motions)
     for panels, name, response, kinds, (first, last) in zip(columns, names, responses, shown, stretches, strict=True):
         for kind, panel in zip(kinds, panels, strict=True):
             _draw(kind, panel, name, response, gal=gal)

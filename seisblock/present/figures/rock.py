@@ -25,16 +25,24 @@ COLOURS = {"rocks to +x": "#f6dfcf", "rocks to -x": "#a6b6dc", "beyond +alpha": 
 
 def figure(responses: Rockings, *, gal: bool = True) -> Figure:
     """Return the figure: per component acceleration with its band, lean over alpha with impacts and phases, and the phase plane."""
-    heights = [3.6 if leans(response) else 2.0 for response in responses]
+    made = _drawn(responses, gal=gal)
+    made.stacked = lambda: _drawn(responses, gal=gal, stacked=True)
+    return made
+
+
+def _drawn(responses: Rockings, *, gal: bool, stacked: bool = False) -> canvas.Sheet:
+    """Return the figure, phase planes beside the histories or below them."""
+    tall = 6.4 if stacked else 3.6
+    heights = [tall if leans(response) else 2.0 for response in responses]
     motions = [response.motion for response in responses]
-    made = canvas.titled(heading_of(motions), width=10.5, height=0.5 + sum(heights))
+    made = canvas.titled(heading_of(motions), width=7.5 if stacked else 10.5, height=0.5 + sum(heights))
     rows = made.subfigures(len(responses), 1, squeeze=False, height_ratios=heights)[:, 0]
     for row, name, response in zip(rows, names_of(motions), responses, strict=True):
         if not leans(response):
             ((above,),) = columns_of(row, [response.motion], [strong_stretch(response.motion)], 1)
             draw_ground(above, response, name, gal=gal)
             continue
-        left, right = row.subfigures(1, 2, width_ratios=(2.6, 1.0))
+        left, right = row.subfigures(2, 1, height_ratios=(1.3, 1.0)) if stacked else row.subfigures(1, 2, width_ratios=(2.6, 1.0))
         ((above, below),) = columns_of(left, [response.motion], [stretch(response)], 2)
         plane = right.add_subplot()
         canvas.dress(plane)

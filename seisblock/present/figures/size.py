@@ -50,6 +50,11 @@ def fitted(figure: Figure, *, size: tuple[float, float] | Size | None = None, dp
     title : str, optional
         Instead of the figure's own; empty for none.
 
+    Returns
+    -------
+    Figure
+        The one given, or the form it has with its columns below each other, where only that one fits.
+
     Raises
     ------
     OutputError
@@ -62,7 +67,7 @@ def fitted(figure: Figure, *, size: tuple[float, float] | Size | None = None, dp
         asked = size if isinstance(size, Size) else Size(*size)
         _few_enough(asked.width / INCH * dpi, asked.height / INCH * dpi)
         if isinstance(figure, Sheet):
-            _fit(figure, asked)
+            figure = _fit(figure, asked, title)
         else:
             figure.set_size_inches(asked.width / INCH, asked.height / INCH)
     _few_enough(*(figure.get_size_inches() * dpi))
@@ -80,14 +85,22 @@ def _few_enough(wide: float, high: float) -> None:
         )
 
 
-def _fit(sheet: Sheet, asked: Size) -> None:
-    """Give a figure a size, or refuse it with the least height in which its texts fit, or the least size where no height will do."""
+def _fit(sheet: Sheet, asked: Size, title: str | None) -> Sheet:
+    """Return a figure in a size, or refuse it with the least height in which its texts fit, or the least size where no height will do."""
     usual = Usual.of(sheet)
     wide, high = asked.width / INCH, asked.height / INCH
     if usual.fits(wide, high):
-        return
+        return sheet
     highest = LARGEST * max(usual.height, high)
-    if usual.fits(wide, highest):
+    reachable = usual.fits(wide, highest)
+    if not reachable and sheet.stacked is not None:
+        sheet = sheet.in_a_column(sheet.stacked, title)
+        usual = Usual.of(sheet)
+        if usual.fits(wide, high):
+            return sheet
+        highest = LARGEST * max(usual.height, high)
+        reachable = usual.fits(wide, highest)
+    if reachable:
         least = _least(lambda tall: usual.fits(wide, tall), high, highest, asked.unit)
         raise OutputError(
             "the texts of this figure do not fit into {width} x {height}: at this width it must be {least} high at least",

@@ -23,10 +23,18 @@ COLOURS = {SLIDING[0]: "#f6dfcf", SLIDING[1]: "#a6b6dc", "flight": "#6f9f7e"}
 
 def figure(responses: Slides, *, gal: bool = True) -> Figure:
     """Return the figure: a column per direction; acceleration with the friction band and, where it slides, velocities and displacement."""
+    made = _drawn(responses, gal=gal)
+    made.stacked = lambda: _drawn(responses, gal=gal, stacked=True)
+    return made
+
+
+def _drawn(responses: Slides, *, gal: bool, stacked: bool = False) -> canvas.Sheet:
+    """Return the figure, its columns beside or below each other."""
     motions = [response.motion for response in responses]
     rows = [3 if response.outcome.slips else 1 for response in responses]
-    made = canvas.titled(heading_of(motions), width=4.5 + 4.0 * len(responses), height=1.0 + 2.0 * max(rows))
-    columns = columns_of(made, motions, [stretch(r) for r in responses], rows)
+    wide, high = (8.5, 1.0 + 2.0 * sum(rows)) if stacked else (4.5 + 4.0 * len(responses), 1.0 + 2.0 * max(rows))
+    made = canvas.titled(heading_of(motions), width=wide, height=high)
+    columns = columns_of(made, motions, [stretch(r) for r in responses], rows, stacked=stacked)
     for panels, name, response in zip(columns, names_of(motions), responses, strict=True):
         _column(panels, name, response, gal=gal)
     return made
