@@ -107,10 +107,10 @@ def gather(names: Iterable[str], options: Options) -> Iterator[Recording]:
     yield from _recordings(list(files.values()), options)
 
 
-def _expanded(name: str, options: Options) -> Iterator[str]:
-    """Yield the files that one name stands for."""
+def _expanded(name: str, options: Options, within: tuple[str, ...] = ()) -> Iterator[str]:
+    """Yield the files that one name stands for, on a list within others."""
     if name.startswith(LIST) and not Path(name).exists():
-        yield from _listed(Path(name[len(LIST) :]), options)
+        yield from _listed(Path(name[len(LIST) :]), options, within)
         return
     path = Path(name).expanduser() if name.startswith("~") else Path(name)
     try:
@@ -136,8 +136,11 @@ def _sample(name: str) -> str:
         return name
 
 
-def _listed(path: Path, options: Options) -> Iterator[str]:
+def _listed(path: Path, options: Options, within: tuple[str, ...]) -> Iterator[str]:
     """Yield the files that a list names, one on each line; those that are not here are looked for beside the list."""
+    real = os.path.realpath(path)
+    if real in within:
+        raise RecordNotFoundError("{name}: this list of records names itself: take it off the list", name=path)
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
@@ -148,7 +151,7 @@ def _listed(path: Path, options: Options) -> Iterator[str]:
         raise RecordNotFoundError("{name}: the list names no record: write one file on each line", name=path)
     for line in named:
         beside = path.parent / line
-        yield from _expanded(str(beside) if not Path(line).exists() and beside.exists() else line, options)
+        yield from _expanded(str(beside) if not Path(line).exists() and beside.exists() else line, options, (*within, real))
 
 
 def _in_folder(path: Path, options: Options) -> Iterator[str]:

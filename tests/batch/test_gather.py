@@ -42,6 +42,10 @@ def test_files_patterns_folders_and_lists(folder):
     (folder / "empty.txt").write_text("# nothing\n")
     with pytest.raises(RecordNotFoundError, match=r"names no record"):
         found("@empty.txt")
+    (folder / "one.txt").write_text("@two.txt\n")
+    (folder / "two.txt").write_text("r0.csv\n@one.txt\n")
+    with pytest.raises(RecordNotFoundError, match=r"one.txt: this list of records names itself"):
+        found("@one.txt")
 
 
 def test_a_folder_leaves_out_what_is_no_record(folder):
