@@ -60,7 +60,7 @@ def film_page(film: Film, filming: Filming) -> str:
 
 def _paces(chosen: float) -> list[tuple[float, str]]:
     """Return the choices of speed, the chosen one among them."""
-    return [(value, f"× {value:g}" + (f" ({tell('real time')})" if value == 1.0 else "")) for value in sorted({*PACES, chosen})]
+    return [(value, tell("× {pace:g} (real time)", pace=value) if value == 1.0 else f"× {value:g}") for value in sorted({*PACES, chosen})]
 
 
 def _lines(film: Film) -> list[tuple[str, str, str]]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from seisblock.present.text.tables import line, table
 from seisblock.studies.batch.tally import Tally
-from seisblock.words import noted, tell
+from seisblock.words import noted, roughly, tell
 
 MOST_BODIES = 20
 """Bodies of which the table tells; the file tells of all."""
@@ -48,7 +48,10 @@ def tables(tally: Tally, said: Mapping[str, str]) -> Iterator[Any]:
     ranked = tally.ranked()
     if ranked:
         heads = [tell("body"), tell("runs"), tell(_HEADING[solver]), tell("share"), tell("no answer")]
-        rows = [[c.body, c.answers, c.happened, c.happened / c.answers if c.answers else None, c.failures] for c in ranked[:MOST_BODIES]]
+        rows = [
+            [c.body, c.answers, c.happened, roughly(c.happened / c.answers) if c.answers else None, c.failures]
+            for c in ranked[:MOST_BODIES]
+        ]
         more = tell("and {count} more bodies, in the file", count=len(ranked) - MOST_BODIES) if len(ranked) > MOST_BODIES else ""
         yield table("", heads, rows, caption=more)
     if tally.failures:

@@ -32,6 +32,7 @@ from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.dynamics.contract import CONSTANT, OFF, RESET, SERIES, SKIP
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.polynomial import ROUND_OFF
+from seisblock.words import noted
 
 _t = types()
 
@@ -216,7 +217,7 @@ SLIDE = Model(
     reset,
     ("slip", "speed", "gap", "gap speed"),
     ("limit forward", "limit backward", "contact", "foot"),
-    (*("stick", "slip forward", "slip backward", "flight") * 2, "one way, in the air"),
+    (*(noted("stick"), "slip forward", "slip backward", noted("flight")) * 2, noted("one way, in the air")),
     tracked=1,
     skip=skip,
 )
