@@ -66,6 +66,7 @@ def run(
     names = source.record or (_default(),)
     with progress("finding the records"):
         keys = list(dict.fromkeys(recording.key for recording in gather(names, plan.reading)))
+    checked_target(out)  # once more: now it is known what was read
     tally, columns, reasons = Tally(plan.model), columns_of(plan.model, runs=plan.runs), dict[str, str]()
     if resume and out.exists() and not journal_path(out).exists():
         for rows in _whole(out, columns, plan, [path for path, _ in keys]):

@@ -31,6 +31,7 @@ def test_outputs_are_never_harmed(folder):
     assert harmed.exit_code == 3 and Path("records/r0.csv").read_bytes() == before
     table = run("batch records --bodies bodies.csv --solver rock --out bodies.csv --force")
     assert table.exit_code == 3 and "slender" in Path("bodies.csv").read_text()
+    assert not list(folder.rglob("*.journal"))
     assert ".csv or .parquet" in run(LINE.replace("t.csv", "t.xlsx")).stderr
     assert run(LINE + " --force --resume").exit_code == 3
     assert run(LINE.replace("t.csv", "nowhere/t.csv")).exit_code == 3

@@ -13,6 +13,7 @@ from click.testing import CliRunner
 
 from seisblock.cli import main
 from seisblock.cli.cite import cite
+from seisblock.cli.manners import ending_in_order
 from seisblock.signals import losing_no_interrupt
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads what a process has spent from /proc")
@@ -240,3 +241,23 @@ def test_an_interrupt_before_the_command_begins_is_no_traceback(tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
+def test_an_end_that_a_callback_swallows_is_not_told_twice(monkeypatch):
+    """Python tells what is raised where nobody can catch it; an interruption that comes again needs no such line, anything else does."""
+    heard = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda lost: heard.append(lost.exc_type))
+
+    class Swallowing:
+        def __init__(self, error):
+            self.error = error
+
+        def __del__(self):
+            raise self.error
+
+    with ending_in_order():
+        Swallowing(KeyboardInterrupt())
+        Swallowing(ValueError())
+    assert heard == [ValueError]
+    Swallowing(KeyboardInterrupt())
+    assert heard == [ValueError, KeyboardInterrupt]
