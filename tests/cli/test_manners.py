@@ -121,10 +121,10 @@ def on_a_terminal(words, cwd, **environment):
 def test_colours_are_for_terminals_and_obey_no_color(tmp_path):
     """A terminal gets colours, a terminal with NO_COLOR and a pipe get none, in errors too."""
     assert "\x1b[3" in on_a_terminal(["jump", "nowhere.csv"], tmp_path)
-    for words in (["jump", "nowhere.csv"], ["jump", "--component", "EW"]):
+    for words in (["jump", "nowhere.csv"], ["jump", "--component", "EW", "--window", "25:28"]):
         plain = on_a_terminal(words, tmp_path, NO_COLOR="1")
         assert "\x1b[3" not in plain.replace("\x1b[3m", "") and "\x1b[9" not in plain
-    assert "\x1b" not in shell(f"{SEISBLOCK} jump 2>&1", tmp_path).stdout
+    assert "\x1b" not in shell(f"{SEISBLOCK} jump --window 25:28 2>&1", tmp_path).stdout
 
 
 def test_a_bar_is_shown_on_a_terminal_only_and_only_for_long_work(tmp_path, monkeypatch):
