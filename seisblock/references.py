@@ -262,6 +262,7 @@ CITED: dict[str, tuple[str, ...]] = {
     "jump": papers("jump"),
     "uplift": papers("uplift"),
     "respond": papers("all modes", "two-layer body"),
+    "batch": papers("all modes", "two-layer body"),
     "criteria": papers("overturning criteria", "rocking", "all modes"),
     "spectrum": papers("rocking", "sliding", "all modes"),
     "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),

@@ -98,7 +98,7 @@ def gather(names: Iterable[str], options: Options) -> Iterator[Recording]:
 
     Examples
     --------
-    >>> [recording.name for recording in gather(["synthetic_jma.csv", "elcentro_1940_ns.csv"])]
+    >>> [recording.name for recording in gather(["synthetic_jma.csv", "elcentro_1940_ns.csv"], Options())]
     ['synthetic_jma.csv', 'elcentro_1940_ns.csv']
     """
     files: dict[str, str] = {}

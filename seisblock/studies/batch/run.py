@@ -84,7 +84,7 @@ def run_batch(
     --------
     >>> table = run_batch("synthetic_jma.csv", "gravestone", "respond", components="EW")
     >>> table["body"], table["overturned"]
-    (['gravestone'], [False])
+    (['gravestone'], [True])
     """
     plan, notes = make_plan(
         bodies, solver, components=components, preparation=preparation, runs=runs, seed=seed, options=options, reading=Options()
