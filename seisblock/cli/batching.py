@@ -25,7 +25,7 @@ from seisblock.present.parquet import check_parquet, read_parquet, write_parquet
 from seisblock.present.text import batch as shown
 from seisblock.readers import DEFAULT_SAMPLE
 from seisblock.readers.dispatch import Options
-from seisblock.readers.gather import gather
+from seisblock.readers.gather import expand, recordings
 from seisblock.studies.batch.cluster import connected
 from seisblock.studies.batch.run import each_record, make_plan
 from seisblock.studies.batch.table import REASON, Row, cells_of, columns_of
@@ -65,7 +65,8 @@ def run(
     plan, notes = _plan(source, asked)
     names = source.record or (_default(),)
     with progress("finding the records"):
-        keys = list(dict.fromkeys(recording.key for recording in gather(names, plan.reading)))
+        files = expand(names, plan.reading)
+        keys = list(dict.fromkeys(recording.key for recording in recordings(files, plan.reading)))
     checked_target(out)  # once more: now it is known what was read
     tally, columns, reasons = Tally(plan.model), columns_of(plan.model, runs=plan.runs), dict[str, str]()
     if resume and out.exists() and not journal_path(out).exists():
@@ -76,7 +77,7 @@ def run(
         with ExitStack() as stack:
             client = None if cluster is None else stack.enter_context(connected(cluster))
             journal = _journal(journal_path(out), plan, resume=resume, force=force)
-            reasons = _solve(names, plan, journal, keys, workers=workers, client=client)
+            reasons = _solve(files, plan, journal, keys, workers=workers, client=client)
         write = write_parquet if out.suffix.lower() == PARQUET else _write_csv
         with progress("writing {file}", file=str(out)):
             write(out, columns, (cells_of(columns, row) for rows in map(journal.rows, keys) for row in tally.counted(rows)))
@@ -102,7 +103,7 @@ def _whole(out: Path, columns: Mapping[str, type], plan: Plan, paths: Sequence[s
 
 
 def _solve(
-    names: tuple[str, ...], plan: Plan, journal: Journal, keys: Sequence[Key], *, workers: int | None, client: Client | None
+    files: Sequence[str], plan: Plan, journal: Journal, keys: Sequence[Key], *, workers: int | None, client: Client | None
 ) -> dict[str, str]:
     """Follow the bodies through the records that are missing, and write each record's rows down as soon as they are there.
 
@@ -111,7 +112,7 @@ def _solve(
     missing = {key for key in keys if key not in journal.places}
     if len(missing) < len(keys):
         say("{done} of {count} records are finished", done=len(keys) - len(missing), count=len(keys))
-    tasks, kept = tee(recording for recording in (gather(names, plan.reading) if missing else ()) if recording.key in missing)
+    tasks, kept = tee(recording for recording in (recordings(files, plan.reading) if missing else ()) if recording.key in missing)
     reasons: dict[str, str] = {}
     with progress("records") as advance:
         found = each_record(tasks, plan, total=len(missing), workers=workers, client=client, progress=advance)

@@ -163,15 +163,21 @@ def read_table(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, An
     OutputError
         If it has other columns, or cannot be read.
     """
+    with reading_back(path), path.open(encoding="utf-8", newline="") as stream:
+        rows = csv.DictReader(stream)
+        check_columns(path, rows.fieldnames or (), columns)
+        for row in rows:
+            yield {name: _cell(row[name], kind) for name, kind in columns.items()}
+
+
+@contextlib.contextmanager
+def reading_back(path: Path) -> Iterator[None]:
+    """Say in one sentence that a file is not the table that was written here."""
     try:
-        with path.open(encoding="utf-8", newline="") as stream:
-            rows = csv.DictReader(stream)
-            check_columns(path, rows.fieldnames or (), columns)
-            for row in rows:
-                yield {name: _cell(row[name], kind) for name, kind in columns.items()}
+        yield
     except SeisblockError:
         raise
-    except (OSError, ValueError, csv.Error) as error:
+    except (OSError, ValueError, csv.Error) as error:  # pyarrow's errors are among these
         raise OutputError("{path} is no table of a batch: {error}", path=path, error=str(error)[:200]) from error
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.errors import OutputError
-from seisblock.present.files import check_columns, replacing
+from seisblock.present.files import check_columns, reading_back, replacing
 
 ROWS = 50_000
 """Rows that are held and written at a time."""
@@ -58,16 +58,12 @@ def read_parquet(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, 
     OutputError
         If it has other columns, or cannot be read.
     """
-    import pyarrow
     from pyarrow.parquet import ParquetFile
 
-    try:
-        with ParquetFile(path) as file:
-            check_columns(path, file.schema_arrow.names, columns)
-            for batch in file.iter_batches(ROWS):
-                yield from batch.to_pylist()
-    except (OSError, pyarrow.ArrowException) as error:
-        raise OutputError("{path} is no table of a batch: {error}", path=path, error=str(error)[:200]) from error
+    with reading_back(path), ParquetFile(path) as file:
+        check_columns(path, file.schema_arrow.names, columns)
+        for batch in file.iter_batches(ROWS):
+            yield from batch.to_pylist()
 
 
 def _blocks(rows: Iterable[Sequence[Any]]) -> Iterator[list[Sequence[Any]]]:

@@ -101,10 +101,15 @@ def gather(names: Iterable[str], options: Options) -> Iterator[Recording]:
     >>> [recording.name for recording in gather(["synthetic_jma.csv", "elcentro_1940_ns.csv"], Options())]
     ['synthetic_jma.csv', 'elcentro_1940_ns.csv']
     """
+    yield from recordings(expand(names, options), options)
+
+
+def expand(names: Iterable[str], options: Options) -> list[str]:
+    """Return the files that some names stand for, each once; see :func:`gather`."""
     files: dict[str, str] = {}
     for found in (each for name in names for each in _expanded(name, options)):
         files.setdefault(os.path.realpath(found), found)
-    yield from _recordings(list(files.values()), options)
+    return list(files.values())
 
 
 def _expanded(name: str, options: Options, within: tuple[str, ...] = ()) -> Iterator[str]:
@@ -197,7 +202,7 @@ def _set_of(name: str) -> _Set:
     return _Set((name,), 1) if at2 is None else _Set((str(path.parent), at2[0].upper()), 3)
 
 
-def _recordings(files: list[str], options: Options) -> Iterator[Recording]:
+def recordings(files: Iterable[str], options: Options) -> Iterator[Recording]:
     """Yield the recordings that some files make, in the order of their first files."""
     sets: dict[tuple[str, ...], list[str]] = {}
     for name in files:

@@ -139,6 +139,11 @@ def _friction(listed: ListedBody, options: Told) -> dict[str, float | None]:
     return {"mu": mu, "mu_kinetic": told.get("mu_kinetic", kinetic)}
 
 
+def _but_friction(options: Told) -> dict[str, Any]:
+    """Return the options that are left where friction belongs to the body, or to its contact."""
+    return {key: value for key, value in options.items() if key not in ("mu", "mu_kinetic")}
+
+
 def _own(listed: ListedBody, *names: str) -> dict[str, Any]:
     """Return what a row says under some names."""
     return {name: listed.told[name] for name in names if name in listed.told}
@@ -159,12 +164,11 @@ def _rocking(listed: ListedBody, options: Told) -> Placed:
 
 def _sliding(listed: ListedBody, options: Told) -> Placed:
     """Place an object on a base on which it slides."""
-    left = {key: value for key, value in options.items() if key not in ("mu", "mu_kinetic")}
     friction = _friction(listed, options)
     if "kappa" in listed.told and "mu_kinetic" not in listed.told:
         friction["mu_kinetic"] = None
     own = _own(listed, "kappa", "slope_deg", "slope_length")
-    return Placed(listed.name, sliding_base(**friction, **own), left)  # type: ignore[arg-type]
+    return Placed(listed.name, sliding_base(**friction, **own), _but_friction(options))  # type: ignore[arg-type]
 
 
 def _on_springs(listed: ListedBody, options: Told) -> Placed:
@@ -189,17 +193,16 @@ def _jumping(listed: ListedBody, options: Told) -> Placed:
         found |= {key: options[key] for key in ("mu", "mu_kinetic") if options.get(key) is not None}
     if "mu" not in found:
         raise BodyError("{source}: how rough is it under the body? Tell mu, the static friction coefficient", source=listed.source)
-    left = {key: value for key, value in options.items() if key not in ("mu", "mu_kinetic")}
     block = two_layer_block(listed.description, listed.told.get("side", "short"))
-    return Placed(listed.name, block, {**left, "contact": Contact(**found), **_own(listed, "drop")})
+    return Placed(listed.name, block, {**_but_friction(options), "contact": Contact(**found), **_own(listed, "drop")})
 
 
 def _stacked(listed: ListedBody, options: Told) -> Placed:
     """Place a pile of stones."""
     if listed.description is None or listed.description.get("kind") != "pile":
         raise BodyError("{source}: a stack needs a pile: name its file, or a bundled one such as lantern", source=listed.source)
-    left = {key: value for key, value in options.items() if key not in ("mu", "mu_kinetic")}
-    return Placed(listed.name, load_pile(str(listed.description["source"]), mu=listed.told.get("mu", options.get("mu"))), left)
+    pile = load_pile(str(listed.description["source"]), mu=listed.told.get("mu", options.get("mu")))
+    return Placed(listed.name, pile, _but_friction(options))
 
 
 def _chance_of_standing(placed: Placed, motion: Motion, runs: int, seed: int, options: Told) -> Row:
