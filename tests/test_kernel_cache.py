@@ -55,6 +55,7 @@ def kept(folder):
     return {path.name: path.read_bytes() for path in folder.rglob("*.nb[ci]")}
 
 
+@pytest.mark.slow
 def test_a_process_reads_only_the_kernels_that_python_calls(folder):
     """Machine code of a kernel holds that of the kernels it calls: with everything in the cache, two of them are made."""
     counted = (
@@ -77,7 +78,11 @@ def test_a_second_process_compiles_nothing(folder):
 SPOILT = {"empty": lambda data: b"", "half": lambda data: data[: len(data) // 2], "last byte": lambda data: data[:-1]}
 
 
-@pytest.mark.parametrize(("spoil", "script"), [("empty", ONE), ("half", SCRIPT), ("last byte", ONE)], ids=SPOILT)
+@pytest.mark.parametrize(
+    ("spoil", "script"),
+    [pytest.param("empty", ONE, marks=pytest.mark.slow), ("half", SCRIPT), pytest.param("last byte", ONE, marks=pytest.mark.slow)],
+    ids=SPOILT,
+)
 @pytest.mark.parametrize("suffix", ["nbc", "nbi"])
 def test_a_damaged_kernel_is_compiled_afresh(folder, suffix, spoil, script):
     """Files that lost their bytes, as after a power cut: the answer stands, one line says so, and the next run finds them whole."""

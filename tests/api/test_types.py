@@ -80,6 +80,7 @@ def told(tmp_path_factory):
     return found
 
 
+@pytest.mark.slow
 def test_a_right_script_has_true_types(told):
     """Nothing is refused, and no public name is Any."""
     lines = SCRIPT.splitlines()
@@ -92,6 +93,7 @@ def test_a_right_script_has_true_types(told):
         assert kind in plain, (lines[number - 1], plain)
 
 
+@pytest.mark.slow
 def test_what_is_wrong_is_refused(told):
     """A misspelt name, option or field, the wrong order and a record for a motion are found before the script runs."""
     first = HEAD.count("\n") + 1

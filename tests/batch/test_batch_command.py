@@ -103,7 +103,7 @@ def _until_lines(path, count, process):
     raise AssertionError("nothing was written down")
 
 
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize("how", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
 def test_an_interruption_loses_no_record_and_doubles_none(folder, how):
     """Killed in the middle, and gone on with; also from a line that was cut."""
     for seed in range(4, 24):
@@ -128,6 +128,7 @@ def test_an_interruption_loses_no_record_and_doubles_none(folder, how):
     assert not journal.exists()
 
 
+@pytest.mark.slow
 def test_memory_does_not_grow_with_the_records(folder):
     """Forty records hold no more than ten, but for what a row takes: each is read when it is its turn."""
 

@@ -43,6 +43,7 @@ def test_records_that_were_read_already(client, records):
     assert list(seisblock.run_batch(read, BODIES, "rock", client=client).cells()) == list(seisblock.run_batch(read, BODIES, "rock").cells())
 
 
+@pytest.mark.slow
 def test_a_worker_that_dies_is_survived(client, records):
     """One of two processes is killed when the first answer is there, while others are under way in it."""
     victim = next(iter(client.run(os.getpid).values()))
@@ -57,6 +58,7 @@ def test_a_worker_that_dies_is_survived(client, records):
     assert victim not in client.run(os.getpid).values()
 
 
+@pytest.mark.slow
 def test_a_record_of_which_every_worker_dies_is_a_row(client, records):
     """It does not end the batch."""
     lost = []

@@ -119,6 +119,7 @@ def warm(*words):
     return json.loads(done.stdout), after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+@pytest.mark.slow
 def test_a_warm_command(benchmark):
     """From the shell, kernels compiled before, `respond` with 200 versions of two components costs less than twice what `slide` does."""
     words = ("respond", "--width", "45cm", "--height", "180cm", "--mu", "0.3")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 
 import numpy as np
+import pytest
 
 from seisblock.bodies.sliding_base import sliding_base
 from seisblock.dynamics import follow_many
@@ -64,6 +65,7 @@ def test_kernel_speed(benchmark):
     assert per_sample < NANOSECONDS_PER_SAMPLE / share(benchmark)
 
 
+@pytest.mark.slow
 def test_study_of_ten_thousand_points(benchmark):
     """10 000 combinations of friction, ratio and vertical motion over a 100 s record take about a second."""
     motion = strong_motion()

@@ -149,6 +149,7 @@ def test_a_jump_goes_on_beyond_its_window(document):
     assert inside["displacement_at_1_m"] == pytest.approx(0.1743, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_files(run, survey):
     """--csv writes the contour, or the displacement against the factor; --plot the figure."""
     assert run("--cemetery", survey, "--frequency", 2, "--csv", "contour.csv", "--plot", "shaking.png").exit_code == 0

@@ -118,6 +118,7 @@ def on_a_terminal(words, cwd, **environment):
     return b"".join(pieces).decode()
 
 
+@pytest.mark.slow
 def test_colours_are_for_terminals_and_obey_no_color(tmp_path):
     """A terminal gets colours, a terminal with NO_COLOR and a pipe get none, in errors too."""
     assert "\x1b[3" in on_a_terminal(["jump", "nowhere.csv"], tmp_path)

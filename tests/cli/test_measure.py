@@ -152,6 +152,7 @@ def test_nonsense_gets_one_sentence(run, sines, words, exit_code, message):
     assert "Traceback" not in result.output
 
 
+@pytest.mark.slow
 def test_figure(run, sines, tmp_path):
     """Each of the three formats is written."""
     for suffix, start in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):

@@ -6,6 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import COMMANDS, main
+from tests.lengths import all_but_slow
 
 SHORT = ("synthetic_jma.csv", "--window", "25.5:26.5", "--component", "NS")
 BLOCK = ("--width", "24cm", "--height", "72cm")
@@ -35,7 +36,7 @@ def test_the_unit_is_asked_for_where_there_is_one():
     assert {command for command in COMMANDS if "--gal" in options_of(command)} == set(IN_GAL)
 
 
-@pytest.mark.parametrize("command", IN_GAL)
+@pytest.mark.parametrize("command", all_but_slow(IN_GAL, set(IN_GAL) - {"measure", "uplift", "stack"}))
 def test_the_unit_is_that_asked_for(command, tmp_path):
     """F3, F6: with --si no gal is left in the answer or the figure, with --gal no m/s²; one of the two differs."""
     answers = []

@@ -43,6 +43,7 @@ def pages():
     return made
 
 
+@pytest.mark.slow
 def test_the_japanese_page_is_in_japanese(pages):
     """Cards, sentences, tables, captions and provenance; references are quoted."""
     assert not english_in(seen_in(pages["ja"])) and english_in(seen_in(pages["en"]))
@@ -78,6 +79,7 @@ def page_of_square(square):
     return report(square)
 
 
+@pytest.mark.slow
 def test_what_was_done_to_the_record_stands_above_the_verdicts(square, page_of_square):
     """F4: a page of a scaled record says so before it says anything else, in either language; one of a record as read does not."""
     scaled = assess(Preparation(scale=0.5).apply(square.record), [subject("1x1")], components=["EW"])

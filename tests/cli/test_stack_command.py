@@ -95,6 +95,7 @@ def test_stones_can_be_left_out_and_fixed(pulse):
     assert found["max_tilt_rad"]["gedai"] == 0.0
 
 
+@pytest.mark.slow
 def test_files_are_written(pulse, tmp_path):
     """--csv, --plot and --animate write what they say."""
     table, picture, film = (tmp_path / name for name in ("stack.csv", "stack.png", "stack.gif"))

@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
+from tests.lengths import all_but_slow
 from tests.readers.files import KNET_CSV
 
 NASTY = "\x1b[31mred\x07 [bold]loud[/bold] [/] $x_{\\frac$ <script>alert(1)</script> {0} {name} %s "
@@ -74,7 +75,11 @@ def test_documents_hold_the_text_itself(command, record):
     assert told["source"] == record
 
 
-@pytest.mark.parametrize("command", ["measure", "slide", "rock", "jump", "uplift", "respond", "stack", "criteria", "spectrum"])
+DRAWING = ("measure", "slide", "rock", "jump", "uplift", "respond", "stack", "criteria", "spectrum")
+"""Commands that draw a record."""
+
+
+@pytest.mark.parametrize("command", all_but_slow(DRAWING, {"slide", "rock", "respond", "criteria"}))
 def test_figures(command, record, tmp_path):
     """A dollar begins no formula: the figure is drawn, and its title is the text."""
     done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--plot", "out.svg", "--quiet"])
@@ -83,6 +88,7 @@ def test_figures(command, record, tmp_path):
     assert "\x1b" not in done.stderr
 
 
+@pytest.mark.slow
 def test_the_report_is_a_page_of_text(record, tmp_path):
     """No tag of a header is a tag of the page."""
     done = CliRunner().invoke(main, ["report", record, "--body", "stone.toml", "-o", "out.html", "--quiet"])

@@ -173,6 +173,7 @@ def test_the_gallery_is_told_in_japanese(some_papers, tmp_path):
     assert not english_in(text) and "論文との相違とその理由" in text
 
 
+@pytest.mark.slow
 def test_it_needs_nothing_that_only_developers_have():
     """It runs where pytest, hypothesis, pandas and the packages of the comparisons are missing."""
     hidden = f"import sys; sys.modules.update(dict.fromkeys({DEVELOPMENT!r}))"

@@ -70,7 +70,7 @@ def reference(body: SpringBlock, motion: Motion) -> tuple[np.ndarray, list[tuple
 @pytest.mark.parametrize(
     "body",
     [
-        SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=6.0, beta=0.707, damping=0.05),
+        pytest.param(SpringBlock.from_frequency(0.6, 0.6, 1.8, frequency_vertical=6.0, beta=0.707, damping=0.05), marks=pytest.mark.slow),
         SpringBlock(0.9, 0.6, 1.5, 700.0, (1.2e5, 2.0e5, 4.0e5), damping=0.2),
     ],
     ids=["square", "rectangular, kx != ky"],

@@ -76,6 +76,7 @@ def test_interruption_leaves_the_old_file(tmp_path):
     assert (tmp_path / "a.gif").read_bytes() == b"old"
 
 
+@pytest.mark.slow
 def test_five_seconds_of_rocking_are_a_hundred_pictures_that_move(tmp_path, response):
     """Twenty pictures a second, and the block is elsewhere in a later one."""
     animate_rocking(response, tmp_path / "rock.gif")

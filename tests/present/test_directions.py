@@ -20,6 +20,7 @@ from seisblock.present.pages.report_words import sentences, verdict
 from seisblock.records import Component, Motion, Record, motion_of
 from seisblock.studies.assessment import Effect
 from seisblock.words import speaking
+from tests.lengths import all_but_slow
 from tests.present.long_record import response
 
 FILMS = {
@@ -31,7 +32,7 @@ NAMELESS = re.compile(r"(?<![\w(（,=+-])[+-]x(?! = )|forward|backward|\+alpha|-
 
 
 @pytest.mark.parametrize("lang", ["en", "ja"])
-@pytest.mark.parametrize("model", FACES)
+@pytest.mark.parametrize("model", all_but_slow(FACES, set(FACES) - {"stack"}))
 def test_a_model_names_directions_after_the_record(model, lang):
     """Verdict, figure, film and report of each model; a document keeps its own words, which are data."""
     found = response(model)

@@ -76,6 +76,7 @@ def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
     assert not [text.get_text() for text in read(name, lang) if MINUS_NOTHING.search(text.get_text())]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(set(EVERY) - {"field test"}))  # no command draws that one: it has no --size
 def test_a_journals_column_holds_it(name):
     """At 85 mm, or 180, letters shrink, legends give way to titles, and still no text lies on another; none is too small to print."""
@@ -118,6 +119,7 @@ def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatc
     assert min(text.get_fontsize() for text in texts) >= 6.5 * SMALLEST_LETTERS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lang", ["en", "ja"])
 @pytest.mark.parametrize("name", ["rock", "rock, two", "slide, two", "jump, two", "respond, two"])
 def test_columns_stand_below_each_other_where_the_width_is_one_of_a_journal(name, lang):

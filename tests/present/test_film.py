@@ -113,6 +113,7 @@ def test_titles_are_text_and_not_markup():
     assert "<b>" not in page and page.count("</script>") == 2
 
 
+@pytest.mark.slow
 def test_slow_motion_has_as_many_more_pictures(jumped, tmp_path):
     """--slow 4 takes four times the pictures, of which each stands as long."""
     for slow in (1.0, 4.0):

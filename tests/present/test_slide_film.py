@@ -50,6 +50,7 @@ def test_the_object_is_where_the_answer_has_it(response):
     assert floor.min() + film.scene.shift.max() < left and floor.max() + film.scene.shift.min() > right
 
 
+@pytest.mark.slow
 def test_it_is_written(response, tmp_path):
     """As a .gif and as a page."""
     animate_slide(response, tmp_path / "slide.gif", Filming())

@@ -24,6 +24,7 @@ def noise(seed: int, peak: float = 9.0, n: int = 600) -> np.ndarray:
     return peak * smooth / np.abs(smooth).max()
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10_000), st.sampled_from([0.0, 0.3]), st.floats(-0.5, 0.5), st.sampled_from(["paper", "friction"]))
 @settings(max_examples=40, deadline=None)
 def test_mirror_image(seed, drop, spin, landing):

@@ -198,6 +198,7 @@ def test_strict_refuses(offset):
     assert CliRunner().invoke(main, ["measure", str(offset), "--strict", "--demean"]).exit_code == 0
 
 
+@pytest.mark.slow
 def test_the_report_says_it_first(offset, tmp_path):
     """The page begins with what is doubtful."""
     page = tmp_path / "page.html"

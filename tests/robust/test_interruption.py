@@ -15,6 +15,7 @@ from seisblock.cli import main
 from seisblock.cli.cite import cite
 from seisblock.cli.manners import ending_in_order
 from seisblock.signals import losing_no_interrupt
+from tests.lengths import all_but_slow
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="reads what a process has spent from /proc")
 
@@ -107,10 +108,10 @@ def interrupted(script, words, cwd):
         return process.returncode, said.strip(), float(out.split()[-1]) - at
 
 
-@pytest.mark.parametrize("words", COMMANDS.values(), ids=COMMANDS)
-def test_a_command_ends_at_once(words, tmp_path):
+@pytest.mark.parametrize("named", all_but_slow(COMMANDS, {"a pile on 25 x 25 points", "versions of a stone"}))
+def test_a_command_ends_at_once(named, tmp_path):
     """In the middle of a run that would take minutes: exit 130, one line, no traceback, in half a second."""
-    code, said, took = interrupted(COMMAND, [*words, "--quiet"], tmp_path)
+    code, said, took = interrupted(COMMAND, [*COMMANDS[named], "--quiet"], tmp_path)
     assert (code, said) == (130, "seisblock: interrupted; no half-written file is left")
     assert took < AT_ONCE
 
@@ -121,6 +122,7 @@ def test_an_interrupt_is_not_lost_while_kernels_are_compiled(tmp_path, monkeypat
     assert interrupted(COMPILING, [], tmp_path)[0] == 130
 
 
+@pytest.mark.slow
 def test_a_call_of_the_library_ends_at_once(tmp_path):
     """A solver called from Python raises KeyboardInterrupt in the middle of eight hours of record."""
     code, said, took = interrupted(LIBRARY, [], tmp_path)

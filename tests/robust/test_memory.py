@@ -89,6 +89,7 @@ def test_memory_per_sample_of_a_table(tmp_path, monkeypatch):
     assert per_sample(written, read, 2**14, 2**15) < BYTES_READ
 
 
+@pytest.mark.slow
 def test_memory_per_sample_of_measure():
     """Above the record itself; the transform of a whole component, of the intensity, is what takes most."""
     assert per_sample(recorded, measure) < BYTES_MEASURED

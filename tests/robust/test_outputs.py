@@ -64,6 +64,7 @@ def test_no_output_falls_on_a_sibling_of_the_record(folder):
     assert (folder / "x.NS").read_bytes() == before
 
 
+@pytest.mark.slow
 def test_no_output_falls_on_a_body_or_a_cemetery(folder):
     """R1: files of bodies and cemeteries are read, too."""
     for name in ("gravestone.toml", "aoyama.csv"):

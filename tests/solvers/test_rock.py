@@ -181,6 +181,7 @@ def test_block_that_starts_loaded_beyond_the_threshold_starts_at_once():
     assert outcome.overturned_towards == "+x"
 
 
+@pytest.mark.slow
 def test_lossless_hops_without_end_are_a_clear_error():
     """A restitution of 1 after a hop of microseconds never comes to rest: said in one sentence, not looped."""
     threshold = G * 0.2

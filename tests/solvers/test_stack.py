@@ -43,6 +43,7 @@ def test_a_block_at_rest_stays():
         assert np.ptp(response["block_z"]) < 1e-9
 
 
+@pytest.mark.slow
 def test_a_plumb_pile_at_rest_stays_for_100_s():
     """The five-stone pile drifts by less than 0.1 mm in 100 s."""
     response = solve_stack(load_pile("wagata"), Motion.from_arrays(np.zeros(10_001), 0.01))

@@ -78,6 +78,7 @@ def share_held(fallen, edges=None, *, known=True):
     return float(np.mean(held))
 
 
+@pytest.mark.slow
 def test_blocks_on_records_are_held_as_often_as_is_claimed(fallen):
     """N9: rigid blocks, sharp and worn, under recorded and synthetic motions: 85 to 95 % of the 90 % intervals hold the PGA.
 

@@ -1,0 +1,10 @@
+"""Which of a test's parameters are worth their seconds in every run; the others wait for ``-m slow``."""
+
+from collections.abc import Iterable, Set
+
+import pytest
+
+
+def all_but_slow(values: Iterable, quick: Set) -> list:
+    """Return parameters of a test; those that are not among the quick ones are marked slow."""
+    return [value if value in quick else pytest.param(value, marks=pytest.mark.slow) for value in values]
