@@ -25,14 +25,14 @@ LIMITS = {
     "SEISBLOCK_BODIES": 100_000,
     "SEISBLOCK_PILE_STONES": 200,
     "SEISBLOCK_PILE_POINTS": 25,
-    "SEISBLOCK_EVENTS": 2_000_000,
+    "SEISBLOCK_CHANGES_MIB": 256,
     "SEISBLOCK_TRANSFORM_MIB": 768,
 }
 """The environment variables that lift a limit, and the limits without them: MiB read and unpacked, members of archives, archives within
 archives, samples of all components; MiB of the curves of one answer; versions of one body and factors on one motion; values of one option;
 combinations of one study; stones of a cemetery, bodies of a list, stones of a pile, each pair of which is looked at, and points along a
-side of its joints; changes of mode of one answer, each of some 0.8 kB; MiB of a record and of the transform of so many samples that they
-cannot be transformed in parts."""
+side of its joints; MiB of the changes of mode of one answer, 0.1 to 0.4 kB each; MiB of a record and of the transform of so many samples
+that they cannot be transformed in parts."""
 
 
 def limit(variable: str) -> int:
@@ -105,4 +105,24 @@ def check_curves(samples: int, columns: int) -> None:
             found=found,
             most=most,
             variable="SEISBLOCK_CURVES_MIB",
+        )
+
+
+def check_changes(count: int, each: int) -> None:
+    """Refuse more changes of mode, of so many bytes each, than may be kept.
+
+    Raises
+    ------
+    ParameterError
+        If so; the message says how many there are, what they take, and what lifts the limit.
+    """
+    most = limit("SEISBLOCK_CHANGES_MIB")
+    if count * each > most * MIB:
+        raise ParameterError(
+            "{count} changes of mode take {found} MiB, and {most} may be taken: cut a window out of the record, or set "
+            "{variable} to take more",
+            count=count,
+            found=-(-count * each // MIB),
+            most=most,
+            variable="SEISBLOCK_CHANGES_MIB",
         )

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property, partial
-from typing import Any, Generic, TypeVar
+from operator import eq
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
 import numpy as np
 
@@ -14,7 +15,61 @@ from seisblock.records.motion import Motion
 from seisblock.showing import Drawn
 from seisblock.typing import FloatArray, IntArray
 
+if TYPE_CHECKING:
+    from seisblock.dynamics.changes import Change, Changes
+
 Outcome = TypeVar("Outcome", covariant=True)
+Value = TypeVar("Value")
+
+
+class LazySequence(Sequence[Value]):
+    """Values that are made when one looks at them: columns of numbers hold a million of them in the room of a hundredth.
+
+    Parameters
+    ----------
+    count : int
+        How many there are.
+    make : callable
+        Makes those of a slice.
+
+    Examples
+    --------
+    >>> squares = LazySequence(1000, lambda part: [k * k for k in range(1000)[part]])
+    >>> squares[-1], squares[2:4], sum(squares)
+    (998001, (4, 9), 332833500)
+    """
+
+    AT_ONCE = 2**12
+    """How many are made at a time for whoever goes through them."""
+
+    def __init__(self, count: int, make: Callable[[slice], Sequence[Value]]) -> None:
+        self._count, self._make = count, make
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, index: int) -> Value: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Value]: ...
+    def __getitem__(self, index: int | slice) -> Value | Sequence[Value]:
+        if isinstance(index, slice):
+            return tuple(self._make(index))
+        place = range(self._count)[index]
+        return self._make(slice(place, place + 1))[0]
+
+    def __iter__(self) -> Iterator[Value]:
+        for begin in range(0, self._count, self.AT_ONCE):
+            yield from self._make(slice(begin, min(begin + self.AT_ONCE, self._count)))
+
+    def __eq__(self, other: object) -> bool:
+        """Whether another sequence holds the same."""
+        return isinstance(other, Sequence) and len(self) == len(other) and all(map(eq, self, other))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return repr(tuple(self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +84,28 @@ class Phase:
     def duration_s(self) -> float:
         """Length of the phase, s."""
         return self.end_s - self.start_s
+
+
+def phases_between(edges: FloatArray, modes: IntArray, name: Callable[[int], str]) -> Sequence[Phase]:
+    """Return stretches of time that follow each other.
+
+    Parameters
+    ----------
+    edges : (n + 1,) array, s
+        From the record's first sample.
+    modes : (n,) array of int
+    name : callable
+        Of a mode.
+    """
+    return LazySequence(modes.size, partial(_phases, edges, modes, name))
+
+
+def _phases(edges: FloatArray, modes: IntArray, name: Callable[[int], str], part: slice) -> list[Phase]:
+    """Return some of the stretches."""
+    return [
+        Phase(name(mode), start, end)
+        for mode, start, end in zip(modes[part].tolist(), edges[:-1][part].tolist(), edges[1:][part].tolist(), strict=True)
+    ]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,6 +126,25 @@ class Event:
     time_s: float
     before: FloatArray
     after: FloatArray
+
+
+def events_of(changes: Changes, start_s: float, name: Callable[[Change], str]) -> Sequence[Event]:
+    """Return the events of a trajectory.
+
+    Parameters
+    ----------
+    changes : Changes
+    start_s : float, s
+        When the motion begins, from the record's first sample.
+    name : callable
+        Of a change.
+    """
+    return LazySequence(len(changes), partial(_events, changes, start_s, name))
+
+
+def _events(changes: Changes, start_s: float, name: Callable[[Change], str], part: slice) -> list[Event]:
+    """Return some of the events."""
+    return [Event(name(change), start_s + change.time, change.before, change.after) for change in changes[part]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +208,7 @@ class Response(Drawn, Generic[Outcome]):
         What shook, and what stood there.
     make_histories : callable
         Makes :attr:`time` and :attr:`channels`, which are made when one of them is first asked for: a verdict needs neither.
-    phases, events : tuple
+    phases, events : sequence
         In the order of time.
     options : mapping
         Everything else that determines the answer, SI.
@@ -129,8 +225,8 @@ class Response(Drawn, Generic[Outcome]):
     motion: Motion
     body: Any
     make_histories: Callable[[], Histories] = no_histories
-    phases: tuple[Phase, ...] = ()
-    events: tuple[Event, ...] = ()
+    phases: Sequence[Phase] = ()
+    events: Sequence[Event] = ()
     options: Mapping[str, Any] = field(default_factory=dict)
     status: Status = Status.RECORD_ENDED
     warnings: tuple[str, ...] = ()
@@ -195,4 +291,4 @@ class Response(Drawn, Generic[Outcome]):
         return pd.DataFrame(self.to_columns())
 
 
-__all__ = ["Channel", "Histories", "Event", "Phase", "Response", "Status"]
+__all__ = ["Channel", "Histories", "Event", "LazySequence", "Phase", "Response", "Status", "events_of", "phases_between"]

@@ -73,8 +73,8 @@ class Kept(NamedTuple):
     path, modes : (n, n_states), (n,) arrays
         State and mode at each sample reached, counted from the first of the stretch.
     events, times, limits : (m, 4), (m,), (m, 2, n_states) arrays
-        Sample, guard, mode before and after (``EVENT_SAMPLE`` to ``EVENT_TO``); seconds after that sample; both limits of the state.
-        The loop pauses when they are half full. With no rows events are counted, without a bound.
+        The events, see :class:`~seisblock.dynamics.changes.Changes`: sample, guard, mode before and after; seconds after that sample; both
+        limits of the state. The loop pauses when they are half full. With no rows events are counted, without a bound.
     extrema : (n_tracked, 4) array
         Highest value, its time, lowest value, its time (s after sample 0), of the first states.
     tally : (n_guards, n_modes) array of int
@@ -94,8 +94,6 @@ class Kept(NamedTuple):
 
 
 TOTAL, LONGEST = range(2)
-
-EVENT_SAMPLE, EVENT_GUARD, EVENT_FROM, EVENT_TO = range(4)
 
 
 class Scratch(NamedTuple):

@@ -29,6 +29,7 @@ from seisblock.dynamics.arguments import (
     Rows,
 )
 from seisblock.dynamics.arrays import MATRIX
+from seisblock.dynamics.changes import Instant
 from seisblock.dynamics.contract import FIELDS, LANES
 from seisblock.dynamics.following import SLICE, cursor_at
 from seisblock.dynamics.halt import heed
@@ -36,7 +37,6 @@ from seisblock.dynamics.hybrid import POINTERS, go_on, make_room, room
 from seisblock.dynamics.lanes import integrate_in_lanes
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.status import FAILURES, PAUSED, Status
-from seisblock.dynamics.trajectory import Instant
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records.motion import Motion
 from seisblock.typing import ArrayLike, FloatArray, IntArray

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,10 +17,6 @@ from seisblock.dynamics import hybrid
 from seisblock.dynamics.arguments import (
     BASE,
     BEYOND,
-    EVENT_FROM,
-    EVENT_GUARD,
-    EVENT_SAMPLE,
-    EVENT_TO,
     FOUND,
     LOGGED,
     MODE,
@@ -30,15 +27,16 @@ from seisblock.dynamics.arguments import (
     Ground,
     Kept,
 )
+from seisblock.dynamics.changes import BEGINNING, EVENT_SAMPLE, Changes, Instant, bytes_each, joined_changes, room_for
 from seisblock.dynamics.halt import heed, tell_samples
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.status import FAILURES, PAUSED, TOO_MANY_EVENTS
-from seisblock.dynamics.trajectory import BEGINNING, Change, Instant, Path, Trajectory
+from seisblock.dynamics.trajectory import Path, Trajectory
 from seisblock.errors import SolverError
-from seisblock.limits import check_budget
+from seisblock.limits import check_changes
 from seisblock.records.motion import Motion, Stretch
 from seisblock.typing import ArrayLike, FloatArray, IntArray
-from seisblock.words import noted, said
+from seisblock.words import said
 
 SLICE = 1 << 16
 """Steps that compiled code takes before Python may be interrupted: 10 to 150 ms, and no more than 1e-3 of that to come back."""
@@ -50,7 +48,7 @@ _LAST_CAPACITY = 1 << 18
 _MANY, _MANY_PER_SAMPLE = 1 << 18, 4
 """Events, and of a long motion events per sample, beyond which a motion changes its mode without end."""
 
-_CHANGES = noted("changes of mode")
+Rows = TypeVar("Rows", FloatArray, IntArray)
 
 _NO_TALLY, _NO_STAYS = np.empty((0, 0), dtype=np.int64), np.empty((0, 2))
 
@@ -105,11 +103,10 @@ def follow(
     capacity = _FIRST_CAPACITY if keep_events else 0
     while True:
         cursor = cursor_at(start, mode, np.array(initial, dtype=np.float64))
-        events, times, limits = np.empty((capacity, 4), dtype=np.int64), np.empty(capacity), np.empty((capacity, 2, n_states))
-        kept = Kept(path, modes, events, times, limits, extrema, _NO_TALLY, _NO_STAYS)
-        status, changes = PAUSED, list[Change]()
+        kept = Kept(path, modes, *room_for(capacity, n_states), extrema, _NO_TALLY, _NO_STAYS)
+        status, parts = PAUSED, list[Changes]()
         for stretch in course.stretches(start.sample):
-            status = course.follow_on(stretch, cursor, kept, changes)
+            status = course.follow_on(stretch, cursor, kept, parts)
             if status != PAUSED:
                 break
         if not (status == TOO_MANY_EVENTS and cursor.place[FOUND] - cursor.place[LOGGED] == capacity < _LAST_CAPACITY):
@@ -121,16 +118,16 @@ def follow(
         at = motion.start_s + ended.sample * motion.dt + ended.tau
         raise SolverError("{name}: given up at {at:.6f} s, where {failure}", name=model.name, at=at, failure=said(FAILURES[status]))
     if keep_events:
-        check_budget(_CHANGES, found, "SEISBLOCK_EVENTS")
-        changes += _changes(kept, cursor, motion.dt)
-    logged = tuple(changes)
+        check_changes(found, bytes_each(n_states))
+        parts.append(_logged(kept, cursor, motion.dt))
+    changes = joined_changes(parts) if parts else _none(n_states)
     if keeps:
-        first = _first_kept(start)
-        whole = Path(motion.dt, first, path[first : ended.sample + 1], modes[first : ended.sample + 1], logged)
+        reached = slice(_first_kept(start), ended.sample + 1)
+        whole = Path(motion.dt, reached.start, _held(path, reached), _held(modes, reached), changes)
         walk: Callable[[], Iterator[Path]] = partial(iter, (whole,))
     else:
-        walk = partial(course.walk, start, mode, np.array(initial, dtype=np.float64), logged)
-    return Trajectory(model, motion.dt, status, logged, found, extrema, ended, cursor.state, final_mode, walk)
+        walk = partial(course.walk, start, mode, np.array(initial, dtype=np.float64), changes)
+    return Trajectory(model, motion.dt, status, changes, found, extrema, ended, cursor.state, final_mode, walk)
 
 
 def cursor_at(start: Instant, mode: int, state: FloatArray) -> Cursor:
@@ -152,7 +149,7 @@ class _Course:
         """Return the stretches of the motion from a sample on."""
         return self.motion.stretches((self.gains != 0.0).tolist(), first)
 
-    def follow_on(self, stretch: Stretch, cursor: Cursor, kept: Kept, changes: list[Change]) -> int:
+    def follow_on(self, stretch: Stretch, cursor: Cursor, kept: Kept, parts: list[Changes]) -> int:
         """Follow a trajectory on through a stretch, in slices between which Python may be interrupted; return the status.
 
         Events are taken out of their tables when these are half full; the rest of them stays there.
@@ -168,25 +165,23 @@ class _Course:
             if status == PAUSED and 2 * (cursor.place[FOUND] - cursor.place[LOGGED]) > kept.times.size > 0:
                 if cursor.place[FOUND] > max(_MANY, _MANY_PER_SAMPLE * self.motion.samples):
                     return TOO_MANY_EVENTS
-                check_budget(_CHANGES, int(cursor.place[FOUND]), "SEISBLOCK_EVENTS")
-                changes += _changes(kept, cursor, self.motion.dt)
+                check_changes(int(cursor.place[FOUND]), bytes_each(cursor.state.size))
+                parts.append(_logged(kept, cursor, self.motion.dt))
                 cursor.place[LOGGED] = cursor.place[FOUND]
             tell_samples(int(cursor.place[SAMPLE]), self.motion.samples - 1)
         return int(status)
 
-    def walk(self, start: Instant, mode: int, initial: FloatArray, changes: tuple[Change, ...]) -> Iterator[Path]:
+    def walk(self, start: Instant, mode: int, initial: FloatArray, changes: Changes) -> Iterator[Path]:
         """Yield the path that leads through some changes, piece by piece, as it is followed again."""
         cursor, first, passed = cursor_at(start, mode, initial.copy()), _first_kept(start), 0
         extrema = np.zeros((self.model.tracked, 4))
         for stretch in self.stretches(start.sample):
             size = stretch.acceleration.shape[1]
             path, modes = np.empty((size, initial.size)), np.empty(size, dtype=np.int64)
-            status = self.follow_on(stretch, cursor, Kept(path, modes, *_no_events(initial.size), extrema, _NO_TALLY, _NO_STAYS), [])
+            status = self.follow_on(stretch, cursor, Kept(path, modes, *room_for(0, initial.size), extrema, _NO_TALLY, _NO_STAYS), [])
             reached = int(cursor.place[SAMPLE])
             rows = slice(first - stretch.first, reached + 1 - stretch.first)
-            ahead = passed
-            while ahead < len(changes) and (status != PAUSED or changes[ahead].at.sample < reached):
-                ahead += 1
+            ahead = int(np.searchsorted(changes.sample, reached)) if status == PAUSED else len(changes)
             yield Path(self.motion.dt, first, path[rows], modes[rows], changes[passed:ahead])
             first, passed = reached + 1, ahead
             if status != PAUSED:
@@ -203,16 +198,20 @@ def _no_path(n_states: int) -> tuple[FloatArray, IntArray]:
     return np.empty((0, n_states)), np.empty(0, dtype=np.int64)
 
 
-def _no_events(n_states: int) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Return room for no events."""
-    return np.empty((0, 4), dtype=np.int64), np.empty(0), np.empty((0, 2, n_states))
+def _none(n_states: int) -> Changes:
+    """Return no events."""
+    log, tau, limits = room_for(0, n_states)
+    return Changes(log, tau, tau, limits)
 
 
-def _changes(kept: Kept, cursor: Cursor, dt: float) -> list[Change]:
-    """Return the events in the loop's tables."""
+def _logged(kept: Kept, cursor: Cursor, dt: float) -> Changes:
+    """Return the events in the loop's tables, whose room may then be used again."""
     count = int(cursor.place[FOUND] - cursor.place[LOGGED])
-    events, times, limits = kept.events[:count], kept.times[:count], kept.limits[:count].copy()
-    at = map(Instant._make, zip(events[:, EVENT_SAMPLE].tolist(), times.tolist(), strict=True))
-    time = (events[:, EVENT_SAMPLE] * dt + times).tolist()
-    guard, source, target = (events[:, column].tolist() for column in (EVENT_GUARD, EVENT_FROM, EVENT_TO))
-    return list(map(Change._make, zip(at, time, guard, source, target, limits[:, 0], limits[:, 1], strict=True)))
+    log, tau = kept.events[:count].copy(), kept.times[:count].copy()
+    return Changes(log, tau, log[:, EVENT_SAMPLE] * dt + tau, kept.limits[:count].copy())
+
+
+def _held(rows: Rows, reached: slice) -> Rows:
+    """Return the rows that were reached, without the room for the others where these are the most of it."""
+    found = rows[reached]
+    return found if 2 * len(found) > len(rows) else found.copy()

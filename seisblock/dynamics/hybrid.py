@@ -34,10 +34,6 @@ from seisblock.dynamics.arguments import (
     BASE,
     BEYOND,
     CURSOR,
-    EVENT_FROM,
-    EVENT_GUARD,
-    EVENT_SAMPLE,
-    EVENT_TO,
     FIRST_EVENT,
     FOUND,
     GROUND,
@@ -57,6 +53,7 @@ from seisblock.dynamics.arguments import (
     Scratch,
 )
 from seisblock.dynamics.arrays import VECTOR
+from seisblock.dynamics.changes import EVENT_FROM, EVENT_GUARD, EVENT_SAMPLE, EVENT_TO
 from seisblock.dynamics.contract import CONSTANT, OFF, RESET, SERIES, SKIP, stay
 from seisblock.dynamics.extrema import begin, keep
 from seisblock.dynamics.status import CHATTERING, NOT_FINITE, PAUSED, RECORD_ENDED, STEP_TOO_SMALL, STOPPED, TOO_MANY_EVENTS

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
+from seisblock.dynamics.changes import Changes, Instant, joined_changes
 from seisblock.limits import check_curves
 from seisblock.typing import FloatArray, IntArray
 
@@ -19,29 +20,6 @@ if TYPE_CHECKING:
     from seisblock.dynamics.model import Model
 
 Values = TypeVar("Values", FloatArray, IntArray)
-
-
-class Instant(NamedTuple):
-    """A time of a sampled motion, exact to the sample: `tau` seconds after sample number `sample`."""
-
-    sample: int = 0
-    tau: float = 0.0
-
-
-BEGINNING = Instant()
-"""The first sample."""
-
-
-class Change(NamedTuple):
-    """An event as the engine logs it; times in s after sample 0 of the motion."""
-
-    at: Instant
-    time: float
-    guard: int
-    source: int
-    target: int
-    before: FloatArray
-    after: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +33,7 @@ class Path:
         Number of the first sample.
     states, modes : (n, n_states), (n,) arrays
         State and mode at each sample.
-    changes : tuple of Change
+    changes : Changes
         Since the sample before the first; and those after the last one where the trajectory ends there.
     """
 
@@ -63,7 +41,7 @@ class Path:
     first: int
     states: FloatArray
     modes: IntArray
-    changes: tuple[Change, ...] = ()
+    changes: Changes
 
     def table(self, chosen: IntArray | None = None) -> tuple[FloatArray, FloatArray, IntArray]:
         """Return times, states and modes at the samples and at both limits of every event, in order.
@@ -85,10 +63,10 @@ class Path:
             time, states, modes = time[chosen], states[chosen], modes[chosen]
         if not self.changes:
             return time, states, modes
-        both = np.concatenate([limit for change in self.changes for limit in (change.before, change.after)])
-        kinds = np.array([mode for change in self.changes for mode in (change.source, change.target)])
-        times, order = np.repeat([change.time for change in self.changes], 2), self._order(chosen)
-        return _woven(time, times, order), _woven(states, both.reshape(-1, states.shape[1]), order), _woven(modes, kinds, order)
+        both = self.changes.limits.reshape(-1, states.shape[1])
+        kinds = np.stack([self.changes.source, self.changes.target], axis=1).ravel()
+        times, order = np.repeat(self.changes.time, 2), self._order(chosen)
+        return _woven(time, times, order), _woven(states, both, order), _woven(modes, kinds, order)
 
     def numbers(self, chosen: IntArray) -> IntArray:
         """Return which rows of the whole table those of :meth:`table` at some samples are, (m,)."""
@@ -103,8 +81,7 @@ class Path:
         at_samples: FloatArray = self.states[:, state]
         if not self.changes:
             return at_samples
-        both = np.array([limit[state] for change in self.changes for limit in (change.before, change.after)])
-        return _woven(at_samples, both, self._order())
+        return _woven(at_samples, self.changes.limits[:, :, state].ravel(), self._order())
 
     def sampled(self, values: FloatArray, chosen: IntArray | None = None) -> FloatArray:
         """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
@@ -113,14 +90,13 @@ class Path:
             part = part[chosen]
         if not self.changes:
             return part
-        at = np.array([change.at.sample for change in self.changes])
-        share = np.array([change.at.tau for change in self.changes]) / self.dt
+        at, share = self.changes.sample, self.changes.tau / self.dt
         there = values[at] + share * (values[np.minimum(at + 1, values.size - 1)] - values[at])
         return _woven(part, np.repeat(there, 2), self._order(chosen))
 
     def _places(self) -> IntArray:
         """Return before which sample of the path each limit of each event stands."""
-        at = np.array([change.at.sample for change in self.changes]) + 1 - self.first
+        at = self.changes.sample + 1 - self.first
         return np.clip(np.repeat(at, 2), 0, self.modes.size)
 
     def _order(self, chosen: IntArray | None = None) -> IntArray:
@@ -143,7 +119,7 @@ def joined(paths: Iterable[Path]) -> Path:
         return parts[0]
     states = np.concatenate([part.states for part in parts])
     modes = np.concatenate([part.modes for part in parts])
-    return Path(parts[0].dt, parts[0].first, states, modes, tuple(change for part in parts for change in part.changes))
+    return Path(parts[0].dt, parts[0].first, states, modes, joined_changes([part.changes for part in parts]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +129,7 @@ class Trajectory:
     Parameters
     ----------
     model, dt, status : Model, float, int
-    changes : tuple of Change
+    changes : Changes
     n_changes : int
         How many there were, kept or not.
     extrema : (n_tracked, 4) array
@@ -167,7 +143,7 @@ class Trajectory:
     model: Model
     dt: float
     status: int
-    changes: tuple[Change, ...]
+    changes: Changes
     n_changes: int
     extrema: FloatArray
     end: Instant

@@ -127,10 +127,39 @@ def test_more_changes_of_mode_than_the_tables_hold(monkeypatch):
 
 
 def test_changes_of_mode_without_end_are_refused(monkeypatch):
-    """Each of them takes memory: the number is said, and what lifts the limit."""
-    monkeypatch.setenv("SEISBLOCK_EVENTS", "600")
-    with pytest.raises(ParameterError, match="changes of mode, and 600 are allowed: ask for fewer, or set SEISBLOCK_EVENTS to allow more"):
-        seisblock.solve_slide(0.05, NOISE)
+    """Each of them takes memory: how much is said, and what lifts the limit."""
+    monkeypatch.setenv("SEISBLOCK_CHANGES_MIB", "1")
+    noise = Motion.from_arrays(np.random.default_rng(1).normal(size=40_000), 0.01)
+    with pytest.raises(ParameterError, match=r"^\d+ changes of mode take 2 MiB, and 1 may be taken: .* set SEISBLOCK_CHANGES_MIB to"):
+        seisblock.solve_slide(0.05, noise)
+
+
+BYTES_AN_EVENT = 300.0
+"""What a change of mode of a sliding object may take at the peak: 112 in the columns, as much again while they are joined."""
+
+
+def test_a_change_of_mode_is_a_row_of_columns(monkeypatch):
+    """The slope between two lengths of noise: an object for each event, and one for each phase, took 0.8 kB."""
+    monkeypatch.setattr("seisblock.records.motion.LONG", 100)
+    peaks, counts = [], []
+    for samples in (20_000, 40_000):
+        motion = Motion.from_arrays(np.random.default_rng(1).normal(size=samples), 0.01)
+        tracemalloc.start()
+        try:
+            counts.append(len(seisblock.solve_slide(0.05, motion).events))
+            peaks.append(tracemalloc.get_traced_memory()[1])
+        finally:
+            tracemalloc.stop()
+    assert (peaks[1] - peaks[0]) / (counts[1] - counts[0]) < BYTES_AN_EVENT
+
+
+def test_short_trajectories_of_a_long_motion_hold_what_they_reached():
+    """`jump` follows many chains: each took room for the whole motion (7 GB of a million samples of noise)."""
+    motion = Motion.from_arrays(np.concatenate([np.full(300, 4.0), np.zeros(50_000)]), 0.01)
+    response = seisblock.solve_rock(Block(0.1, 0.9), motion)
+    path = next(response.make_histories.args[-1].walk())
+    assert response.outcome.overturned and 0 < len(path.states) < 100
+    assert path.states.base is None and path.modes.base is None
 
 
 SHORTER, LONGER, LEAST = 2**17, 2**18, 8.0

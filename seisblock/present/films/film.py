@@ -78,7 +78,7 @@ class Film:
     heading: str = ""
     note: str = ""
     direction: str = ""
-    phases: tuple[Phase, ...] = ()
+    phases: Sequence[Phase] = ()
     colours: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property

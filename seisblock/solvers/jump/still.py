@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from seisblock.dynamics import Change, Instant, Model, Path, Trajectory, follow
+from seisblock.dynamics import Instant, Model, Path, Trajectory, follow
 from seisblock.records import Motion
 from seisblock.typing import ArrayLike
 
@@ -50,14 +50,11 @@ def _later(part: Trajectory, samples: int) -> Trajectory:
     extrema = part.extrema.copy()
     extrema[:, 1::2] += seconds
 
-    def later(changes: Iterable[Change]) -> tuple[Change, ...]:
-        return tuple(c._replace(at=Instant(c.at.sample + samples, c.at.tau), time=c.time + seconds) for c in changes)
-
     def walk() -> Iterator[Path]:
-        return (replace(path, first=path.first + samples, changes=later(path.changes)) for path in part.walk())
+        return (replace(path, first=path.first + samples, changes=path.changes.later(samples, seconds)) for path in part.walk())
 
     end = Instant(part.end.sample + samples, part.end.tau)
-    return replace(part, walk=walk, extrema=extrema, changes=later(part.changes), end=end)
+    return replace(part, walk=walk, extrema=extrema, changes=part.changes.later(samples, seconds), end=end)
 
 
 def _joined(one: Trajectory, two: Trajectory) -> Trajectory:

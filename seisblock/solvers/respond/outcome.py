@@ -8,7 +8,7 @@ from typing import TypedDict
 
 import numpy as np
 
-from seisblock.dynamics import Change
+from seisblock.dynamics import Changes
 from seisblock.results import Phase, Status
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import Run
@@ -118,10 +118,10 @@ def mode_change(time_s: float, mode: int) -> ModeChange:
 def mode_changes(run: Run, start_s: float) -> list[ModeChange]:
     """Return the changes of mode; an impact after which the mode is the same is none."""
     found: list[ModeChange] = []
-    for time, change in run.changes():
-        if change.target == names.GAVE_UP:
+    for time, target in zip(run.changes.time.tolist(), run.changes.target.tolist(), strict=True):
+        if target == names.GAVE_UP:
             continue
-        entry = mode_change(start_s + time, change.target)
+        entry = mode_change(start_s + time, target)
         if not found or any(found[-1][key] != entry[key] for key in ("mode", "corner", "slip")):
             found.append(entry)
     return found
@@ -161,7 +161,7 @@ def gather(run: Run, setting: Setting, start_s: float, sensitive: bool | None) -
     overturned = run.mode == names.OVERTURNED
     highest, lowest = run.extrema(names.THETA)
     ahead, behind = run.extrema(names.X)
-    released = [time for time, change in run.changes() if change.guard == names.RELEASE and change.target == names.FLIGHT]
+    released = run.changes.time[(run.changes.guard == names.RELEASE) & (run.changes.target == names.FLIGHT)]
     return RespondOutcome(
         outcome=in_words(run, {event["mode"] for event in events}),
         overturned=overturned,
@@ -172,7 +172,7 @@ def gather(run: Run, setting: Setting, start_s: float, sensitive: bool | None) -
         final_displacement_m=float(final[names.X]),
         max_displacement_m=max(ahead, -behind),
         slip_path_m=float(final[names.PATH]),
-        flights=sum(_leaves_ground(change) for _, change in run.changes()),
+        flights=_flights(run.changes),
         impacts=int(final[names.IMPACTS]),
         time_in_mode_s=time,
         energy_friction_j=mass * float(final[names.FRICTION]),
@@ -184,15 +184,15 @@ def gather(run: Run, setting: Setting, start_s: float, sensitive: bool | None) -
         end_s=end_s,
         jams=int(final[names.JAMS]),
         ratios_lowered=int(final[names.LOWERED]),
-        tenon_left_s=start_s + released[0] if released else None,
+        tenon_left_s=float(start_s + released[0]) if released.size else None,
     )
 
 
-def _leaves_ground(change: Change) -> bool:
-    """Whether an event begins a flight, be it by a rebound."""
-    if change.target < 0 or change.target % names.HELD != names.FLIGHT:
-        return False
-    return change.source % names.HELD != names.FLIGHT or bool(change.after[names.IMPACTS] > change.before[names.IMPACTS])
+def _flights(changes: Changes) -> int:
+    """Return how many events begin a flight, be it by a rebound."""
+    flies = (changes.target >= 0) & (changes.target % names.HELD == names.FLIGHT)
+    rebounds = changes.after[:, names.IMPACTS] > changes.before[:, names.IMPACTS]
+    return int(np.count_nonzero(flies & ((changes.source % names.HELD != names.FLIGHT) | rebounds)))
 
 
 def status(run: Run) -> Status:

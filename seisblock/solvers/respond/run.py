@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from seisblock.dynamics import Change, Instant, Trajectory, follow
+from seisblock.dynamics import Changes, Instant, Trajectory, follow
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.respond import names
@@ -88,13 +87,10 @@ class Run:
         tables = [part.extrema[state] for part in (self.shaken, self.after) if part is not None]
         return max(float(table[0]) for table in tables), min(float(table[2]) for table in tables)
 
-    def changes(self) -> Iterator[tuple[float, Change]]:
-        """Yield every event with its time, s after the first sample."""
-        for change in self.shaken.changes:
-            yield change.time, change
-        if self.after is not None:
-            for change in self.after.changes:
-                yield self.duration_s + change.time, change
+    @functools.cached_property
+    def changes(self) -> Changes:
+        """Every event; times in s after the first sample."""
+        return self.shaken.changes if self.after is None else self.shaken.changes + self.after.changes.later(0, self.duration_s)
 
     def table(self) -> tuple[FloatArray, FloatArray, IntArray]:
         """Return times, s after the first sample, states and modes, at samples and both limits of every event."""

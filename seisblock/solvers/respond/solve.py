@@ -11,13 +11,13 @@ from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_call
 from seisblock.references import papers
-from seisblock.results import Channel, Histories, Response
+from seisblock.results import Channel, Histories, Response, events_of
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.curves import curves
 from seisblock.solvers.respond.outcome import RespondOutcome, gather, motion_modes, phases, status
 from seisblock.solvers.respond.run import Run, check_settling, run
 from seisblock.solvers.respond.setting import Body, Initial, Setting, gains, stand
-from seisblock.solvers.respond.tale import event_log, warnings
+from seisblock.solvers.respond.tale import event_name, warnings
 from seisblock.units import STANDARD_GRAVITY
 
 NUDGE = 1e-6
@@ -145,7 +145,7 @@ def solve_respond(
         block,
         partial(_curves, found, setting, motion, factors),
         phases(outcome.events, outcome.end_s),
-        event_log(found, motion.start_s),
+        events_of(found.changes, motion.start_s, event_name),
         options,
         status(found),
         warnings(found, setting, outcome.end_s, settle_s),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from seisblock.dynamics import Change
-from seisblock.results import Event
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import Run
 from seisblock.solvers.respond.setting import Setting
@@ -54,11 +53,6 @@ def event_name(change: Change) -> str:
     if change.after[names.IMPACTS] > change.before[names.IMPACTS]:
         return noted("landing") if change.source % names.HELD == names.FLIGHT else noted("impact")
     return BEGINS[names.MODES[change.target]]
-
-
-def event_log(run: Run, start_s: float) -> tuple[Event, ...]:
-    """Return every event with both limits of the state."""
-    return tuple(Event(event_name(change), start_s + time, change.before, change.after) for time, change in run.changes())
 
 
 def warnings(run: Run, setting: Setting, end_s: float, settle_s: float) -> tuple[str, ...]:

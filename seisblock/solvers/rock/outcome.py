@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from seisblock.dynamics import Change, Trajectory
 from seisblock.records import Motion
-from seisblock.results import Phase
+from seisblock.results import Phase, phases_between
 from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate
 from seisblock.solvers.rock.forces import demand
@@ -92,15 +95,16 @@ def friction_suffices(outcome: RockOutcome, mu: float, gravity: float) -> bool:
 def gather(block: Rocker, motion: Motion, trajectory: Trajectory, after: Fate | None) -> RockOutcome:
     """Gather the outcome from the trajectory and what follows it."""
     changes = trajectory.changes
-    starts = [c.time for c in changes if c.source == model.REST]
-    impacts = sum(c.source in (model.TO_RIGHT, model.TO_LEFT) and c.guard == model.DOWN for c in changes)
-    passed = [c.time for c in changes if c.target in (model.BEYOND_RIGHT, model.BEYOND_LEFT)]
+    source, target = changes.source, changes.target
+    starts = changes.time[source == model.REST]
+    impacts = ((source == model.TO_RIGHT) | (source == model.TO_LEFT)) & (changes.guard == model.DOWN)
+    passed = changes.time[(target == model.BEYOND_RIGHT) | (target == model.BEYOND_LEFT)]
     late = after or STANDING
     overturned = trajectory.final_mode == model.OVERTURNED or late.overturns
     overturning = trajectory.end_time + (late.overturns_s or 0.0)
     falls = None
     if overturned:
-        falls = passed[-1] if passed else 0.0
+        falls = float(passed[-1]) if passed.size else 0.0
         if late.overturns and trajectory.final_mode in (model.TO_RIGHT, model.TO_LEFT):
             falls = trajectory.end_time + (late.passes_alpha_s or 0.0)
     high, high_s, low, low_s = trajectory.extrema[model.THETA]
@@ -108,7 +112,7 @@ def gather(block: Rocker, motion: Motion, trajectory: Trajectory, after: Fate | 
     lean = max(largest)
     when = high_s if lean == high else low_s if lean == -low else None
     need = demand(block, motion, trajectory, until_s=math.inf if falls is None else falls)
-    moved = bool(starts) or not (trajectory.final_mode == model.REST and not changes)
+    moved = bool(starts.size) or not (trajectory.final_mode == model.REST and not changes)
 
     def at(moment: float | None) -> float | None:
         return None if moment is None else float(motion.start_s + moment)
@@ -118,11 +122,11 @@ def gather(block: Rocker, motion: Motion, trajectory: Trajectory, after: Fate | 
         towards = "+x" if (late.towards if after else trajectory.final[model.THETA]) > 0 else "-x"
     return RockOutcome(
         rocks=moved,
-        rocking_start_s=at(starts[0] if starts else 0.0) if moved else None,
+        rocking_start_s=at(starts[0] if starts.size else 0.0) if moved else None,
         max_rotation_rad=float(lean),
         max_rotation_ratio=float(max(lean / alpha for lean, alpha in zip(largest, block.alphas, strict=True))),
         max_rotation_s=at(when) if moved else None,
-        impacts=impacts,
+        impacts=int(np.count_nonzero(impacts)),
         overturned=overturned,
         overturning_time_s=at(overturning) if overturned else None,
         alpha_passed_s=at(falls),
@@ -152,18 +156,13 @@ def event_name(change: Change) -> str:
     return "comes to rest" if change.target == model.REST else "impact"
 
 
-def phases(trajectory: Trajectory, start_s: float) -> tuple[Phase, ...]:
+def phases(trajectory: Trajectory, start_s: float) -> Sequence[Phase]:
     """Return the stretches of one mode each."""
     changes = trajectory.changes
-    if not changes:
-        return (Phase(model.MODES[trajectory.final_mode], start_s, start_s + trajectory.end_time),)
-    edges = [0.0, *(c.time for c in changes), trajectory.end_time]
-    modes = [changes[0].source, *(c.target for c in changes)]
-    return tuple(
-        Phase(model.MODES[mode], start_s + first, start_s + last)
-        for mode, first, last in zip(modes, edges, edges[1:], strict=False)
-        if mode != model.OVERTURNED
-    )
+    modes = np.append(changes.source[:1] if changes else trajectory.final_mode, changes.target)
+    count = modes.size - int(modes[-1] == model.OVERTURNED)  # which ends the motion
+    edges = np.concatenate([[0.0], changes.time, [trajectory.end_time]])
+    return phases_between(start_s + edges[: count + 1], modes[:count], model.MODES.__getitem__)
 
 
 def warnings(block: Rocker, outcome: RockOutcome) -> tuple[Said, ...]:

@@ -11,7 +11,7 @@ from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.records.given import Factor
 from seisblock.references import papers
-from seisblock.results import Channel, Event, Histories, Response, Status
+from seisblock.results import Channel, Histories, Response, Status, events_of
 from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate, fate
 from seisblock.solvers.rock.outcome import RockOutcome, event_name, gather, phases, warnings
@@ -87,7 +87,7 @@ def solve_rock(
         block,
         partial(_curves, one, motion, trajectory),
         phases(trajectory, motion.start_s),
-        tuple(Event(event_name(c), motion.start_s + c.time, c.before, c.after) for c in trajectory.changes),
+        events_of(trajectory.changes, motion.start_s, event_name),
         {"restitution": restitution, "linear": linear, "vertical": one.vertical, "gravity_m_s2": gravity},
         Status(trajectory.status),
         warnings(one, outcome),

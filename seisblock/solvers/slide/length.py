@@ -14,9 +14,9 @@ from seisblock.typing import FloatArray
 def length_slid(trajectory: Trajectory) -> float:
     """Return the length of the path slid, m: the slip turns at events alone, but in flight, where it is looked at between samples, too."""
     changes = trajectory.changes
-    if any(change.target % LEVEL == FLIGHT for change in changes):
+    if (changes.target % LEVEL == FLIGHT).any():
         return _length_between_samples(trajectory)
-    slip = np.array([change.before[SLIP] for change in changes] + [trajectory.final[SLIP]])
+    slip = np.append(changes.before[:, SLIP], trajectory.final[SLIP])
     return math.fsum(np.abs(np.diff(slip, prepend=0.0)).tolist())
 
 

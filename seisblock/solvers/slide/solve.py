@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import NoReturn
@@ -16,10 +17,11 @@ from seisblock.errors import ParameterError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import UP, Motion
 from seisblock.references import papers
-from seisblock.results import Channel, Event, Histories, Phase, Response, Status
+from seisblock.results import Channel, Histories, Phase, Response, Status, events_of, phases_between
 from seisblock.solvers.slide.length import length_slid
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
+from seisblock.typing import BoolArray, IntArray
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import Said, noted, said
 
@@ -147,7 +149,7 @@ def solve_slide(
         base,
         partial(_curves, motion, base, gains[UP], gravity, trajectory),
         _phases(trajectory, motion),
-        _events(trajectory.changes, motion.start_s),
+        events_of(trajectory.changes, motion.start_s, _event_name),
         options,
         Status(trajectory.status),
         tuple(_warnings(outcome, motion)),
@@ -176,7 +178,7 @@ def _outcome(trajectory: Trajectory, motion: Motion, p: tuple[float, ...]) -> Sl
     changes = trajectory.changes
     highest, highest_time, lowest, lowest_time = (float(value) for value in trajectory.extrema[0])
     slip, at = (highest, highest_time) if highest >= -lowest else (-lowest, lowest_time)
-    begins = [c for c in changes if c.guard != FOOT and _slides(c.target)]
+    begins = changes.source[(changes.guard != FOOT) & _slides(changes.target)]
     moving = trajectory.final_mode % LEVEL != STICK
     rest = slip_at_rest(trajectory.final.tolist(), trajectory.final_mode, p)
     return SlideOutcome(
@@ -188,22 +190,18 @@ def _outcome(trajectory: Trajectory, motion: Motion, p: tuple[float, ...]) -> Sl
         residual_slip_m=float(trajectory.final[SLIP]),
         final_slip_m=rest if math.isfinite(rest) else None,
         slip_count=len(begins),
-        reversals=sum(_slides(c.source) for c in begins),
+        reversals=int(np.count_nonzero(_slides(begins))),
         path_m=length_slid(trajectory),
-        fell_off_slope=any(_left_slope(c) for c in changes),
-        lifted_off=any(c.target % LEVEL == FLIGHT for c in changes),
+        fell_off_slope=bool(((changes.source < LEVEL) & (changes.target >= LEVEL)).any()),  # beyond its foot, and was not before
+        lifted_off=bool((changes.target % LEVEL == FLIGHT).any()),
         slides_at_end=moving,
     )
 
 
-def _slides(mode: int) -> bool:
-    """Whether the object slides, in contact, in a mode."""
-    return mode % LEVEL in (FORWARD, BACKWARD)
-
-
-def _left_slope(change: Change) -> bool:
-    """Whether the object is beyond the foot of the slope after an event, and was not before."""
-    return change.source < LEVEL <= change.target
+def _slides(modes: IntArray) -> BoolArray:
+    """Return whether the object slides, in contact, in some modes."""
+    kinds = modes % LEVEL
+    return (kinds == FORWARD) | (kinds == BACKWARD)
 
 
 def _warnings(outcome: SlideOutcome, motion: Motion) -> list[Said]:
@@ -228,20 +226,12 @@ def _warnings(outcome: SlideOutcome, motion: Motion) -> list[Said]:
     return found
 
 
-def _phases(trajectory: Trajectory, motion: Motion) -> tuple[Phase, ...]:
+def _phases(trajectory: Trajectory, motion: Motion) -> Sequence[Phase]:
     """Return the stretches of stick, slip and flight; passing the foot does not end a slip."""
-    names = SLIDE.modes
-    bounds = [(0.0, names[STICK])]
-    for change in trajectory.changes:
-        if names[change.target] != bounds[-1][1] or change.guard != FOOT:
-            bounds.append((change.time, names[change.target]))
-    ends = [start for start, _ in bounds[1:]] + [trajectory.end_time]
-    return tuple(Phase(name, motion.start_s + start, motion.start_s + end) for (start, name), end in zip(bounds, ends, strict=True))
-
-
-def _events(changes: tuple[Change, ...], start_s: float) -> tuple[Event, ...]:
-    """Return the events with their names."""
-    return tuple(Event(_event_name(change), start_s + change.time, change.before, change.after) for change in changes)
+    changes = trajectory.changes
+    begins = (changes.guard != FOOT) | (changes.source % LEVEL != changes.target % LEVEL)
+    edges = np.concatenate([[0.0], changes.time[begins], [trajectory.end_time]])
+    return phases_between(motion.start_s + edges, np.append(STICK, changes.target[begins]), SLIDE.modes.__getitem__)
 
 
 def _event_name(change: Change) -> str:

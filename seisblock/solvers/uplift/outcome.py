@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from seisblock.bodies.spring_block import SpringBlock
-from seisblock.dynamics import Trajectory
+from seisblock.dynamics import Changes, Trajectory
 from seisblock.records.motion import Motion
-from seisblock.results import Phase
+from seisblock.results import Event, LazySequence, Phase, phases_between
 from seisblock.solvers.uplift.model import WHOLE_BASE, F, U, contact_name, rotations
 from seisblock.solvers.uplift.modes import natural_modes
-from seisblock.typing import BoolArray, FloatArray
+from seisblock.typing import BoolArray, FloatArray, IntArray
 from seisblock.words import Said, said
 
 SMALL = 0.1
@@ -124,10 +126,15 @@ def largest_rotations(trajectory: Trajectory, body: SpringBlock) -> tuple[float,
     return largest
 
 
+def _contact_states(trajectory: Trajectory) -> tuple[FloatArray, IntArray]:
+    """Return when contact states begin, and the last one ends, (m + 1,), s after sample 0, and which they are, (m,)."""
+    changes = trajectory.changes
+    return np.concatenate([[0.0], changes.time, [trajectory.end_time]]), np.append(WHOLE_BASE, changes.target)
+
+
 def _contacts(trajectory: Trajectory) -> tuple[FloatArray, BoolArray]:
     """Return the lengths of the contact states, (m,), s, and which corners are in the air in each, (m, 4)."""
-    edges = np.array([0.0, *(change.time for change in trajectory.changes), trajectory.end_time])
-    modes = np.array([WHOLE_BASE, *(change.target for change in trajectory.changes)])
+    edges, modes = _contact_states(trajectory)
     return np.diff(edges), (modes[:, None] >> np.arange(4) & 1) == 0
 
 
@@ -150,7 +157,7 @@ def gather(
         uplift_duration_s=float(lengths[held < 4].sum()),
         max_contact_force_n=force,
         max_contact_force_ratio=force / body.static_corner_force(gravity),
-        contact_changes=sum((c.source ^ c.target).bit_count() for c in trajectory.changes),
+        contact_changes=_of_corners(trajectory.changes)[0].size,
         share_on_corners={str(n): float(lengths[held == n].sum() / lengths.sum()) for n in (4, 3, 2, 1, 0)},
         uplift_scale=scale,
         max_rotation_rad=rotation,
@@ -163,7 +170,8 @@ def gather(
 
 def _corner(i: int, body: SpringBlock, motion: Motion, trajectory: Trajectory, lengths: FloatArray, in_air: BoolArray) -> CornerOutcome:
     """Return what one corner did."""
-    lifts = [motion.start_s + c.time for c in trajectory.changes if c.source >> i & 1 and not c.target >> i & 1]
+    changes = trajectory.changes
+    lifts = changes.time[(changes.source & ~changes.target) >> i & 1 == 1]
     # one stretch in the air may hold many changes of the other corners
     stretch = np.cumsum(np.append(False, in_air[1:] & ~in_air[:-1]))
     stretches = np.bincount(stretch[in_air], lengths[in_air]) if in_air.any() else np.zeros(1)
@@ -171,8 +179,8 @@ def _corner(i: int, body: SpringBlock, motion: Motion, trajectory: Trajectory, l
     force, force_at = trajectory.extrema[F + i, :2]
     return CornerOutcome(
         corner=i + 1,
-        uplifts=bool(lifts),
-        first_uplift_s=lifts[0] if lifts else None,
+        uplifts=bool(lifts.size),
+        first_uplift_s=float(motion.start_s + lifts[0]) if lifts.size else None,
         uplift_duration_s=float(lengths[in_air].sum()),
         longest_uplift_s=float(stretches.max()),
         max_uplift_m=float(highest),
@@ -182,14 +190,30 @@ def _corner(i: int, body: SpringBlock, motion: Motion, trajectory: Trajectory, l
     )
 
 
-def phases(motion: Motion, trajectory: Trajectory) -> tuple[Phase, ...]:
+def phases(motion: Motion, trajectory: Trajectory) -> Sequence[Phase]:
     """Return the contact states in the order of time."""
-    edges = [0.0, *(change.time for change in trajectory.changes), trajectory.end_time]
-    modes = [WHOLE_BASE, *(change.target for change in trajectory.changes)]
-    return tuple(
-        Phase(contact_name(mode), motion.start_s + start, motion.start_s + end)
-        for mode, start, end in zip(modes, edges[:-1], edges[1:], strict=True)
-    )
+    edges, modes = _contact_states(trajectory)
+    return phases_between(motion.start_s + edges, modes, contact_name)
+
+
+def events(motion: Motion, changes: Changes) -> Sequence[Event]:
+    """Return what each corner did, one event for each that lifts or lands."""
+    which, corner = _of_corners(changes)
+    return LazySequence(which.size, partial(_events, motion.start_s, changes, which, corner))
+
+
+def _events(start_s: float, changes: Changes, which: IntArray, corner: IntArray, part: slice) -> list[Event]:
+    """Return some of the events."""
+    return [
+        Event(f"corner {i + 1} {'lands' if c.target >> i & 1 else 'lifts'}", start_s + c.time, c.before, c.after)
+        for c, i in zip(map(changes.__getitem__, which[part].tolist()), corner[part].tolist(), strict=True)
+    ]
+
+
+def _of_corners(changes: Changes) -> tuple[IntArray, IntArray]:
+    """Return the changes in which a corner lifts or lands, and which it is, from 0; one that several corners share stands once for each."""
+    which, corner = np.nonzero((changes.source ^ changes.target)[:, None] >> np.arange(4) & 1)
+    return which, corner
 
 
 def warnings(motion: Motion, lean: float, rise: float, again: float) -> tuple[Said, ...]:

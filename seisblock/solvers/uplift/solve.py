@@ -10,9 +10,9 @@ from seisblock.dynamics import Trajectory, follow
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
-from seisblock.results import Channel, Event, Histories, Response, Status
+from seisblock.results import Channel, Histories, Response, Status
 from seisblock.solvers.uplift.model import GLUED, UPLIFT, UPLIFT_AGAIN, WHOLE_BASE, F, U, X, Y, at_rest, parameters, rotations
-from seisblock.solvers.uplift.outcome import UpliftOutcome, gather, highest, largest_rotations, phases, warnings
+from seisblock.solvers.uplift.outcome import UpliftOutcome, events, gather, highest, largest_rotations, phases, warnings
 from seisblock.units import STANDARD_GRAVITY
 
 ROUND_OFF = 1e-12
@@ -76,12 +76,7 @@ def solve_uplift(
         body=body,
         make_histories=partial(_curves, body, motion, trajectory),
         phases=phases(motion, trajectory),
-        events=tuple(
-            Event(f"corner {i + 1} {'lands' if c.target >> i & 1 else 'lifts'}", motion.start_s + c.time, c.before, c.after)
-            for c in trajectory.changes
-            for i in range(4)
-            if (c.source ^ c.target) >> i & 1
-        ),
+        events=events(motion, trajectory.changes),
         options={"vertical": gains[2], "gravity_m_s2": gravity},
         status=Status(trajectory.status),
         warnings=warnings(motion, lean, highest(trajectory), highest(again)),
