@@ -45,7 +45,7 @@ def pytest_configure(config):
 
 
 ROOMS = ("seisblock.dynamics", "seisblock.solvers.respond", "seisblock.solvers.jump", "seisblock.solvers.stack")
-ROOMS += ("seisblock.solvers.slide", "seisblock.solvers.rock", "seisblock.solvers.uplift", "seisblock.measures")
+ROOMS += ("seisblock.solvers.slide", "seisblock.solvers.rock", "seisblock.solvers.uplift", "seisblock.measures", "seisblock.records")
 """Where kernels are, in such an order that two workers who take turns have as much to compile."""
 
 WHOLE_RUN = 1000

@@ -18,7 +18,7 @@ from seisblock.words import Said, said
 
 Compiled = TypeVar("Compiled")
 
-KERNELS = ("_jit", "dynamics", "measures", "solvers")
+KERNELS = ("_jit", "dynamics", "measures", "records", "solvers")
 """Packages that define kernels, or say how they are compiled."""
 
 UNREADABLE = (

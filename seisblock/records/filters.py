@@ -5,11 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock.errors import ParameterError
-from seisblock.limits import AT_A_TIME
+from seisblock.records.butterworth import highpass_sections, run_sections
 from seisblock.typing import FloatArray
-
-HIGHPASS_ORDER = 4
-"""Order of the Butterworth high-pass; passed forwards and backwards it acts like one of twice that order, without delay."""
 
 PADDING_PERIODS = 5.0
 """Length of the padding at each end, in corner periods: the filter's slowest transient has died to 1e-5 by then."""
@@ -47,13 +44,10 @@ def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArr
     ParameterError
         If the corner lies outside that range, or is so low that the padding would exceed ``MOST_PADDING`` samples.
     """
-    from scipy.signal import sosfilt_zi
-
     sections, pad = _design(dt, hz)
     row = _extended(_levelled(acceleration, dt, hz), pad, pad)
-    settled = sosfilt_zi(sections)
-    for direction in (row, row[::-1]):
-        _filter(sections, direction, settled * direction[0])
+    for backwards in (False, True):
+        run_sections(sections, row, settled=True, backwards=backwards)
     return row[pad : pad + acceleration.size]
 
 
@@ -79,7 +73,7 @@ def causal_highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> F
     """
     sections, pad = _design(dt, hz)
     row = _extended(_levelled(acceleration, dt, hz), pad, 0)
-    _filter(sections, row, np.zeros((len(sections), 2)))
+    run_sections(sections, row, settled=False)
     return row[pad:]
 
 
@@ -121,19 +115,8 @@ def _levelled(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
     return np.subtract(acceleration, line, out=line)
 
 
-def _filter(sections: FloatArray, row: FloatArray, state: FloatArray) -> None:
-    """Filter a row of samples in its place, piece by piece, from a state of the filter."""
-    from scipy.signal import sosfilt
-
-    for begin in range(0, row.size, AT_A_TIME):
-        piece = row[begin : begin + AT_A_TIME]
-        piece[:], state = sosfilt(sections, piece, zi=state)
-
-
 def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
     """Return the sections of the filter, and how many samples its transients need to die."""
-    from scipy.signal import butter
-
     nyquist = 0.5 / dt
     if not (np.isfinite(hz) and 0 < hz < nyquist):
         raise ParameterError(
@@ -150,7 +133,7 @@ def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
             most=MOST_PADDING,
             least=least,
         )
-    return butter(HIGHPASS_ORDER, hz, btype="highpass", fs=1.0 / dt, output="sos"), int(pad)
+    return highpass_sections(dt, hz), int(pad)
 
 
 def _extended(samples: FloatArray, before: int, after: int) -> FloatArray:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.signal import sosfiltfilt
+from scipy.signal import butter, sosfilt
 
 from seisblock.measures import peaks, spectra
 from seisblock.measures.baseline import ground_history
-from seisblock.records import filters, integrals
+from seisblock.records import butterworth, filters, integrals
 
 DT = 0.01
 ROW = np.random.default_rng(5).standard_normal(5000) + 0.2
@@ -17,7 +17,7 @@ ROW = np.random.default_rng(5).standard_normal(5000) + 0.2
 @pytest.fixture
 def small_pieces(monkeypatch):
     """Let a piece be some dozens of samples, which divide no length here."""
-    for module in (filters, integrals, peaks):
+    for module in (butterworth, integrals, peaks):
         monkeypatch.setattr(module, "AT_A_TIME", 77)
 
 
@@ -32,13 +32,35 @@ def test_integrals_to_the_bit(small_pieces, monkeypatch):
     np.testing.assert_array_equal(found[0], velocity)
 
 
+SAME = 1e-12
+"""Round-off of a filter, over the largest sample that goes in: one that contracts its products differs by so much."""
+
+
+@pytest.mark.kernel
 @pytest.mark.parametrize("hz", [0.5, 0.02])
-def test_the_high_pass_is_scipys_to_the_bit(small_pieces, hz):
-    """Forwards and backwards with the state of the filter carried on; padding shorter and longer than the record."""
+def test_the_high_pass_is_scipys(small_pieces, hz):
+    """Forwards and backwards with the memory carried on from piece to piece; padding shorter and longer than the record."""
     sections, pad = filters._design(DT, hz)
-    level = ROW - filters.end_line(ROW, DT, hz)
-    expected = sosfiltfilt(sections, filters._extended(level, pad, pad), padtype=None)[pad : pad + ROW.size]
-    np.testing.assert_array_equal(filters.highpass_samples(ROW, DT, hz), expected)
+    theirs = np.array([[gain, -2.0 * gain, gain, 1.0, first, second] for gain, first, second in sections])
+    np.testing.assert_allclose(theirs, butter(4, hz, "highpass", fs=1.0 / DT, output="sos"), rtol=0.0, atol=1e-15)
+    row = filters._extended(ROW - filters.end_line(ROW, DT, hz), pad, pad)
+    rest = theirs[0, 0] * np.array([[-1.0, 1.0], [0.0, 0.0]])  # of a constant nothing is left
+    for _ in range(2):
+        row = sosfilt(theirs, row, zi=rest * row[0])[0][::-1]
+    expected = row[pad : pad + ROW.size]
+    np.testing.assert_allclose(filters.highpass_samples(ROW, DT, hz), expected, rtol=0.0, atol=SAME * np.abs(ROW).max())
+    forwards = filters._extended(ROW - filters.end_line(ROW, DT, hz), pad, 0)
+    expected = sosfilt(theirs, forwards)[pad:]
+    np.testing.assert_allclose(filters.causal_highpass_samples(ROW, DT, hz), expected, rtol=0.0, atol=SAME * np.abs(ROW).max())
+
+
+@pytest.mark.parametrize("dt", [0.001, 0.005, 0.01, 0.02])
+@pytest.mark.parametrize("share", [1e-4, 0.01, 0.3, 0.98])
+def test_the_sections_are_scipys(dt, share):
+    """The design by hand is that of scipy, from a corner far below half the sampling rate to one that touches it."""
+    hz = share * 0.5 / dt
+    found = np.array([[gain, -2.0 * gain, gain, 1.0, *rest] for gain, *rest in butterworth.highpass_sections(dt, hz)])
+    np.testing.assert_allclose(found, butter(4, hz, "highpass", fs=1.0 / dt, output="sos"), rtol=0.0, atol=4e-15)
 
 
 def test_mirror_images_are_those_of_their_places():
