@@ -10,8 +10,8 @@ from seisblock._jit import kernel
 from seisblock.limits import AT_A_TIME
 from seisblock.typing import FloatArray
 
-HIGHPASS_ORDER = 4
-"""Order of the Butterworth high-pass; passed forwards and backwards it acts like one of twice that order, without delay."""
+SECTIONS = 2
+"""Of the second order each."""
 
 
 def highpass_sections(dt: float, hz: float) -> FloatArray:
@@ -28,10 +28,10 @@ def highpass_sections(dt: float, hz: float) -> FloatArray:
         Corner frequency, below half the sampling rate.
     """
     bent = math.tan(math.pi * hz * dt)
-    damping = np.cos(np.pi * (np.arange(HIGHPASS_ORDER // 2) + 0.5) / HIGHPASS_ORDER)
+    damping = np.cos(np.pi * (np.arange(SECTIONS) + 0.5) / (2 * SECTIONS))
     scale = 1.0 + 2.0 * damping * bent + bent**2
     first, second = 2.0 * (bent**2 - 1.0) / scale, (1.0 - 2.0 * damping * bent + bent**2) / scale
-    gain = np.ones(scale.size)
+    gain = np.ones(SECTIONS)
     gain[0] = 1.0 / scale.prod()
     return np.column_stack((gain, first, second))
 
@@ -50,7 +50,7 @@ def run_sections(sections: FloatArray, row: FloatArray, *, settled: bool, backwa
     backwards : bool
         From the last sample to the first.
     """
-    memory = np.zeros((sections.shape[0], 2))
+    memory = np.zeros((SECTIONS, 2))
     if settled and row.size:
         rest = sections[0, 0] * row[-1 if backwards else 0]
         memory[0] = -rest, rest

@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock.errors import ParameterError
-from seisblock.records.butterworth import highpass_sections, run_sections
+from seisblock.records.butterworth import SECTIONS, highpass_sections, run_sections
 from seisblock.typing import FloatArray
+
+HIGHPASS_ORDER = 2 * SECTIONS
+"""Order of the Butterworth high-pass; passed forwards and backwards it acts like one of twice that order, without delay."""
 
 PADDING_PERIODS = 5.0
 """Length of the padding at each end, in corner periods: the filter's slowest transient has died to 1e-5 by then."""

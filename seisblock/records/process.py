@@ -10,8 +10,7 @@ import numpy as np
 from seisblock import checks
 from seisblock.errors import ComponentError, ParameterError, RecordError
 from seisblock.records.doubts import settled
-from seisblock.records.butterworth import HIGHPASS_ORDER
-from seisblock.records.filters import highpass_samples
+from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.motion import _oriented_pair, _resolve
 from seisblock.records.record import Component, Record
 from seisblock.typing import FloatArray

@@ -214,6 +214,12 @@ def test_no_command_imports_heavy_packages_at_its_top():
     assert found == []
 
 
+def test_no_answer_waits_for_the_whole_of_scipys_signal_processing():
+    """F8: it loads statistics, interpolation and optimisation for 1.5 s of CPU, a third of a report: evidence alone may use it."""
+    loading = re.compile(r"(from|import) scipy\.(signal|stats)\b")
+    assert {path.relative_to(PACKAGE).parts[0] for path in sources() if loading.search(path.read_text("utf-8"))} <= {"validation"}
+
+
 def test_only_the_jit_module_decorates_kernels():
     """`numba.njit` and its options live in one place."""
     assert [path.name for path in sources() if re.search(r"@(numba\.)?n?jit\b|fastmath=", path.read_text(encoding="utf-8"))] == []
