@@ -25,7 +25,7 @@ from seisblock.validation import cases
 from seisblock.words import LANGUAGES, LOCALES
 
 PACKAGE = Path(seisblock.__file__).parent
-SAYING = {"said", "tell", "noted", "say", "warn", "insist", "progress", "error"}
+SAYING = {"said", "tell", "noted", "say", "warn", "insist", "progress", "at_work", "error"}
 CHECKS = {"finite", "positive", "not_negative", "within", "fraction", "function", "numbers", "whole"}
 """Functions whose first argument is a text for people; so is that of every error of ours, and of every check of a number."""
 
@@ -116,7 +116,11 @@ def said_in_source() -> dict[str, str]:
     """Return every text of the package: template and the place where it stands first."""
     found: dict[str, str] = {}
     methods = [("**.py", texts_of), ("**/templates/**.html", "jinja2")]
-    for name, _, text, _, _ in extract_from_dir(PACKAGE, methods, keywords={"tell": None}):
+    # babel's own filter leaves out a folder whose name begins with _
+    found_in = extract_from_dir(
+        PACKAGE, methods, keywords={"tell": None}, directory_filter=lambda folder: Path(folder).name != "__pycache__"
+    )
+    for name, _, text, _, _ in found_in:
         if isinstance(text, str) and re.search(r"\w", text):
             found.setdefault(text, name)
     return found

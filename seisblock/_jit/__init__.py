@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any, TypeVar
 
 from seisblock._jit import cache
 from seisblock._jit.on_demand import OnDemand
+from seisblock.words import noted
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 announce: Callable[[str], None] | None = None
 """Called with one line when compiling takes a while, or afresh; the command line sets it."""
+
+at_work: Callable[[str], AbstractContextManager[Any]] | None = None
+"""Told in a word what is done to a kernel, for as long as it takes; the command line sets it."""
 
 ENABLED = os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 """Whether kernels are compiled; ``NUMBA_DISABLE_JIT=1`` runs them as plain Python."""
@@ -53,9 +58,16 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
             counting = {} if allocates else {"_nrt": False}
             return numba.njit(signature, cache=cached, nogil=True, error_model="numpy", forceinline=inline, **counting)(function)
 
-        return OnDemand(function, lambda: cache.guarded(compiled, function, say))  # type: ignore[return-value]
+        return OnDemand(function, lambda: _made(compiled, function))  # type: ignore[return-value]
 
     return decorate
+
+
+def _made(compiled: Callable[[bool], Any], function: Callable[..., Any]) -> Any:
+    """Compile a kernel, or read it, while somebody may be told which."""
+    what = noted("reading the compiled kernels") if cache.is_kept(function) else noted("compiling the kernels")
+    with nullcontext() if at_work is None else at_work(what):
+        return cache.guarded(compiled, function, say)
 
 
 def say(message: str) -> None:

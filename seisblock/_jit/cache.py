@@ -123,8 +123,18 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
     return compiled(False)
 
 
+def is_kept(function: Callable[..., Any]) -> bool:
+    """Whether something is kept of a kernel."""
+    return any(True for _ in _files(cast(FunctionType, function)))
+
+
 def _remove(function: FunctionType) -> None:
     """Remove what is kept of one kernel."""
-    stem = f"{Path(function.__code__.co_filename).stem}.{function.__qualname__}-{function.__code__.co_firstlineno}"
-    for path in directory().rglob(f"{stem}.*.nb[ci]"):
+    for path in _files(function):
         path.unlink(missing_ok=True)
+
+
+def _files(function: FunctionType) -> Iterator[Path]:
+    """Return the files of one kernel."""
+    stem = f"{Path(function.__code__.co_filename).stem}.{function.__qualname__}-{function.__code__.co_firstlineno}"
+    return directory().rglob(f"{stem}.*.nb[ci]")

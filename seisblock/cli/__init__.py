@@ -140,7 +140,7 @@ class SeisblockGroup(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""
-        _jit.announce = say
+        _jit.announce, _jit.at_work = say, progress
         forget()
         try:
             with ending_in_order(), ledger(sys.stdout), quietly("--quiet" in ctx.obj or None), progress("working"):
@@ -166,7 +166,7 @@ class SeisblockGroup(click.Group):
             click.secho(f"seisblock: {why}", fg="red", err=True)
             ctx.exit(OutputError.exit_code)
         finally:
-            _jit.announce = None
+            _jit.announce = _jit.at_work = None
 
 
 @click.group(cls=SeisblockGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})

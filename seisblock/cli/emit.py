@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seisblock.cli.output import STDOUT, Output, check_output
-from seisblock.cli.progress import end, progress
+from seisblock.cli.progress import at_work, end, progress
 from seisblock.cli.talk import answer, say, show, warn
 from seisblock.errors import OutputError
 from seisblock.present.documents.kind import Document
@@ -53,6 +53,7 @@ def emit(
     animation : callable
         Writes the file of ``--animate``; left out, the responses' own film, at the speed, in the language and with the progress it is told.
     """
+    at_work("preparing the answer")
     if responses:
         figure = figure or (lambda: figure_of(responses, gal=output.gal))
         animation = animation or film_of(responses)

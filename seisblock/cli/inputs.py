@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from seisblock.cli.options import Source
-from seisblock.cli.progress import progress
+from seisblock.cli.progress import at_work, progress
 from seisblock.cli.quiet import is_quiet
 from seisblock.cli.talk import insist, say, warn
 from seisblock.errors import ComponentError, ParameterError
@@ -37,6 +37,7 @@ def load(source: Source, *, vertical_counts: bool = False, whole: bool = False) 
         records = read_all(names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level)
         prepared = [_prepared(record, source, vertical_counts=vertical_counts, whole=whole) for record in records]
     _tell_doubts(prepared, strict=source.strict)
+    at_work("computing")
     return prepared
 
 

@@ -1,4 +1,4 @@
-"""A line on stderr that tells what takes so long: after a second in silence, where somebody watches, and gone when there is news.
+"""A line on stderr that tells what takes so long: after some silence, where somebody watches, and gone when there is news.
 
 A run has one line. A thread paints it, so that neither compiled code nor a library that draws need know of it; what is being done, and
 how much of it, is told by :func:`progress`, and of a single motion by the solver between its slices.
@@ -23,8 +23,11 @@ from seisblock.words import percent, tell
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
-PATIENCE_S = 1.0
-"""Silence that is borne: work that is done sooner shows nothing."""
+PATIENCE_S = 0.6
+"""Silence that is borne, so that a second does not pass without a sign: work that is done sooner shows nothing."""
+
+READY_S = 0.3
+"""After so long in silence what paints is fetched, so that it is there when patience ends."""
 
 TICK_S = 0.1
 """From one painting to the next."""
@@ -69,7 +72,7 @@ class StatusLine:
         self.works: list[Work] = []
         self._followed = Work(tell("following the motion"))
         self._news, self._heard = time.monotonic(), -math.inf
-        self._shown: tuple[Work, bool] | None = None
+        self._shown: tuple[str, bool] | None = None
         self._bar: Bar | None = None
         self._lock, self._ended = threading.Lock(), threading.Event()
         self._painter = threading.Thread(target=self._watch, daemon=True)
@@ -105,6 +108,8 @@ class StatusLine:
 
     def _watch(self) -> None:
         """Paint again and again, until the end."""
+        if not self._ended.wait(READY_S):
+            _bar(known=False)
         while not self._ended.wait(TICK_S):
             with self._lock:
                 if time.monotonic() - self._news > PATIENCE_S and not self._ended.is_set():
@@ -118,9 +123,9 @@ class StatusLine:
     def _paint(self, work: Work) -> None:
         """Show what is being done."""
         known = work.total is not None
-        if self._bar is None or self._shown != (work, known):
+        if self._bar is None or self._shown != (work.text, known):
             self._clear()
-            self._bar, self._shown = _bar(known=known), (work, known)
+            self._bar, self._shown = _bar(known=known), (work.text, known)
             self._bar.add_task(work.text, total=work.total, told=work.told())
             self._bar.start()
         self._bar.update(self._bar.task_ids[0], description=work.text, completed=work.done, total=work.total, told=work.told())
@@ -159,6 +164,12 @@ def progress(what: str, /, **values: Any) -> Iterator[Callable[[int, int], None]
         else:
             work = Work(what)
         yield work.advance
+
+
+def at_work(what: str, /, **values: Any) -> None:
+    """Say what a run does from now on, wherever it says nothing more particular."""
+    if _line is not None:
+        _line.works[0].text = tell(what, **values)
 
 
 def hushed() -> contextlib.AbstractContextManager[None]:

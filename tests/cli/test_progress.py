@@ -17,7 +17,7 @@ COMMANDS = """
 import shlex, sys
 from seisblock.cli import main
 shown = sys.modules["seisblock.cli.progress"]
-shown.PATIENCE_S, shown.TICK_S = 0.0, 0.001
+shown.PATIENCE_S, shown.READY_S, shown.TICK_S = 0.0, 0.0, 0.001
 for line in sys.argv[1:]:
     try:
         main(shlex.split(line))
@@ -32,7 +32,7 @@ import importlib
 import numpy as np
 from seisblock import Motion, solve_slide
 shown = importlib.import_module("seisblock.cli.progress")
-shown.PATIENCE_S, shown.TICK_S = 0.0, 0.001
+shown.PATIENCE_S, shown.READY_S, shown.TICK_S = 0.0, 0.0, 0.001
 motion = Motion.from_arrays(3.0 * np.sin(0.1 * np.arange(1e6)), 0.01)
 with shown.progress("working"):
     solve_slide(0.2, motion)
@@ -40,6 +40,8 @@ with shown.progress("working"):
 
 WORKS = {
     "working": "measure record.csv",
+    "computing": "measure record.csv",
+    "reading the compiled kernels": "slide record.csv --mu 0.2 --csv slide.csv",
     "reading record.csv": "measure record.csv",
     "margin": "rock record.csv --block gravestone --margin",
     "versions": "respond record.csv --block gravestone --runs 400",
@@ -51,10 +53,10 @@ WORKS = {
 QUIET = f"{WORKS['drawing']} --quiet"
 
 
-def on_a_terminal(script, words, cwd):
+def on_a_terminal(script, words, cwd, **variables):
     """Return what a script writes on a terminal that is its stderr."""
     leader, follower = pty.openpty()
-    environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100", "NO_COLOR": "1", "LC_ALL": "C.UTF-8"}
+    environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100", "NO_COLOR": "1", "LC_ALL": "C.UTF-8", **variables}
     command = [sys.executable, "-c", script, *words]
     with subprocess.Popen(command, cwd=cwd, stdout=subprocess.DEVNULL, stderr=follower, env=environment) as process:
         os.close(follower)
@@ -111,6 +113,14 @@ def left(text):
         elif piece and not piece.startswith("\x1b"):
             lines[row] = piece
     return [line for line in lines if line]
+
+
+@pytest.mark.slow
+def test_a_cold_cache_is_told_for_as_long_as_it_takes(tmp_path):
+    """Kernels that are compiled, which takes longest, say so for as long as it takes."""
+    said = on_a_terminal("from seisblock.cli import main; main()", ["slide", "--mu", "0.2"], tmp_path, SEISBLOCK_CACHE_DIR=str(tmp_path))
+    assert re.search("compiling the kernels[^\n]*━", said)
+    assert left(said)[-1] == "compiling the kernels, once; a few seconds..."
 
 
 @pytest.mark.parametrize("work", WORKS)
