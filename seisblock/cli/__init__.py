@@ -21,7 +21,7 @@ from seisblock.cli.command import lang_option, plainly
 from seisblock.cli.help import Context, rows_of
 from seisblock.cli.language import answering
 from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending_in_order, leave_at_once, printable
-from seisblock.cli.meant import asking, nearest, suggested
+from seisblock.cli.meant import asking, asking_for_options, nearest, suggested
 from seisblock.cli.progress import progress
 from seisblock.cli.quiet import quietly
 from seisblock.cli.talk import forget, say
@@ -101,12 +101,17 @@ class SeisblockGroup(click.Group):
         command: click.Command = getattr(importlib.import_module(module), attribute)
         return command
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Take the line apart."""
+        with asking_for_options(self, ctx):
+            return super().parse_args(ctx, args)
+
     def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
         """Return the command that is named; of one that is not there, ask for the nearest."""
         try:
             return super().resolve_command(ctx, args)
         except click.UsageError as error:
-            raise click.UsageError(asking(error.format_message(), nearest(args[0], COMMANDS)), ctx) from None
+            raise click.UsageError(asking(error.message, nearest(args[0], COMMANDS)), ctx) from None
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Complete the names of commands without importing them."""

@@ -9,6 +9,7 @@ import click
 
 from seisblock.cli import offered
 from seisblock.cli.command import Command, option
+from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, record_options
 from seisblock.cli.quiet import quietly
 from seisblock.cli.types import Count
@@ -34,7 +35,7 @@ SOLVERS = ("respond", "rock", "slide", "jump", "uplift", "stack")
     section="Body",
     help="A table of bodies (.csv: name, width, height in m, mu, ...), a file that describes one, or a bundled body; may be repeated.",
 )
-@option("--solver", type=click.Choice(SOLVERS), default="respond", show_default=True, help="Which model follows them.")
+@option("--solver", type=OneOf(SOLVERS), default="respond", show_default=True, help="Which model follows them.")
 @option("--mu", type=float, section="Body", metavar="MU", help="Static friction coefficient of bodies that tell none, 1.")
 @option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: as with the solver's own command]")
 @option(

@@ -5,12 +5,13 @@ from __future__ import annotations
 import click
 
 from seisblock.cli.command import Command, argument, option
+from seisblock.cli.meant import OneOf
 from seisblock.cli.talk import answer, show
 from seisblock.references import CITED
 
 
 @click.command(cls=Command, examples=("seisblock cite jump", "seisblock cite --bibtex > seisblock.bib"))
-@argument("command", required=False, metavar="[COMMAND]", type=click.Choice(list(CITED)), help="Whose papers. [default: of all commands]")
+@argument("command", required=False, metavar="[COMMAND]", type=OneOf(CITED), help="Whose papers. [default: of all commands]")
 @option("--bibtex", is_flag=True, section="Output", help="BibTeX entries instead of lines of text.")
 @option("--json", "as_json", is_flag=True, section="Output", help="One JSON document on stdout.")
 def cite(command: str | None, bibtex: bool, as_json: bool) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from seisblock.cli.help import Context, rows_of
+from seisblock.cli.meant import OneOf, asking_for_options
 from seisblock.words import LANGUAGES, noted, tell
 
 SECTIONS = (noted("Record options"), noted("Body options"), noted("Solver options"), noted("Output options"), noted("Other options"))
@@ -51,6 +52,11 @@ class Command(click.Command):
         super().__init__(*args, **kwargs)
         self.params.append(lang_option())
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Take the line apart."""
+        with asking_for_options(self, ctx):
+            return super().parse_args(ctx, args)
+
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         """Return ``--help``, described in English until it is told: click keeps the option for the next call."""
         return plainly(super().get_help_option(ctx))
@@ -79,7 +85,7 @@ class Command(click.Command):
 def lang_option() -> click.Option:
     """Return the option that every command has; what it asks for is known before the line is parsed, see ``cli.language``."""
     text = "Language of all that is said, printed and drawn. [default: of the locale, else en]"
-    return Option(["--lang"], type=click.Choice(LANGUAGES), expose_value=False, section="Output", help=text)
+    return Option(["--lang"], type=OneOf(LANGUAGES), expose_value=False, section="Output", help=text)
 
 
 def plainly(option: click.Option | None) -> click.Option | None:

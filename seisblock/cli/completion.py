@@ -6,6 +6,7 @@ import click
 from click.shell_completion import BashComplete, add_completion_class
 
 from seisblock.cli.command import Command, argument
+from seisblock.cli.meant import OneOf
 from seisblock.cli.talk import answer
 from seisblock.words import said
 
@@ -31,7 +32,7 @@ add_completion_class(Bash)
 
 
 @click.command(cls=Command, examples=('eval "$(seisblock completion bash)"', "seisblock completion fish > seisblock.fish"))
-@argument("shell", type=click.Choice(list(WHERE)), help="The shell that is to complete.")
+@argument("shell", type=OneOf(WHERE), help="The shell that is to complete.")
 @click.pass_context
 def completion(ctx: click.Context, shell: str) -> None:
     """Print the completion script of a shell; where it belongs is said on stderr."""

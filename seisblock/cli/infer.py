@@ -13,6 +13,7 @@ from seisblock.cli import offered
 from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
+from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
@@ -59,7 +60,7 @@ FORMS = noted("--cemetery (with --rate, or with a column fallen), --slid or --ju
 )
 @option(
     "--criterion",
-    type=click.Choice(["furukawa", "rigid"]),
+    type=OneOf(["furukawa", "rigid"]),
     default="furukawa",
     show_default=True,
     help="Stones: fit to whole stones (9), (10), or one rigid block under a half sine.",

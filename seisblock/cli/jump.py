@@ -11,6 +11,7 @@ from seisblock.cli.bodies.options import landing_option, side_option, two_layer_
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
+from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
@@ -45,7 +46,7 @@ DEFAULT_BLOCK = "chozusha"
 )
 @option(
     "--direction",
-    type=click.Choice(["+", "-", "both"]),
+    type=OneOf(["+", "-", "both"]),
     default="both",
     show_default=True,
     help="Sign of the ground acceleration that may start a chain.",

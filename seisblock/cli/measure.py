@@ -9,6 +9,7 @@ import click
 
 from seisblock.cli.bodies.options import side_option, two_layer_option
 from seisblock.cli.command import Command, option
+from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
@@ -59,7 +60,7 @@ def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float |
 @side_option("Which side of --block in plan lies along the motion.")
 @option(
     "--direction",
-    type=click.Choice(list(SIDES)),
+    type=OneOf(SIDES),
     default="both",
     show_default=True,
     help="Sign of the acceleration that counts for the durations.",

@@ -13,6 +13,7 @@ import click
 from seisblock import checks
 from seisblock.cli import offered
 from seisblock.cli.command import argument, option
+from seisblock.cli.meant import OneOf
 from seisblock.cli.output import Output, check_output
 from seisblock.cli.quiet import quietly
 from seisblock.cli.types import SIZE, WINDOW
@@ -116,7 +117,7 @@ _RECORD_OPTIONS = (
         "--dt", type=float, callback=_positive, section="Record", metavar="S", help="Sampling interval, where the file does not say, s."
     ),
     option("--station", section="Record", help="Station code, in a bundle that holds several; all takes each for itself."),
-    option("--level", type=click.Choice(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
+    option("--level", type=OneOf(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
     option("--strict", is_flag=True, section="Record", help="Refuse records about which there is any doubt, instead of warning."),
 )
 

@@ -13,6 +13,7 @@ from seisblock.bodies.inset import HALF, WORN, Inset
 from seisblock.cli import offered
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
+from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, checked, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.progress import progress
@@ -84,14 +85,14 @@ def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
 )
 @option(
     "--equivalent",
-    type=click.Choice(list(KINDS)),
+    type=OneOf(KINDS),
     default="pga-pgv",
     show_default=True,
     help="Equivalent frequency of RECORD: PGA/(2 pi PGV), dominant Fourier frequency, or from the width of the pulse of the PGA.",
 )
 @option(
     "--criterion",
-    type=click.Choice(["furukawa", "rigid", "simulate"]),
+    type=OneOf(["furukawa", "rigid", "simulate"]),
     default="furukawa",
     show_default=True,
     help="Fit to whole stones (9), (10); one rigid block under a half sine; or each stone rocking under RECORD or a 20 s sine.",

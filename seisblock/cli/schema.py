@@ -5,13 +5,14 @@ from __future__ import annotations
 import click
 
 from seisblock.cli.command import Command, argument
+from seisblock.cli.meant import OneOf
 from seisblock.cli.talk import answer
 from seisblock.present.documents.catalogue import KINDS, schema_of
 from seisblock.present.documents.versions import VERSIONS, schema_name
 
 
 @click.command(cls=Command, examples=("seisblock schema rock", "seisblock schema"))
-@argument("command", required=False, metavar="[COMMAND]", type=click.Choice(list(KINDS)), help="Whose document. [default: of all commands]")
+@argument("command", required=False, metavar="[COMMAND]", type=OneOf(KINDS), help="Whose document. [default: of all commands]")
 def schema(command: str | None) -> None:
     """Print the JSON Schema of a command's --json document; without COMMAND, list the commands that write one.
 

@@ -12,6 +12,7 @@ from click.core import ParameterSource
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
+from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.rock import along, need_vertical
@@ -37,7 +38,7 @@ SMALLEST_REACH, LARGEST_REACH = 0.2, 1.5
 @record_options
 @option(
     "--kind",
-    type=click.Choice(KINDS),
+    type=OneOf(KINDS),
     default="rocking",
     show_default=True,
     help="Largest lean over alpha; overturning alone; the largest slip against friction; or which mode governs, over friction and shape "

@@ -9,6 +9,7 @@ import click
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
+from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
@@ -69,7 +70,7 @@ def _ratios(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
 @option("--corner", type=click.IntRange(1, 4), help="With --harmonic: this corner alone; the paper's is 4. [default: the first to lift]")
 @option(
     "--figure",
-    type=click.Choice(["3", "4", "6", "7", "8", "9", "10", "11"]),
+    type=OneOf(["3", "4", "6", "7", "8", "9", "10", "11"]),
     help="The parameters of this figure of the paper; implies --harmonic, other options prevail.",
 )
 @gravity_option

@@ -23,6 +23,23 @@ MISSPELT = (
     (("respond", "--width", "1", "--height", "2", "--surface", "granit/granite"), "granite/granite"),
     (("samples", "wagatta"), "wagata.toml"),
     (("report", "-o", "x.html", "--body", "chozushu"), "chozusha"),
+    (("rock", "--blok", "gravestone"), "--block"),
+    (("measure", "--plotfile", "x.png"), "--plot"),
+    (("batch", "--solver", "rok"), "rock"),
+    (("spectrum", "--kind", "rokcing"), "rocking"),
+    (("cite", "slid"), "slide"),
+    (("--verson",), "--version"),
+    (("overturn",), "overturn-rate"),
+)
+
+LIKE_NOTHING = (
+    ("slide", "--component", "XX"),
+    ("slide", "--blok", "gravestone"),  # not --plot
+    ("criteria", "--slow", "2"),
+    ("report", "--html", "x.html"),
+    ("rock", "--body", "gravestone"),
+    ("batch", "--solver", "falling"),
+    ("rate",),
 )
 
 
@@ -34,17 +51,34 @@ def test_the_nearest_name_is_asked_for(line, meant, tmp_path, monkeypatch):
     assert told.exit_code in (2, 3)
     asked = " ".join(told.stderr.split()).lower().partition("did you mean")[2]
     assert meant.lower() in asked
-    if not line[-2:][0].startswith("--w"):  # click's own sentence is another's to translate
-        japanese = " ".join(CliRunner().invoke(main, ["--lang", "ja", *line]).stderr.split())
-        assert f"{meant} のことでしょうか" in japanese
+    japanese = " ".join(CliRunner().invoke(main, ["--lang", "ja", *line]).stderr.split())
+    assert f"{meant} のことでしょうか" in japanese
 
 
-def test_what_is_like_nothing_is_not_asked_for():
+@pytest.mark.parametrize("line", LIKE_NOTHING, ids=" ".join)
+def test_what_is_like_nothing_is_not_asked_for(line):
     """A guess that is none would lead astray."""
-    assert nearest("xyz", COMMANDS) is None
-    assert nearest("ROCK", COMMANDS) == "rock"
-    told = CliRunner().invoke(main, ["slide", "--mu", "0.2", "--component", "XX"])
-    assert told.exit_code != 0 and "did you mean" not in told.stderr
+    told = CliRunner().invoke(main, [*line, *(("--mu", "0.2") if line[0] == "slide" else ())])
+    assert told.exit_code in (2, 3) and "did you mean" not in told.stderr.lower()
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("xyz", None),
+        ("ROCK", "rock"),
+        ("rokc", "rock"),
+        ("rocks", "rock"),
+        ("measurement", "measure"),
+        ("s", None),
+        ("", None),
+        ("jmp", "jump"),
+    ],
+)
+def test_near_is_one_slip_a_beginning_or_a_word_that_goes_on(typed, meant):
+    """Nothing else is: of a long name two slips."""
+    assert nearest(typed, COMMANDS) == meant
+    assert nearest("ovreturn-rat", COMMANDS) == "overturn-rate" and nearest("ovretrn-rat", COMMANDS) is None
 
 
 def offered(*words):

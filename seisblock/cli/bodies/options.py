@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import click
-
 from seisblock.cli import offered
 from seisblock.cli.command import option
+from seisblock.cli.meant import OneOf
 from seisblock.cli.types import INSET, LENGTH, MASS
 
 _SIZES = (
@@ -46,7 +45,7 @@ _REST = (
     ),
     option(
         "--side",
-        type=click.Choice(["short", "long"]),
+        type=OneOf(["short", "long"]),
         section="Body",
         help="Side of a two-layer --block along the motion. [default: short]",
     ),
@@ -60,12 +59,12 @@ def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., 
 
 def side_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return ``--side`` of a two-layer block, short unless another is asked for."""
-    return option("--side", type=click.Choice(["short", "long"]), default="short", show_default=True, section="Body", help=text)
+    return option("--side", type=OneOf(["short", "long"]), default="short", show_default=True, section="Body", help=text)
 
 
 def landing_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return ``--landing`` of a two-layer block, the paper's unless friction's is asked for."""
-    return option("--landing", type=click.Choice(["paper", "friction"]), default="paper", show_default=True, help=text)
+    return option("--landing", type=OneOf(["paper", "friction"]), default="paper", show_default=True, help=text)
 
 
 def block_options(function: Callable[..., Any]) -> Callable[..., Any]:

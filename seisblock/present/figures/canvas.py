@@ -121,15 +121,21 @@ class Sheet(Figure):
             size = float(title.get_fontsize())
             title.set_fontsize(max(size * room / wide, SMALLEST_TITLE))
             if title.get_window_extent(renderer).width > room:
-                title.set_text(_in_two(title.get_text()))
+                title.set_text(in_two(title.get_text(), BETWEEN))
             while title.get_window_extent(renderer).width > room and len(title.get_text()) > 2:
                 title.set_text(title.get_text()[:-2] + "…")
 
 
-def _in_two(text: str) -> str:
-    """Return a title in two lines, broken between two of its parts as near to the middle as there are."""
-    parts = text.split(BETWEEN)
-    halves = [(BETWEEN.join(parts[:i]), BETWEEN.join(parts[i:])) for i in range(1, len(parts))]
+def in_two(text: str, between: str = " ") -> str:
+    """Return a text in two lines, broken between two of its parts as near to the middle as there are.
+
+    Examples
+    --------
+    >>> in_two("rise of G (mm)").splitlines()
+    ['rise of', 'G (mm)']
+    """
+    parts = text.split(between)
+    halves = [(between.join(parts[:i]), between.join(parts[i:])) for i in range(1, len(parts))]
     return "\n".join(min(halves, key=lambda two: max(map(columns, two)))) if halves else text
 
 

@@ -56,7 +56,7 @@ def _column(panels: Sequence[Any], called: str, response: Response[SlideOutcome]
     if below:
         middle, bottom = below
         block = response["ground_velocity"] + response["velocity"]
-        curve(middle, time, response["ground_velocity"], color="0.62", linewidth=1.6, label=tell("base"))
+        curve(middle, time, response["ground_velocity"], color="0.62", linewidth=1.6, label=tell("ground"))
         curve(middle, time, block, color=canvas.ACCENT, label=tell("object"))
         curve(bottom, time, response["displacement"] * 1e3, color=canvas.ACCENT)
         canvas.shade(middle, phases, COLOURS, names=True, direction=response.motion.name)

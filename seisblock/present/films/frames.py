@@ -16,7 +16,11 @@ from seisblock.present.films.animation import Filming, stage
 from seisblock.present.films.film import Film
 from seisblock.present.films.plane import Plane
 from seisblock.present.films.scenes import Actor, PlaneActor, SpaceActor
+from seisblock.present.wrap import columns
 from seisblock.words import tell
+
+MOST_COLUMNS = 12
+"""Of a label as high as its strip; a longer one has two lines."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +117,6 @@ def _strip(axis: Axes, film: Film, index: int) -> None:
     margin = 0.08 * (high - low)
     axis.set_ylim(low - margin, high + margin)
     axis.tick_params(labelbottom=last)
-    canvas.label(axis, tell("t (s)") if last else "", strip.label)
+    canvas.label(axis, tell("t (s)") if last else "", strip.label if columns(strip.label) <= MOST_COLUMNS else canvas.in_two(strip.label))
     if len(strip.lines) > 1:
         canvas.legend(axis, ncols=len(strip.lines))

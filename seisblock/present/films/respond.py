@@ -14,7 +14,7 @@ from seisblock.present.films.animation import REAL_TIME, Filming
 from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, titled
 from seisblock.present.films.plane import Body, Piece, Plane, Trail, ground_shift, rectangle
 from seisblock.present.films.projector import animate_film
-from seisblock.present.films.rock import corners
+from seisblock.present.films.rock import corners, on_the_ground
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.typing import FloatArray
@@ -43,13 +43,13 @@ def respond_film(response: Response[RespondOutcome], times: FloatArray, *, gal: 
         time=times,
         scene=Plane(
             shift=ground_shift(motion, times),
-            bodies=(Body((Piece(outline),), block.centroid_offset + x, z, lean),),
+            bodies=(Body((Piece(outline),), block.centroid_offset + x, on_the_ground(outline, z, lean), lean),),
             floors=(rectangle(-wide, wide, -block.height, 0.0),),
             trails=(Trail(tell("centre of gravity"), response.time, block.centroid_offset + response["displacement"], response["height"]),),
         ),
         strips=(
             ground_strip(motion, (-level, level), gal=gal),
-            Strip("x (cm)", (Line(response.time, response["displacement"] * 100.0, "#1f5a8c"),)),
+            Strip(tell("x (cm)"), (Line(response.time, response["displacement"] * 100.0, "#1f5a8c"),)),
             Strip(tell("θ (deg)"), (Line(response.time, np.degrees(response["rotation"])),), (-alpha, alpha)),
         ),
         phases=response.phases,

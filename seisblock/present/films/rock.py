@@ -44,6 +44,7 @@ def rocking_film(response: Response[RockOutcome], times: FloatArray, *, gal: boo
     lean = at(times, response.time, response["rotation"])
     origins = np.array([corners(block, float(theta))[0] for theta in lean])
     outline = corners(block, 0.0)
+    piece = outline - outline[0]
     level = outcome.threshold_m_s2
     alpha = math.degrees(outcome.slenderness_rad)
     wide = 4.0 * math.hypot(block.width, block.height)
@@ -54,7 +55,7 @@ def rocking_film(response: Response[RockOutcome], times: FloatArray, *, gal: boo
         time=times,
         scene=Plane(
             shift=ground_shift(motion, times),
-            bodies=(Body((Piece(outline - outline[0]),), origins[:, 0], origins[:, 1], lean),),
+            bodies=(Body((Piece(piece),), origins[:, 0], on_the_ground(piece, origins[:, 1], lean), lean),),
             floors=(rectangle(-wide, wide, -block.height, 0.0),),
         ),
         strips=(
@@ -91,6 +92,22 @@ def corners(block: Block, theta: float) -> FloatArray:
     sides = [[half, worn], [half, top], [-half, top], [-half, worn]] if worn else [[half, top], [-half, top]]
     at_rest = np.array([*base, *sides])
     return _turned(at_rest, block, theta)
+
+
+def on_the_ground(outline: FloatArray, z: FloatArray, turn: FloatArray) -> FloatArray:
+    """Return heights of a body's origin, (n,), m, at which no corner is below the ground.
+
+    A worn block that falls turns about the edge it has left in the models; beyond 45 degrees it lies on its bevel, then on its side.
+
+    Parameters
+    ----------
+    outline : (k, 2) array, m
+        Corners about the origin, upright.
+    z, turn : (n,) arrays, m, rad
+        Height of the origin above the ground, and how far the body leans.
+    """
+    lowest = (np.outer(np.cos(turn), outline[:, 1]) - np.outer(np.sin(turn), outline[:, 0])).min(axis=1)
+    return z - np.minimum(z + lowest, 0.0)
 
 
 def centre_of(block: Block, theta: float) -> tuple[float, float]:

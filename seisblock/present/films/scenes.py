@@ -63,7 +63,8 @@ class PlaneActor:
         self.key: list[Any] = []
         if not moving and scene.trails:
             for trail, line in self.trails:
-                line.set_label(trail.name)
+                inside = (left < trail.x) & (trail.x < right) & (bottom < trail.z) & (trail.z < top)
+                line.set_label(trail.name if inside.any() else None)
             self.key = [axis.legend(fontsize=7, framealpha=0.85, edgecolor="none", loc="upper right")]
 
     @property

@@ -57,7 +57,7 @@ def uplift_film(response: Response[UpliftOutcome], times: FloatArray, *, gal: bo
         note=tell("motion on the springs drawn {factor:g} times as large; +x = {name}", factor=factor, name=motion.name or "x"),
         time=times,
         scene=_scene(response, times, factor),
-        strips=(ground_strip(motion, gal=gal), Strip("u (mm)", lines, (0.0,))),
+        strips=(ground_strip(motion, gal=gal), Strip(tell("u (mm)"), lines, (0.0,))),
         phases=_lifts(response),
         colours={IN_AIR: LIFTED},
     )
