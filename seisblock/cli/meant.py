@@ -35,10 +35,12 @@ def nearest(name: str, known: Iterable[str]) -> str | None:
         whole = each.lstrip("-").lower()
         there.setdefault(whole, each)
         there.setdefault(whole.partition(".")[0], each)  # a file by its name without suffix
-    begun = {each for form, each in there.items() if typed and form.startswith(typed)}
+    if not typed or not there:
+        return None
+    begun = {each for form, each in there.items() if form.startswith(typed)}
     if len(begun) == 1:
         return begun.pop()
-    slips, form = min(((_slips(typed, form), form) for form in there), default=(len(typed), ""))
+    slips, form = min((_slips(typed, form), form) for form in there)
     if slips <= (0 if len(typed) < TOO_SHORT else 1 if len(typed) < LONG else 2):
         return there[form]
     words = [form for form in there if len(form) >= WHOLE_WORD and typed.startswith(form)]

@@ -77,7 +77,7 @@ def test_what_is_like_nothing_is_not_asked_for(line):
 )
 def test_near_is_one_slip_a_beginning_or_a_word_that_goes_on(typed, meant):
     """Nothing else is: of a long name two slips."""
-    assert nearest(typed, COMMANDS) == meant
+    assert nearest(typed, COMMANDS) == meant and nearest(typed, ()) is None
     assert nearest("ovreturn-rat", COMMANDS) == "overturn-rate" and nearest("ovretrn-rat", COMMANDS) is None
 
 
