@@ -173,7 +173,12 @@ def _journal(path: Path, plan: Plan, *, resume: bool, force: bool) -> Journal:
     told = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
     reading = repr([getattr(plan.reading, key) for key in ("format", "units", "dt", "station", "level")])
     purpose = {"seisblock": "batch", "of": hashlib.sha256((told + reading).encode()).hexdigest()}
-    return Journal.resume(path, purpose) if resume and path.exists() else Journal.begin(path, purpose)
+    if not (resume and path.exists()):
+        return Journal.begin(path, purpose)
+    journal = Journal.resume(path, purpose)
+    if journal.damaged:
+        warn("{path}: {count} line(s) are damaged: the records they held are followed anew", path=path, count=journal.damaged)
+    return journal
 
 
 def _write_csv(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]]) -> None:

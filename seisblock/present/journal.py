@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -29,10 +30,13 @@ class Journal:
     path : Path
     places : dict of key to int
         Where the line of each finished record begins.
+    damaged : int
+        Lines that are not as they were written, which are passed over.
     """
 
     path: Path
     places: dict[Key, int] = field(default_factory=dict)
+    damaged: int = 0
 
     @classmethod
     def begin(cls, path: Path, purpose: Mapping[str, str]) -> Journal:
@@ -49,26 +53,31 @@ class Journal:
 
     @classmethod
     def resume(cls, path: Path, purpose: Mapping[str, str]) -> Journal:
-        """Go on with a journal: a line that an interruption cut is taken away.
+        """Go on with a journal: a line that an interruption cut is taken away, and one that was damaged counts as not written.
 
         Raises
         ------
         OutputError
-            If it cannot be read, or is of something else.
+            If it cannot be read, is of something else, or does not say of what.
         """
         journal = cls(path)
         with _told(path), path.open("r+b") as stream:
-            first = stream.readline()
-            if _parsed(first) != dict(purpose):
+            begun = _parsed(stream.readline())
+            if begun is None:
+                raise OutputError("{path} is damaged in its first line, which says of what it is: begin anew", path=path)
+            if begun != dict(purpose):
                 raise OutputError(
                     "{path} was begun with other bodies, options or another version: begin anew, or finish it as it was begun", path=path
                 )
             end = stream.tell()
             while line := stream.readline():
                 found = _parsed(line)
-                if found is None:
+                if found is not None:
+                    journal.places[found["path"], found["stamp"]] = end
+                elif line.endswith(b"\n"):
+                    journal.damaged += 1
+                else:
                     break
-                journal.places[found["path"], found["stamp"]] = end
                 end = stream.tell()
             stream.truncate(end)
         return journal
@@ -96,7 +105,10 @@ class Journal:
         """Return the rows of a finished record."""
         with _told(self.path), self.path.open("rb") as stream:
             stream.seek(self.places[key])
-            found: list[dict[str, Any]] = json.loads(stream.readline())["rows"]
+            line = _parsed(stream.readline())
+        if line is None:
+            raise OutputError("{path} changed while it was read: --resume computes anew what is damaged", path=self.path)
+        found: list[dict[str, Any]] = line["rows"]
         return found
 
     def remove(self) -> None:
@@ -105,19 +117,23 @@ class Journal:
 
 
 def _line(content: Mapping[str, Any]) -> bytes:
-    """Return a line; floats keep all their digits."""
-    return json.dumps(dict(content), ensure_ascii=False).encode() + b"\n"
+    """Return a line that can be told from a damaged one; floats keep all their digits."""
+    written = json.dumps(dict(content), ensure_ascii=False).encode()
+    return _check(written) + b" " + written + b"\n"
 
 
 def _parsed(line: bytes) -> dict[str, Any] | None:
-    """Return what a line says, None where it was cut."""
-    if not line.endswith(b"\n"):
+    """Return what a line says, None where it is not as it was written."""
+    check, _, written = line.rstrip(b"\n").partition(b" ")
+    if not line.endswith(b"\n") or check != _check(written):
         return None
-    try:
-        found = json.loads(line)
-    except ValueError:
-        return None
-    return found if isinstance(found, dict) else None
+    found: dict[str, Any] = json.loads(written)
+    return found
+
+
+def _check(written: bytes) -> bytes:
+    """Return what changes with any damage that disks and editors do."""
+    return hashlib.blake2b(written, digest_size=8).hexdigest().encode()
 
 
 @contextlib.contextmanager

@@ -8,6 +8,7 @@ import time
 import tracemalloc
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from seisblock.studies.batch import cluster
@@ -101,6 +102,63 @@ def _until_lines(path, count, process):
         assert process.poll() is None, process.stderr.read().decode()
         time.sleep(0.005)
     raise AssertionError("nothing was written down")
+
+
+def _journal_of(folder):
+    """Return a journal as an interruption left it, and the table that it becomes."""
+    kept = {}
+
+    def leave(self):
+        kept["journal"] = self.path.read_bytes()
+        self.path.unlink()
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("seisblock.present.journal.Journal.remove", leave)
+        assert run(LINE).exit_code == 0
+    whole = Path("t.csv").read_bytes()
+    Path("t.csv").unlink()
+    return kept["journal"], whole
+
+
+def _flipped(lines, dice):
+    """Change a byte of a line that holds a record."""
+    place = int(dice.integers(len(lines[2]) - 1))
+    lines[2] = lines[2][:place] + bytes([lines[2][place] ^ 1 << int(dice.integers(8))]) + lines[2][place + 1 :]
+
+
+DAMAGES = {
+    "a flipped bit": _flipped,
+    "random bytes": lambda lines, dice: lines.insert(2, dice.bytes(300) + b"\n"),
+    "a cut end": lambda lines, dice: lines.append(lines.pop()[: int(dice.integers(1, 200))]),
+    "a line twice": lambda lines, dice: lines.insert(1, lines[2]),
+    "lines in another order": lambda lines, dice: lines.__setitem__(slice(1, None), lines[:0:-1]),
+    "a lost line end": lambda lines, dice: lines.__setitem__(1, lines[1].rstrip(b"\n")),
+    "a record of nobody": lambda lines, dice: lines.insert(1, b'{"rows": 1}\n'),
+    "nothing but its purpose": lambda lines, dice: lines.__delitem__(slice(1, None)),
+}
+
+
+def test_a_damaged_journal_spoils_no_table(folder):
+    """Whatever became of its lines, the table is the same bit by bit; a changed digit is never believed."""
+    journal, whole = _journal_of(folder)
+    for seed, (what, damage) in enumerate([*DAMAGES.items(), *[("a flipped bit", _flipped)] * 8]):
+        lines = journal.splitlines(keepends=True)
+        damage(lines, np.random.default_rng(seed))
+        Path("t.csv.journal").write_bytes(b"".join(lines))
+        gone_on = run(LINE + " --resume")
+        assert gone_on.exit_code == 0, (what, gone_on.stderr)
+        assert Path("t.csv").read_bytes() == whole, what
+        assert ("damaged" in gone_on.stderr) == (what in ("a flipped bit", "random bytes", "a lost line end", "a record of nobody")), what
+        Path("t.csv").unlink()
+
+
+@pytest.mark.parametrize("first", [b"", b"\xff\x00\n", b"[1]\n", b"{}\n"])
+def test_a_journal_that_does_not_say_of_what_it_is_is_refused(folder, first):
+    """And left alone: --force begins anew."""
+    Path("t.csv.journal").write_bytes(first)
+    answer = run(LINE + " --resume")
+    assert answer.exit_code == 3 and "damaged in its first line" in answer.stderr
+    assert Path("t.csv.journal").read_bytes() == first and not Path("t.csv").exists()
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
