@@ -11,6 +11,9 @@ from .bodies.pile.pile import Pile
 from .bodies.pile.stone import PileStone
 from .bodies.pile.toml import load_pile
 from .bodies.roster import ListedBody, read_bodies
+from .bodies.scan.body import ScannedBody
+from .bodies.scan.scan import Scanned, scan_body
+from .bodies.scan.toml import load_scan
 from .bodies.sliding_base import SlidingBase
 from .bodies.spring_block import SpringBlock
 from .bodies.two_layer import Contact, TwoLayerBlock, load_contact, load_two_layer
@@ -64,6 +67,7 @@ from .studies.inverse.assumptions import Assumptions
 from .studies.inverse.estimate import ShakingEstimate, estimate_shaking
 from .studies.inverse.factors import ScaleFactors, jumped, scale_factors, slid
 from .studies.inverse.survey import Survey, counted_survey, marked_survey
+from .studies.rocking.azimuths import RockAzimuth, rock_directions
 from .studies.rocking.margin import FactorRange, Margin, find_margin
 from .studies.rocking.perturb import Perturbation, Spread, perturb
 from .studies.rocking.spectra import RockingSpectrum, rocking_spectrum
@@ -114,6 +118,7 @@ __all__ = [
     "load_block",
     "load_contact",
     "load_pile",
+    "load_scan",
     "load_two_layer",
     "make_setting",
     "Margin",
@@ -158,7 +163,9 @@ __all__ = [
     "response_spectrum",
     "ResponseSpectrum",
     "results",
+    "rock_directions",
     "rock_verdict",
+    "RockAzimuth",
     "rocking_spectrum",
     "RockingSpectrum",
     "RockOptions",
@@ -171,6 +178,9 @@ __all__ = [
     "scale_factors",
     "scale_to_pga",
     "ScaleFactors",
+    "scan_body",
+    "Scanned",
+    "ScannedBody",
     "SeisblockError",
     "Setting",
     "ShakingEstimate",

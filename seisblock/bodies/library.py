@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.bodies.pile.toml import load_pile
+from seisblock.bodies.scan.body import ScannedBody
+from seisblock.bodies.scan.toml import scanned_body
 from seisblock.bodies.toml import length, mass, number, read_table, refuse_unknown, shown, source_of, text
 from seisblock.bodies.two_layer import contact, two_layer_block
 from seisblock.errors import BodyError
+from seisblock.records import Motion
 from seisblock.words import said
+
+AnyBody = TypeVar("AnyBody")
 
 _LENGTHS = ("width", "height", "depth", "centroid_height", "centroid_offset")
 _NUMBERS = ("density", "centroid_inertia")
@@ -53,8 +58,10 @@ def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
         return two_layer_block(table, side).as_block()
     if kind == "pile":
         return load_pile(where).as_block()
+    if kind == "scan":
+        raise BodyError("{where} is a scan, which is another block in each direction: say towards which azimuth", where=where)
     if kind != "block":
-        raise BodyError('{where}: expected kind = "block", "two-layer" or "pile", found {kind}', where=where, kind=shown(kind))
+        raise BodyError('{where}: expected kind = "block", "two-layer", "pile" or "scan", found {kind}', where=where, kind=shown(kind))
     refuse_unknown(table, _KEYS)
     given: dict[str, Any] = {"width": length(table, "width"), "height": length(table, "height")}
     given |= {key: length(table, key) for key in _LENGTHS[2:] if key in table}
@@ -65,14 +72,39 @@ def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
     return block.worn(_inset(table)) if "inset" in table else block
 
 
+def body_of(table: Mapping[str, Any], *, side: str = "short") -> Block | ScannedBody:
+    """Return the body that a TOML table describes: one block, or a scan, which is another one in each direction.
+
+    Examples
+    --------
+    >>> type(body_of(read_table("boulder"))).__name__, type(body_of(read_table("gravestone"))).__name__
+    ('ScannedBody', 'Block')
+    """
+    return scanned_body(table) if table.get("kind") == "scan" else block_of(table, side=side)
+
+
+def along(body: AnyBody, motion: Motion) -> AnyBody | Block:
+    """Return a body as it follows a motion: a scan as the block that it is towards its azimuth, any other as it is.
+
+    Examples
+    --------
+    >>> stone = load_block("gravestone")
+    >>> along(stone, Motion.from_arrays([0.0, 1.0], 0.01)) is stone
+    True
+    """
+    return body.along(motion) if isinstance(body, ScannedBody) else body
+
+
 def _inset(table: Mapping[str, Any]) -> Inset:
     """Return the inset of a table: a text with a length or a share, or a share of the width per side."""
     value = table["inset"]
     return parse_inset(value) if isinstance(value, str) else Inset(share=number(table, "inset") or 0.0)
 
 
-def edges(block: Block) -> str:
-    """Return what is to be known of a block's edges, empty when they are those of its drawing."""
+def edges(block: Block | ScannedBody) -> str:
+    """Return what is to be known of a body's edges, empty when they are those of its drawing."""
+    if isinstance(block, ScannedBody):
+        return said("turns about edges {inset:.3g} mm in from the sides of its base", inset=block.inset_m * 1e3) if block.inset_m else ""
     if not block.inset:
         return ""
     return said(

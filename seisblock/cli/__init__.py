@@ -44,6 +44,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "spectrum": ("seisblock.cli.spectrum:spectrum", "Rocking and overturning of blocks of all sizes and slendernesses."),
     "overturn-rate": ("seisblock.cli.overturn_rate:overturn_rate", "Share of the gravestones of a cemetery that fall."),
     "infer": ("seisblock.cli.infer:infer", "Shaking read back from fallen gravestones or displaced objects."),
+    "body": ("seisblock.cli.body:body", "The body of a scan: mass, inertia, base, and how easily it turns in each direction."),
     "batch": ("seisblock.cli.batch:batch", "Many records and many bodies: one table, on all cores or a cluster."),
     "report": ("seisblock.cli.report:report", "One page about a record and what it does to some bodies."),
     "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),

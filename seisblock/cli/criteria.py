@@ -68,8 +68,9 @@ def criteria(
     cards = []
     for record in load(source):
         for name in components(record, source):
-            need_vertical(motion_of(record, name), vertical)
-            cards.append(criteria_card(record, name, chosen.block, gravity=gravity, mu=mu, mu_kinetic=mu_kinetic, **options))
+            motion = motion_of(record, name)
+            need_vertical(motion, vertical)
+            cards.append(criteria_card(record, name, chosen.along(motion), gravity=gravity, mu=mu, mu_kinetic=mu_kinetic, **options))
     emit(
         document(cards, options, gravity=gravity),
         output,

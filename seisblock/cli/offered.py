@@ -16,7 +16,7 @@ COMPONENTS = ("NS", "EW", "UD", "all")
 
 ALL_AZIMUTHS = "all-azimuths"
 
-SWEEPING = {"respond", "slide"}
+SWEEPING = {"respond", "rock", "slide"}
 """Commands that look in every direction when they are asked to."""
 
 
@@ -30,6 +30,11 @@ def components(ctx: click.Context, param: click.Parameter, incomplete: str) -> l
 def records(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Offer files, and the bundled records once a letter is typed."""
     return [*_items(_bundled(incomplete or "?", "record")), CompletionItem(incomplete, type="file")]
+
+
+def scans(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the bundled scans, and files."""
+    return [*_items(_bundled(incomplete, "scan")), CompletionItem(incomplete, type="file")]
 
 
 def samples(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -11,17 +10,15 @@ import click
 from seisblock.cli.bodies.standing import choose_standing, standing_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
-from seisblock.cli.inputs import load, motions
-from seisblock.cli.offered import ALL_AZIMUTHS
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
+from seisblock.cli.sweeping import drawing, swept
 from seisblock.cli.talk import say
 from seisblock.cli.types import LENGTH, Count
 from seisblock.words import noted
 
 if TYPE_CHECKING:
-    from seisblock.bodies.block import Block
-    from seisblock.records import Motion
+    from seisblock.records import Record
     from seisblock.studies.standing.azimuths import AzimuthFate
 
 VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth_deg")
@@ -76,7 +73,8 @@ def respond(
 
     Plane motion of one rigid body with Coulomb friction, each horizontal component by itself, the vertical acting where the record has
     it. After the record's end the object is followed until it rests. Beside the verdict stands the share of plausible
-    versions of the object and the shaking that fall. --component all-azimuths looks in every direction and answers for the worst.
+    versions of the object and the shaking that fall. --component all-azimuths looks in every direction and answers for the worst. A
+    scanned --block is another block in each direction.
     """
     from seisblock.cli.progress import progress
     from seisblock.present.documents.respond import document
@@ -95,34 +93,32 @@ def respond(
         "settle_s": settle,
     }
     responses, extras = [], []
-    for motion, sweep in _motions(source, chosen.block, vertical, options):
-        responses.append(solve_respond(chosen.block, motion, vertical=vertical, **options))
-        extra: dict[str, Any] = {}
+    for motion, directions in swept(source, _all_around(chosen.body, vertical, options)):
+        block = chosen.along(motion)
+        responses.append(solve_respond(block, motion, vertical=vertical, **options))
+        extra: dict[str, Any] = chosen.entry_of(block)
         if runs:
             same = {**options, "vertical": vertical, "runs": runs, "moved_m": moved, "seed": seed}
             with progress("versions {name}", name=motion.name) as advance:
-                extra["probability"] = respond_probability(chosen.block, motion, versions=Versions(**widths), progress=advance, **same)
-        if sweep:
-            extra["directions"] = sweep
+                extra["probability"] = respond_probability(block, motion, versions=Versions(**widths), progress=advance, **same)
+        if directions:
+            extra["directions"] = directions
         extras.append(extra)
     emit(
-        document(responses, chosen.block, extras),
+        document(responses, responses[0].body, extras),
         output,
         responses=responses,
+        figure=drawing(responses, extras),
         tables=lambda: shown.tables(responses, extras, gal=output.gal),
     )
 
 
-def _motions(source: Source, block: Block, vertical: bool | None, options: dict[str, Any]) -> Iterator[tuple[Motion, list[AzimuthFate]]]:
-    """Yield each motion asked for; the worst direction, with all of them, when they are all asked for."""
-    from seisblock.records import motion_of
-    from seisblock.studies.standing.azimuths import respond_directions
+def _all_around(body: Any, vertical: bool | None, options: dict[str, Any]) -> Callable[[Record], Sequence[AzimuthFate]]:
+    """Return what looks in every direction of a record."""
 
-    every = [name.lower() for name in source.component] == [ALL_AZIMUTHS]
-    for record in load(replace(source, component=()) if every else source):
-        if not every:
-            yield from ((motion, []) for motion in motions(record, source))
-            continue
-        found = respond_directions(block, record, vertical=vertical, **options)
-        say("worst of {count} directions: azimuth {azimuth:g} degrees", count=len(found), azimuth=found[0].azimuth_deg)
-        yield motion_of(record, f"{found[0].azimuth_deg:g}"), found
+    def look(record: Record) -> Sequence[AzimuthFate]:
+        from seisblock.studies.standing.azimuths import respond_directions
+
+        return respond_directions(body, record, vertical=vertical, **options)
+
+    return look

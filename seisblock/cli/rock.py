@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -11,16 +12,17 @@ import click
 from seisblock.cli.bodies.options import block_options, rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
-from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
+from seisblock.cli.progress import progress
+from seisblock.cli.sweeping import drawing, swept
 from seisblock.cli.talk import say
 from seisblock.cli.types import Count
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.words import noted, tell
 
 if TYPE_CHECKING:
-    from seisblock.records import Motion
+    from seisblock.records import Motion, Record
 
 VERSIONS = 200
 """Versions of body and shaking that a margin is accompanied by, where no number is asked for."""
@@ -75,11 +77,11 @@ def rock(
     """Rocking and overturning of one rigid block about its two lower corners (Housner 1963).
 
     Each horizontal component is solved by itself. Rotation is positive when the block leans to the component's positive
-    direction. After the record's end the fate is decided by energy.
+    direction. After the record's end the fate is decided by energy. --component all-azimuths looks in every direction, in steps of 5
+    degrees, and answers for the worst. A scanned --block is another block in each direction.
     """
     from seisblock.cli.bodies.block import choose_block
     from seisblock.cli.elsewhere import after_rock
-    from seisblock.cli.progress import progress
     from seisblock.present.documents.rock import document
     from seisblock.present.text import rock as shown
     from seisblock.solvers.rock.outcome import friction_suffices
@@ -96,29 +98,45 @@ def rock(
     if mu is not None and not 0.0 <= mu < float("inf"):
         raise ParameterError("the friction coefficient must be zero or positive, found {value}", value=mu)
     responses, extras = [], []
-    for motion in (motion for record in load(source) for motion in motions(record, source)):
+    for motion, directions in swept(source, _all_around(chosen.body, options)):
         need_vertical(motion, vertical)
-        responses.append(flagged(solve_rock(chosen.block, motion, **options)))
-        extra: dict[str, Any] = {"agreement": agreement(chosen.block, motion, **options)}
+        block = chosen.along(motion)
+        responses.append(flagged(solve_rock(block, motion, **options)))
+        extra: dict[str, Any] = {"agreement": agreement(block, motion, **options), **chosen.entry_of(block)}
+        if directions:
+            extra["directions"] = directions
         if mu is not None:
             extra["friction_suffices"] = friction_suffices(responses[-1].outcome, mu, gravity)
         if margin:
             with progress("margin {name}", name=motion.name) as advance:
-                extra["margin"] = find_margin(chosen.block, motion, limit=margin_limit, progress=advance, **options)
+                extra["margin"] = find_margin(block, motion, limit=margin_limit, progress=advance, **options)
         if margin or perturb is not None:
             widths, runs = Spread(spread, spread, spread, spread), perturb or VERSIONS
             with progress("perturb {name}", name=motion.name) as advance:
-                extra["perturbation"] = perturbed(chosen.block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
+                extra["perturbation"] = perturbed(block, motion, runs, spread=widths, seed=seed, progress=advance, **options)
         extras.append(extra)
     emit(
-        document(responses, chosen.block, extras, margin_limit=margin_limit if margin else None, mu=mu),
+        document(responses, responses[0].body, extras, margin_limit=margin_limit if margin else None, mu=mu),
         output,
         responses=responses,
+        figure=drawing(responses, extras),
         tables=lambda: chain(
             shown.tables(responses, extras, gal=output.gal, mu=mu),
-            after_rock(source, body, chosen.block, mu, suffices=all(extra.get("friction_suffices", True) for extra in extras)),
+            after_rock(source, body, responses[0].body, mu, suffices=all(extra.get("friction_suffices", True) for extra in extras)),
         ),
     )
+
+
+def _all_around(body: Any, options: dict[str, Any]) -> Callable[[Record], Sequence[Any]]:
+    """Return what looks in every direction of a record."""
+
+    def look(record: Record) -> Sequence[Any]:
+        from seisblock.studies.rocking.azimuths import rock_directions
+
+        with progress("directions") as advance:
+            return rock_directions(body, record, progress=advance, **options)
+
+    return look
 
 
 def need_vertical(motion: Motion, vertical: bool) -> None:

@@ -117,6 +117,15 @@ class Motion(Drawn):
         return self.rows if isinstance(self.rows, np.ndarray) else sealed(np.stack([self.horizontal, self.transverse, self.vertical]))
 
     @property
+    def azimuth_deg(self) -> float | None:
+        """Azimuth of +x, degrees clockwise from north; None where it is not known."""
+        try:
+            return float(self.name)
+        except ValueError:
+            known = () if self.record is None else self.record.components
+            return next((component.azimuth_deg for component in known if component.code == self.name), None)
+
+    @property
     def samples(self) -> int:
         """Number of samples."""
         return int(self.horizontal.size)

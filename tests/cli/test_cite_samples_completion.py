@@ -96,7 +96,7 @@ def test_the_shell_completes_commands_options_and_samples():
         environment = {**os.environ, "_SEISBLOCK_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(index)}
         return subprocess.run([sys.executable, "-m", "seisblock"], env=environment, capture_output=True, text=True, check=False).stdout
 
-    assert complete("seisblock rock --component ", 3).split() == ["plain,NS", "plain,EW", "plain,UD", "plain,all"]
+    assert complete("seisblock rock --component ", 3).split() == ["plain,NS", "plain,EW", "plain,UD", "plain,all", "plain,all-azimuths"]
     assert complete("seisblock rock --component = N", 4).split() == ["plain,NS"]
     assert complete("seisblock ju", 1).split() == ["plain,jump"]
     assert "plain,--side" in complete("seisblock jump --si", 2).split()

@@ -20,6 +20,7 @@ IN_GAL = {
     "uplift": (*SHORT, *BLOCK, "--frequency-vertical", "8"),
     "stack": (*SHORT, "--points", "2"),
     "criteria": (*SHORT, *BLOCK),
+    "body": ("boulder.ply", "--inset", "1cm"),
     "overturn-rate": ("--cemetery", "aoyama.csv", "--pga", "300", "--frequency", "1"),
     "infer": (*SHORT, "--slid", "5cm", "--mu", "0.3", "--limit", "1", "--steps", "5"),
 }

@@ -24,10 +24,13 @@ from seisblock import (
     solve_uplift,
 )
 from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.scan.scan import scan_body
 from seisblock.measures import measure, response_spectrum
 from seisblock.present import figures
 from seisblock.present.faces import FACES, figure_of
 from seisblock.present.figures import (
+    azimuths,
+    body,
     cemetery,
     criteria,
     field_test,
@@ -51,8 +54,10 @@ from seisblock.studies.inverse.assumptions import assumptions_for
 from seisblock.studies.inverse.estimate import estimate_shaking
 from seisblock.studies.inverse.factors import scale_factors, slid
 from seisblock.studies.inverse.survey import counted_survey
+from seisblock.studies.rocking.azimuths import rock_directions
 from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum
 from seisblock.studies.sliding import slide_study as study_of_sliding
+from seisblock.studies.standing.azimuths import respond_directions
 from seisblock.studies.standing.mode_map import mode_map as map_of_modes
 from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_region
 from seisblock.validation.furukawa_surveys import SURVEYS
@@ -96,6 +101,13 @@ SOLVED = {
 @functools.cache
 def response(model, component="NS"):
     return SOLVED[model](component)
+
+
+@functools.cache
+def every_azimuth(model):
+    if model == "rock":
+        return rock_directions(Block(0.3, 0.9), scale(record(), 0.7), step_deg=15.0)
+    return respond_directions(Block(0.45, 1.8), scale(record(), 0.7), mu=0.3, step_deg=15.0)
 
 
 AOYAMA = read_cemetery("aoyama.csv")
@@ -198,12 +210,15 @@ OF_THE_RECORD = dict(of_models()) | {
         lambda gal: cemetery.overturn_rate_figure(AOYAMA, [(record(), rates(after=True))], curve_of(AOYAMA, Method()), gal=gal),
     ),
     "factors": (infer.factor_figure, lambda _: infer.factor_figure(factors())),
+    "rock, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("rock")], [every_azimuth("rock")])),
+    "respond, all azimuths": (azimuths.figure, lambda _: azimuths.figure([response("respond")], [every_azimuth("respond")])),
     "a record": (inputs.record_figure, lambda _: inputs.record_figure(record())),
     "a motion": (inputs.motion_figure, lambda _: inputs.motion_figure(motion())),
 }
 """What is drawn of a record: by its name, the function and a call of it, given whether accelerations are in gal."""
 
 OF_NO_RECORD = {
+    "a scan": (body.figure, lambda _: body.figure(scan_body("boulder.ply", inset=0.1))),
     "estimate": (infer.estimate_figure, lambda gal: infer.estimate_figure(*estimated(), gal=gal)),
     "rate, curves": (
         cemetery.overturn_rate_figure,

@@ -1,4 +1,4 @@
-"""Which block the user means: sizes given one by one, a TOML file, or a bundled body by its name."""
+"""Which body the user means: sizes given one by one, a TOML file, or a bundled body by its name."""
 
 from __future__ import annotations
 
@@ -7,23 +7,48 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.library import block_of, edges, restitution_of
+from seisblock.bodies.library import body_of, edges, restitution_of
+from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.toml import read_table
 from seisblock.errors import BodyError
+from seisblock.records import Motion
 from seisblock.words import said
 
 
 @dataclass(frozen=True)
-class BlockChoice:
-    """A block, the restitution it brings along (None for that of its angular momentum), and one line on where it comes from."""
+class BodyChoice:
+    """A body, which may be another block in each direction."""
 
-    block: Block
+    body: Block | ScannedBody
+
+    @property
+    def block(self) -> Block:
+        """The block, where it is the same one in each direction."""
+        if isinstance(self.body, ScannedBody):
+            raise BodyError("{name} is a scan, which is another block in each direction: say towards which azimuth", name=self.body.name)
+        return self.body
+
+    def along(self, motion: Motion) -> Block:
+        """Return the block that follows a motion: of a scan that towards its azimuth."""
+        return self.body.along(motion) if isinstance(self.body, ScannedBody) else self.body
+
+    def entry_of(self, block: Block) -> dict[str, Any]:
+        """Return what is told beside an answer of the block that it is of, nothing where all answers are of one."""
+        from seisblock.present.documents.bodies import block_entry
+
+        return {"block": block_entry(block)} if isinstance(self.body, ScannedBody) else {}
+
+
+@dataclass(frozen=True)
+class BlockChoice(BodyChoice):
+    """A body, the restitution it brings along (None for that of its angular momentum), and one line on where it comes from."""
+
     restitution: float | None
     says: str
 
 
 def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
-    """Return the block that a set of options describes.
+    """Return the body that a set of options describes.
 
     Parameters
     ----------
@@ -45,16 +70,16 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
         table = read_table(asked["block"])
         if restitution is None:
             restitution = restitution_of(table, asked["block"])
-        block = block_of(table, side=asked.get("side") or "short")
-        origin = said("{name}, from {file}", name=said(block.name), file=asked["block"])
+        body = body_of(table, side=asked.get("side") or "short")
+        origin = said("{name}, from {file}", name=said(body.name), file=asked["block"])
     else:
         missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
         if missing:
             raise BodyError(
                 "which block? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
             )
-        block = Block(**sizes)
-        origin = said("block {width:g} m wide, {height:g} m high", width=block.width, height=block.height)
+        body = Block(**sizes)
+        origin = said("block {width:g} m wide, {height:g} m high", width=body.width, height=body.height)
     if asked.get("inset") is not None:
-        block = block.worn(asked["inset"])
-    return BlockChoice(block, restitution, said("{parts}", parts=[part for part in (origin, edges(block)) if part]))
+        body = body.worn(asked["inset"])
+    return BlockChoice(body, restitution, said("{parts}", parts=[part for part in (origin, edges(body)) if part]))

@@ -6,12 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from seisblock.bodies.block import Block
 from seisblock.bodies.friction import SURFACES, surface
 from seisblock.bodies.library import friction_of
 from seisblock.bodies.toml import read_table
 from seisblock.cli import offered
-from seisblock.cli.bodies.block import choose_block
+from seisblock.cli.bodies.block import BodyChoice, choose_block
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import option
 from seisblock.cli.types import LENGTH
@@ -20,10 +19,9 @@ from seisblock.words import said
 
 
 @dataclass(frozen=True)
-class StandingChoice:
-    """A block, its friction, and one line on where they come from."""
+class StandingChoice(BodyChoice):
+    """A body, its friction, and one line on where they come from."""
 
-    block: Block
     mu: float
     mu_kinetic: float | None
     says: str
@@ -101,4 +99,4 @@ def choose_standing(asked: Mapping[str, Any]) -> StandingChoice:
             pairs=list(SURFACES),
         )
     told = said("mu {mu:g}", mu=mu) if kinetic is None else said("mu {mu:g}, kinetic {kinetic:g}", mu=mu, kinetic=kinetic)
-    return StandingChoice(chosen.block, mu, kinetic, said("{body}; {friction} ({origin})", body=chosen.says, friction=told, origin=origin))
+    return StandingChoice(chosen.body, mu, kinetic, said("{body}; {friction} ({origin})", body=chosen.says, friction=told, origin=origin))

@@ -25,6 +25,7 @@ KINDS: dict[str, tuple[str, ...]] = {
     "spectrum": ("spectrum:ROCKING", "spectrum:SLIDING", "spectrum:MODES"),
     "overturn-rate": ("overturn_rate:RATE", "overturn_rate:CURVE_ALONE"),
     "infer": ("infer:STONES", "infer:SLID", "infer:JUMPED"),
+    "body": ("body:BODY",),
     "batch": ("batch:BATCH",),
     "validate": ("validate:VALIDATE",),
     "cite": ("library:CITE",),

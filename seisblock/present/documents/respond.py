@@ -40,6 +40,7 @@ class RespondParameters(Struct, frozen=True, kw_only=True):
     further_points_m : list of pairs
         Points of the body that end the motion when they meet the ground.
     block : BlockEntry
+        That of the first result.
     """
 
     mu: float
@@ -60,6 +61,7 @@ RESPOND_RESULT = entry_type(
     RespondOutcome,
     before=COMPONENT,
     beside={
+        "block": Annotated[BlockEntry, Meta(description="Of a scan: the block that it is in this direction.")] | UnsetType,
         "probability": Annotated[Probability, Meta(description="Share of plausible versions that fall; left out with --runs 0.")]
         | UnsetType,
         "directions": Annotated[list[AzimuthFate], Meta(description="With --component all-azimuths, the worst first.")] | UnsetType,

@@ -14,6 +14,7 @@ from seisblock.present.documents.kind import Document, Kind
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.studies.agreement import Agreement
+from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.studies.rocking.margin import Margin
 from seisblock.studies.rocking.perturb import Perturbation
 
@@ -29,6 +30,7 @@ class RockParameters(Struct, frozen=True, kw_only=True):
         Whether the equation is linear, and whether the vertical component acts.
     gravity_m_s2 : float
     block : BlockEntry
+        That of the first result.
     margin_limit : float or None
         Largest factor of the search for margins; null without one.
     mu : float or None
@@ -49,9 +51,11 @@ ROCK_RESULT = entry_type(
     RockOutcome,
     before=COMPONENT,
     beside={
+        "block": Annotated[BlockEntry, Meta(description="Of a scan: the block that it is in this direction.")] | UnsetType,
         "agreement": Annotated[Agreement, Meta(description="What other models of the same block say.")] | UnsetType,
         "friction_suffices": Annotated[bool, Meta(description="With --mu: whether it lets the block do this.")] | UnsetType,
         "margin": Annotated[Margin, Meta(description="With --margin.")] | UnsetType,
+        "directions": Annotated[list[RockAzimuth], Meta(description="With --component all-azimuths, the worst first.")] | UnsetType,
         "perturbation": Annotated[Perturbation, Meta(description="With --perturb, or --margin.")] | UnsetType,
     },
 )

@@ -12,6 +12,8 @@ UNITS = {
     "_n_m": "N/m",
     "_kg_m3": "kg/m^3",
     "_kg_m2": "kg m^2",
+    "_m3": "m^3",
+    "_m2": "m^2",
     "_kg": "kg",
     "_rad": "rad",
     "_deg": "deg",

@@ -12,6 +12,7 @@ VERSIONS = {
     "spectrum": 1,
     "overturn-rate": 2,
     "infer": 2,
+    "body": 1,
     "batch": 1,
     "validate": 1,
     "cite": 1,

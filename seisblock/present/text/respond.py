@@ -9,9 +9,10 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.present.directions import moved, side
-from seisblock.present.text.tables import answered, line, number, seconds, table
+from seisblock.present.text.tables import NOTHING, answered, line, number, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
+from seisblock.studies.standing.azimuths import AzimuthFate
 from seisblock.studies.standing.probability import Probability
 from seisblock.units import GAL
 from seisblock.words import listed, noted, roughly, tell
@@ -34,6 +35,9 @@ def tables(responses: Responds, extras: Sequence[Mapping[str, Any]], *, gal: boo
         if any("probability" in extra for _, extra in part):
             yield line(varied(next(extra["probability"] for _, extra in part if "probability" in extra)), "dim")
         yield line()
+        for _, extra in part:
+            if "directions" in extra:
+                yield _directions(extra["directions"])
 
 
 def _happened(response: Response[RespondOutcome], extra: Mapping[str, Any]) -> Iterator[Text]:
@@ -143,6 +147,31 @@ def around(found: Sequence[Any]) -> str:
     return tell("falls in {fallen} of {all} directions; this is the worst.", fallen=fallen, all=len(found))
 
 
+def _directions(found: Sequence[AzimuthFate]) -> Any:
+    """Return the table of all directions, in their order."""
+    rows = []
+    for each in sorted(found, key=lambda each: each.azimuth_deg):
+        fell = falls_to(each.azimuth_deg, each.overturned_towards)
+        far = [f"{100.0 * value + 0.0:.2f}" for value in (each.max_displacement_m, _tidy(each.final_displacement_m))]
+        rows.append([f"{each.azimuth_deg:g}", f"{math.degrees(each.max_rotation_rad):.3f}", *far, fell, seconds(each.end_s)])
+    headings = (
+        noted("azimuth (deg)"), noted("lean (deg)"), noted("furthest (cm)"), noted("ends at (cm)"), noted("falls to (deg)"),
+        noted("end (s)"),
+    )  # fmt: skip
+    return table(tell("All azimuths"), [tell(heading) for heading in headings], rows)
+
+
+def falls_to(azimuth: float, towards: str | None) -> str:
+    """Return the azimuth to which a body falls whose +x points to one, nothing where it stands.
+
+    Examples
+    --------
+    >>> falls_to(40.0, "-x"), falls_to(40.0, None)
+    ('220', '-')
+    """
+    return NOTHING if towards is None else f"{(azimuth + (180.0 if towards == '-x' else 0.0)) % 360.0:g}"
+
+
 def varied(found: Probability) -> str:
     """Return what was varied, and what the share is worth."""
     by = found.versions
@@ -163,19 +192,26 @@ def _table(responses: Responds, *, gal: bool) -> Any:
     """Return the numbers, a column per component."""
     first = responses[0]
     block, options, outcomes = first.body, first.options, [response.outcome for response in responses]
+    own = any(response.body != block for response in responses)
     ratio = min(block.arms) / block.centre
     onset = min(options["mu"], ratio) * options["gravity_m_s2"]
-    title = tell(
-        "{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}",
-        name=tell(block.name),
-        ratio=ratio,
-        mu=options["mu"],
-        kinetic=options["mu_kinetic"],
-        first=tell("slides") if options["mu"] <= ratio else tell("rocks"),
-        onset=f"{onset / GAL:.0f} gal" if gal else f"{onset:.2f} m/s²",
+    each_title = tell("{name}: mu {mu:g}, kinetic {kinetic:g}", name=tell(block.name), mu=options["mu"], kinetic=options["mu_kinetic"])
+    title = (
+        each_title
+        if own
+        else tell(
+            "{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}",
+            name=tell(block.name),
+            ratio=ratio,
+            mu=options["mu"],
+            kinetic=options["mu_kinetic"],
+            first=tell("slides") if options["mu"] <= ratio else tell("rocks"),
+            onset=f"{onset / GAL:.0f} gal" if gal else f"{onset:.2f} m/s²",
+        )
     )
     spent = [o.time_in_mode_s for o in outcomes]
     rows: list[tuple[str, list[Any]]] = [
+        *([(tell("b/h"), [f"{min(r.body.arms) / r.body.centre:.3f}" for r in responses])] if own else []),
         (tell("outcome"), [tell(o.outcome) for o in outcomes]),
         (tell("largest lean (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
         (tell("  over alpha"), [number(o.max_rotation_ratio) for o in outcomes]),

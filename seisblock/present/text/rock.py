@@ -11,9 +11,11 @@ import numpy as np
 from seisblock.bodies.library import edges
 from seisblock.present.directions import side
 from seisblock.present.text.agreement import agreement_line, chance_lines
+from seisblock.present.text.respond import around, falls_to
 from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, number, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome, friction_suffices
+from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.studies.rocking.margin import Margin
 from seisblock.words import noted, roughly, strung, tell
 
@@ -40,21 +42,28 @@ def tables(responses: Rockings, extras: Sequence[Mapping[str, Any]], *, gal: boo
             for sentence in sentences(response, extra):
                 yield line(sentence)
         yield line()
+        for _, extra in part:
+            if "directions" in extra:
+                yield _directions(extra["directions"])
 
 
 def _table(responses: Rockings, *, gal: bool) -> Any:
     """Return the table of the outcomes."""
     outcomes = [response.outcome for response in responses]
     first, body = outcomes[0], responses[0].body
-    title = tell(
-        "{body}: alpha {alpha:.4f} rad, p {p:.3f} rad/s\nrestitution {restitution:.4f}, rocks above {threshold}",
-        body=tell(body.name),
-        alpha=first.slenderness_rad,
-        p=first.frequency_parameter_rad_s,
-        restitution=first.restitution,
-        threshold=f"{acceleration(first.threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}",
-    ) + (f"\n{tell(worn)}" if (worn := edges(body)) else "")
-    rows: list[tuple[str, list[Any]]] = [
+    own = any(response.body != body for response in responses)
+    title = tell(body.name)
+    if not own:
+        title = tell(
+            "{body}: alpha {alpha:.4f} rad, p {p:.3f} rad/s\nrestitution {restitution:.4f}, rocks above {threshold}",
+            body=tell(body.name),
+            alpha=first.slenderness_rad,
+            p=first.frequency_parameter_rad_s,
+            restitution=first.restitution,
+            threshold=f"{acceleration(first.threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}",
+        ) + (f"\n{tell(worn)}" if (worn := edges(body)) else "")
+    rows: list[tuple[str, list[Any]]] = _own(outcomes, gal=gal) if own else []
+    rows += [
         (f"PGA ({acceleration_unit(gal=gal)})", [acceleration(float(np.abs(r.motion.horizontal).max()), gal=gal) for r in responses]),
         (tell("rocking starts (s)"), [seconds(o.rocking_start_s) for o in outcomes]),
         (tell("largest lean (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
@@ -69,6 +78,44 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
         (tell("contact lost (s)"), [seconds(o.contact_lost_s) for o in outcomes]),
     ]
     return table(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
+
+
+def _own(outcomes: Sequence[RockOutcome], *, gal: bool) -> list[tuple[str, list[Any]]]:
+    """Return the rows of a body that is another block in each direction."""
+    unit = acceleration_unit(gal=gal)
+    return [
+        (tell("alpha (rad)"), [f"{o.slenderness_rad:.4f}" for o in outcomes]),
+        (tell("p (rad/s)"), [f"{o.frequency_parameter_rad_s:.3f}" for o in outcomes]),
+        (tell("restitution"), [f"{o.restitution:.4f}" for o in outcomes]),
+        (tell("rocks above ({unit})", unit=unit), [acceleration(o.threshold_m_s2, gal=gal) for o in outcomes]),
+    ]
+
+
+def _directions(found: Sequence[RockAzimuth]) -> Any:
+    """Return the table of all directions, in their order; the slenderness where it is not the same in all."""
+    own = len({each.slenderness_rad for each in found}) > 1
+    rows = [
+        [
+            f"{each.azimuth_deg:g}",
+            *([f"{math.degrees(each.slenderness_rad):.2f}"] if own else []),
+            number(each.max_rotation_ratio),
+            *_ends(each),
+        ]
+        for each in sorted(found, key=lambda each: each.azimuth_deg)
+    ]
+    headings = (
+        noted("azimuth (deg)"),
+        *((noted("alpha (deg)"),) if own else ()),
+        noted("lean over alpha"),
+        noted("falls to (deg)"),
+        noted("lies down (s)"),
+    )
+    return table(tell("All azimuths"), [tell(heading) for heading in headings], rows)
+
+
+def _ends(each: RockAzimuth) -> tuple[str, str]:
+    """Return where to it falls in one direction, and when."""
+    return falls_to(each.azimuth_deg, each.overturned_towards), seconds(each.overturning_time_s)
 
 
 def first_line(response: Response[RockOutcome], mu: float | None = None) -> str:
@@ -92,6 +139,8 @@ def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iter
     name = response.motion.name or "x"
     if "agreement" in extra:
         yield agreement_line(name, extra["agreement"])
+    if "directions" in extra:
+        yield around(extra["directions"])
     if "margin" in extra:
         yield from (tell("{name}: {text}", name=name, text=told) for told in _margin_lines(extra["margin"]))
     if "perturbation" in extra:

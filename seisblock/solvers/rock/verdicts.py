@@ -17,7 +17,7 @@ from seisblock.solvers.rock.aftermath import refuse_endless
 from seisblock.solvers.rock.free import ENDLESS, STANDS, rock_on
 from seisblock.solvers.rock.rocker import Rocker, Rockers, RockOptions, rocker
 from seisblock.solvers.rock.stride import ROCKING_TOGETHER
-from seisblock.typing import ArrayLike, BoolArray, FloatArray
+from seisblock.typing import ArrayLike, BoolArray, FloatArray, IntArray
 
 
 @dataclass(frozen=True)
@@ -30,10 +30,23 @@ class Verdict:
 
 @dataclass(frozen=True, eq=False)
 class Verdicts:
-    """What an ensemble keeps of its runs: whether each overturned, and its largest lean over alpha, (m,) each."""
+    """What an ensemble keeps of its runs, (m,) each.
+
+    Parameters
+    ----------
+    overturned : bool
+    max_rotation_ratio : 1
+        Largest lean over alpha.
+    towards : int
+        +1 or -1 where it falls to +x or to -x, else 0.
+    lies_down_s : s
+        After the motion's first sample, where it falls before the last one; else NaN.
+    """
 
     overturned: BoolArray
     max_rotation_ratio: FloatArray
+    towards: IntArray
+    lies_down_s: FloatArray
 
 
 def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options: Unpack[RockOptions]) -> Verdict:
@@ -99,4 +112,5 @@ def rock_verdicts(blocks: Rockers | Sequence[Rocker], motion: Motion, gains: Arr
     highest, _, lowest, _ = shaken.extrema[:, model.THETA].T
     to_right = np.maximum(highest, late[:, RIGHT]) / p[:, model.ALPHA_RIGHT]
     to_left = np.maximum(-lowest, late[:, LEFT]) / p[:, model.ALPHA_LEFT]
-    return Verdicts(ends != STANDS, np.maximum(to_right, to_left))
+    lies_down = np.where(shaken.final_mode == model.OVERTURNED, shaken.end_time, np.nan)
+    return Verdicts(ends != STANDS, np.maximum(to_right, to_left), ends, lies_down)

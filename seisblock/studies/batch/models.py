@@ -11,10 +11,11 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 from seisblock.bodies.block import Block
 from seisblock.bodies.friction import surface
 from seisblock.bodies.inset import Inset
-from seisblock.bodies.library import block_of, friction_of, restitution_of
+from seisblock.bodies.library import block_of, body_of, friction_of, restitution_of
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.roster import ListedBody
+from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.sliding_base import SlidingBase, sliding_base
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.spring_choice import spring_block
@@ -105,21 +106,21 @@ def _scalar(hint: Any) -> type | None:
     return kinds[0] if len(kinds) == 1 and kinds[0] in _SCALARS else None
 
 
-def _block(listed: ListedBody) -> Block:
-    """Return the rigid block of a row or a file."""
+def _rigid(listed: ListedBody) -> Block | ScannedBody:
+    """Return the rigid body of a row or a file."""
     told = listed.told
     sizes = {key: told[key] for key in _SIZES if key in told}
     if listed.description is not None:
         if sizes:
             raise BodyError("{source}: give sizes or `body`, not both", source=listed.source)
-        block = block_of(listed.description, side=told.get("side", "short"))
+        body = body_of(listed.description, side=told.get("side", "short"))
     else:
         missing = [key for key in ("width", "height") if key not in sizes]
         if missing:
             raise BodyError("{source}: {missing} missing: a block needs width and height", source=listed.source, missing=missing)
-        block = Block(**sizes, name=listed.name)
+        body = Block(**sizes, name=listed.name)
     inset = told.get("inset")
-    return block.worn(inset) if isinstance(inset, Inset) else block
+    return body.worn(inset) if isinstance(inset, Inset) else body
 
 
 def _friction(listed: ListedBody, options: Told) -> dict[str, float | None]:
@@ -152,14 +153,14 @@ def _own(listed: ListedBody, *names: str) -> dict[str, Any]:
 def _standing(listed: ListedBody, options: Told) -> Placed:
     """Place a free-standing block."""
     own = _own(listed, "restitution", "rocking_restitution", "tenon")
-    return Placed(listed.name, _block(listed), {**options, **own, **_friction(listed, options)})
+    return Placed(listed.name, _rigid(listed), {**options, **own, **_friction(listed, options)})
 
 
 def _rocking(listed: ListedBody, options: Told) -> Placed:
     """Place a block that rocks."""
     brought = None if listed.description is None else restitution_of(listed.description, listed.source)
     own = {**({} if brought is None else {"restitution": brought}), **_own(listed, "restitution")}
-    return Placed(listed.name, _block(listed), {**options, **own})
+    return Placed(listed.name, _rigid(listed), {**options, **own})
 
 
 def _sliding(listed: ListedBody, options: Told) -> Placed:
@@ -175,7 +176,7 @@ def _on_springs(listed: ListedBody, options: Told) -> Placed:
     """Place a block on corner springs."""
     sizes = _own(listed, "width", "depth", "height", "mass")
     if listed.description is not None:
-        block = _block(listed)
+        block = block_of(listed.description, side=listed.told.get("side", "short"))
         sizes = {"width": block.width, "depth": block.depth, "height": block.height, "mass": block.mass}
     try:
         body = spring_block(**sizes, **_own(listed, "frequency_vertical", "beta", "damping"))
@@ -230,7 +231,7 @@ BATCH_MODELS = {
     for model in (
         BatchModel(
             "respond",
-            (Block, TwoLayerBlock),
+            (Block, TwoLayerBlock, ScannedBody),
             (*_BLOCK, "mu", "mu_kinetic", "surface", "restitution", "rocking_restitution", "tenon"),
             _standing,
             solve_respond,

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from seisblock.bodies.library import along
 from seisblock.bodies.roster import ListedBody
 from seisblock.errors import ParameterError, SeisblockError
 from seisblock.readers.dispatch import Options
@@ -146,8 +147,9 @@ def _answer(motion: Motion, body: Placed, plan: Plan, doubts: list[str]) -> Row:
     """Return what a solver says of one body under one motion, or why it does not."""
     model = plan.model
     try:
-        response = model.solve(body.body, motion, **body.options)
-        chance = model.chance(body, motion, plan.runs, plan.seed, body.options) if plan.runs and model.chance is not None else {}
+        there = replace(body, body=along(body.body, motion))
+        response = model.solve(there.body, motion, **body.options)
+        chance = model.chance(there, motion, plan.runs, plan.seed, body.options) if plan.runs and model.chance is not None else {}
     except SeisblockError as error:
         return {REASON: error.said}
     told = [*doubts, *response.warnings]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import fields
 
 import numpy as np
 
@@ -35,7 +36,7 @@ def all_verdicts(blocks: Rockers | Sequence[Rocker], motion: Motion, gains: Arra
         return rock_verdicts(blocks[part] if len(blocks) > 1 else blocks, motion, rows[part] if len(rows) > 1 else rows)
 
     found = list(in_batches(some, runs, size=size, progress=progress))
-    return Verdicts(*(np.concatenate(column) for column in zip(*((v.overturned, v.max_rotation_ratio) for v in found), strict=True)))
+    return Verdicts(*(np.concatenate([getattr(part, field.name) for part in found]) for field in fields(Verdicts)))
 
 
 def overturns_at(block: Rocker, motion: Motion, factors: ArrayLike, *, progress: Progress | None = None) -> BoolArray:

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.limits import check_budget
-from seisblock.records import Record, motion_of
-from seisblock.records.given import Factor, vertical_gain
+from seisblock.bodies.scan.body import ScannedBody
+from seisblock.records import Record
+from seisblock.records.given import Factor
 from seisblock.solvers.respond.many import Fates, respond_many
 from seisblock.solvers.respond.solve import make_setting
-from seisblock.words import noted
-
-STEP_DEG = 5.0
+from seisblock.studies.azimuths import STEP_DEG, sweep
 
 
 @dataclass(frozen=True)
@@ -33,6 +27,8 @@ class AzimuthFate:
     max_rotation_rad, final_displacement_m, max_displacement_m : float
     end_s : float
         When it came to rest or had fallen, from the record's first sample.
+    max_rotation_ratio : float
+        Largest lean over alpha of the side to which it falls more easily.
     """
 
     azimuth_deg: float
@@ -42,20 +38,21 @@ class AzimuthFate:
     final_displacement_m: float
     max_displacement_m: float
     end_s: float
+    max_rotation_ratio: float
 
 
 def respond_directions(
-    block: Block, record: Record, *, vertical: Factor | None = None, step_deg: float = STEP_DEG, **options: Any
+    block: Block | ScannedBody, record: Record, *, vertical: Factor | None = None, step_deg: float = STEP_DEG, **options: Any
 ) -> list[AzimuthFate]:
     """Return what becomes of a body in every direction of a record, the worst first.
 
-    Directions run over the half circle when the body is the same to both sides, else over the whole. A body that falls is worse than one
-    that leans, one that falls sooner worse than one that falls later, one that leans further worse than one that leans less, and of two
-    that do not lean the one that moves further is worse.
+    Directions are those of :func:`~seisblock.studies.azimuths.sweep`; all of them go through the record side by side. A body that falls
+    is worse than one that leans, one that falls sooner worse than one that falls later, one that leans further worse than one that leans
+    less, and of two that do not lean the one that moves further is worse.
 
     Parameters
     ----------
-    block : Block
+    block : Block or ScannedBody
     record : Record
         With two horizontal components.
     vertical : bool, float or None
@@ -74,18 +71,15 @@ def respond_directions(
     >>> worst.azimuth_deg
     90.0
     """
-    checks.instance(block, Block)
-    checks.instance(record, Record)
-    checks.positive("the step between directions", step_deg, "degrees")
     settle_s = options.pop("settle_s", 60.0)
-    round_about = 360.0 if block.centroid_offset else 180.0
-    check_budget(noted("directions"), math.ceil(round_about / step_deg), "SEISBLOCK_RUNS")
-    azimuths = np.arange(0.0, round_about, step_deg)
-    motion = motion_of(record, "0")
-    turn = np.radians(azimuths)
-    gains = np.column_stack([np.cos(turn), -np.sin(turn), np.full(turn.size, vertical_gain(motion, vertical))])
-    fates = respond_many([make_setting(block, **options)] * turn.size, motion, gains=gains, settle_s=settle_s)
-    found = [_direction(float(azimuth), fates, row, motion.start_s) for row, azimuth in enumerate(azimuths)]
+    around = sweep(block, record, step_deg=step_deg, vertical=vertical)
+    settings = [make_setting(each, **options) for each in around.blocks]
+    fates = respond_many(settings, around.motion, gains=around.gains, settle_s=settle_s)
+    start_s = around.motion.start_s
+    found = [
+        _direction(azimuth, block, fates, row, start_s)
+        for row, (azimuth, block) in enumerate(zip(around.azimuths.tolist(), around.blocks, strict=True))
+    ]
     return sorted(found, key=_severity, reverse=True)
 
 
@@ -96,7 +90,7 @@ def _severity(each: AzimuthFate) -> tuple[float, float, float]:
     return 0.0, round(each.max_rotation_rad, 12), each.max_displacement_m
 
 
-def _direction(azimuth: float, fates: Fates, row: int, start_s: float) -> AzimuthFate:
+def _direction(azimuth: float, block: Block, fates: Fates, row: int, start_s: float) -> AzimuthFate:
     """Return the fate of one direction."""
     fallen = bool(fates.overturned[row])
     return AzimuthFate(
@@ -107,4 +101,5 @@ def _direction(azimuth: float, fates: Fates, row: int, start_s: float) -> Azimut
         float(fates.final_displacement_m[row]),
         float(fates.max_displacement_m[row]),
         start_s + float(fates.end_s[row]),
+        float(fates.max_rotation_rad[row]) / block.slenderness,
     )

@@ -1,0 +1,191 @@
+"""A scanned body: not the same to all sides, so that in each direction it is another block."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.bodies.block import Block
+from seisblock.bodies.inset import SHARP, Inset
+from seisblock.bodies.scan.polygon import depth_within, least_width, nearest_side, reach, shrunk
+from seisblock.errors import BodyError, ComponentError
+from seisblock.records import Motion
+from seisblock.typing import FloatArray
+from seisblock.words import said
+
+EAST = 90.0
+"""Azimuth of +x where nothing is said: x to the east and y to the north, as on a map."""
+
+Triple = tuple[float, float, float]
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class ScannedBody:
+    """A rigid body of any shape that stands on level ground on some of its points.
+
+    Parameters
+    ----------
+    name : str
+    mass : float, kg
+    height : float, m
+        Overall, above the ground.
+    centre : three floats, m
+        Centre of gravity, x, y, and z above the ground.
+    inertia : three rows of three floats, kg m^2
+        Tensor about the centre of gravity.
+    base : pairs of floats, m
+        x and y of the corners that carry, counter-clockwise: a convex polygon, sharp.
+    inset : Inset
+        How far in from each side of the base the worn body turns; a share is one of the base's least width.
+    facing : float, degrees
+        Azimuth of +x, clockwise from north.
+
+    Raises
+    ------
+    BodyError
+        If the mass, a size or the inertia is not positive, or the centre of gravity does not lie above what is left of the base.
+
+    Examples
+    --------
+    >>> base = ((0.1, 0.15), (-0.1, 0.15), (-0.1, -0.15), (0.1, -0.15))
+    >>> box = ScannedBody("box", 240.0, 0.8, (0.0, 0.0, 0.4), ((16.0, 0.0, 0.0), (0.0, 14.0, 0.0), (0.0, 0.0, 5.0)), base)
+    >>> east, north = box.towards(90.0), box.towards(0.0)
+    >>> round(east.width, 12), round(north.width, 12)
+    (0.2, 0.3)
+    """
+
+    name: str
+    mass: float
+    height: float
+    centre: Triple
+    inertia: tuple[Triple, Triple, Triple]
+    base: tuple[Pair, ...]
+    inset: Inset = SHARP
+    facing: float = EAST
+
+    def __post_init__(self) -> None:
+        checks.positive("{name}: {what}", self.mass, "kg", error=BodyError, name=self.name, what=said("mass"))
+        checks.positive("{name}: {what}", self.height, "m", error=BodyError, name=self.name, what=said("height"))
+        checks.finite("{name}: {what}", self.facing, "degrees", error=BodyError, name=self.name, what=said("azimuth of +x"))
+        tensor, corners = np.array(self.inertia, dtype=np.float64), self.corners
+        if tensor.shape != (3, 3) or not np.isfinite(tensor).all() or np.abs(tensor - tensor.T).max() > 1e-9 * np.abs(tensor).max():
+            raise BodyError("{name}: the inertia must be three rows of three numbers, the same across its diagonal", name=self.name)
+        least, middle, largest = np.linalg.eigvalsh(tensor)
+        if not (least > 0.0 and largest <= (least + middle) * (1.0 + 1e-9)):
+            raise BodyError(
+                "{name}: no body has principal moments of inertia of {moments} kg m^2",
+                name=self.name,
+                moments=[f"{moment:.4g}" for moment in (least, middle, largest)],
+            )
+        if corners.ndim != 2 or corners.shape[1:] != (2,) or len(corners) < 3 or not np.isfinite(corners).all():
+            raise BodyError("{name}: the base must be three corners or more, each an x and a y", name=self.name)
+        sides = np.roll(corners, -1, axis=0) - corners
+        turns = sides[:, 0] * np.roll(sides[:, 1], -1) - sides[:, 1] * np.roll(sides[:, 0], -1)
+        area = 0.5 * float(np.sum(corners[:, 0] * np.roll(corners[:, 1], -1) - np.roll(corners[:, 0], -1) * corners[:, 1]))
+        if not (area > 0.0 and turns.min() >= -1e-9 * area):
+            raise BodyError("{name}: the corners of the base must go round a convex polygon, counter-clockwise", name=self.name)
+        if not (len(self.centre) == 3 and 0.0 < self.centre[2] < self.height):
+            raise BodyError(
+                "{name}: the centre of gravity must lie between the ground and the top, {height:g} m; found {centre}",
+                name=self.name,
+                height=self.height,
+                centre=str(self.centre),
+            )
+        if not depth_within(corners, self.centre[:2]) > 0.0:
+            raise BodyError("{name}: the centre of gravity does not lie above the base", name=self.name)
+        if not depth_within(self.carrying, self.centre[:2]) > 0.0:
+            raise BodyError(
+                "{name}: an inset of {inset:.4g} m leaves nothing of the base under the centre of gravity, which lies {depth:.4g} m inside",
+                name=self.name,
+                inset=self.inset_m,
+                depth=depth_within(corners, self.centre[:2]),
+            )
+
+    @cached_property
+    def corners(self) -> FloatArray:
+        """The sharp base, (n, 2), m."""
+        return np.array(self.base, dtype=np.float64)
+
+    @cached_property
+    def inset_m(self) -> float:
+        """How far in from each side of its base it turns, m."""
+        return self.inset.length_m + (self.inset.share * least_width(self.corners) if self.inset.share else 0.0)
+
+    @cached_property
+    def carrying(self) -> FloatArray:
+        """The base within its worn edges, (n, 2), m."""
+        return shrunk(self.corners, self.inset_m)
+
+    def worn(self, inset: Inset | float) -> ScannedBody:
+        """Return the body with other worn edges: a share of its base's least width per side, or an :class:`Inset`."""
+        return replace(self, inset=inset if isinstance(inset, Inset) else Inset(share=inset))
+
+    def towards(self, azimuth: float) -> Block:
+        """Return the block as which it rocks, slides and flies in a vertical plane whose +x has an azimuth.
+
+        The plane is that of the motion: it turns about the level line across it that touches its base, and its inertia is that about the
+        line's direction; turning aside, about the corner where line and base meet, is left out (ours). Its two sides differ.
+
+        Parameters
+        ----------
+        azimuth : float, degrees
+            Clockwise from north.
+
+        Returns
+        -------
+        Block
+            Its inset is the mean of both sides', its arms are exact.
+        """
+        turn = math.radians(self.facing - checks.finite("the azimuth", azimuth, "degrees"))
+        ahead, aside = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
+        sharp, worn = self.corners - self.centre[:2], self.carrying - self.centre[:2]
+        right, left = reach(worn, ahead), reach(worn, -ahead)
+        width = reach(sharp, ahead) + reach(sharp, -ahead)
+        axis = np.array([*aside, 0.0])
+        return Block(
+            width,
+            self.height,
+            reach(sharp, aside) + reach(sharp, -aside),
+            self.mass,
+            centroid_height=self.centre[2],
+            centroid_offset=0.5 * (left - right),
+            centroid_inertia=float(axis @ np.array(self.inertia) @ axis),
+            name=self.name,
+            inset=max(0.5 * (width - (right + left)), 0.0),
+        )
+
+    def along(self, motion: Motion) -> Block:
+        """Return the block as which it follows a motion, towards its azimuth.
+
+        Raises
+        ------
+        ComponentError
+            If the azimuth of the motion's +x is not known.
+        """
+        azimuth = motion.azimuth_deg
+        if azimuth is None:
+            raise ComponentError(
+                "{name} is another block in each direction, and nobody knows the azimuth of {component}: give a record that tells it",
+                name=self.name,
+                component=motion.name or "+x",
+            )
+        return self.towards(azimuth)
+
+
+def weakest(body: ScannedBody) -> tuple[float, float]:
+    """Return the least alpha of a body, rad, and towards which azimuth, degrees: that of the nearest side of its base (derived here).
+
+    Examples
+    --------
+    >>> from seisblock.bodies.scan.toml import load_scan
+    >>> alpha, azimuth = weakest(load_scan("boulder"))
+    >>> round(alpha, 3), round(azimuth)
+    (0.183, 226)
+    """
+    depth, turn = nearest_side(body.carrying, body.centre[:2])
+    return math.atan2(depth, body.centre[2]), (body.facing - math.degrees(turn)) % 360.0

@@ -1,0 +1,145 @@
+"""A surface of triangles from a scanner's file: read within a budget, its vertices shared, closed, and turned outside out."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.errors import BodyError, reason
+from seisblock.ledger import reading
+from seisblock.limits import MIB, check_budget, limit
+from seisblock.samples import find_sample
+from seisblock.typing import FloatArray, IntArray
+from seisblock.units import LENGTH_UNITS
+from seisblock.words import noted
+
+SUFFIXES = (".stl", ".ply", ".obj")
+"""Formats of meshes that are read."""
+
+UPWARD = {"x": (1, 2, 0, 1), "y": (2, 0, 1, 1), "z": (0, 1, 2, 1), "-x": (2, 1, 0, -1), "-y": (0, 2, 1, -1), "-z": (1, 0, 2, -1)}
+"""For each axis of a file that may point upwards: which of its axes become x, y and z, and the sign of z; none mirrors the body."""
+
+_MIXER = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
+"""Odd numbers that spread the bits of three coordinates over one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A surface of triangles.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array, m
+        z upwards.
+    faces : (k, 3) array of int
+        Their corners, counter-clockwise seen from outside.
+    source, sha256 : str
+        The file, and its digest.
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+    source: str = ""
+    sha256: str = ""
+
+
+def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
+    """Return the mesh of an STL, PLY or OBJ file, or of a bundled one, its equal vertices shared.
+
+    Parameters
+    ----------
+    name : path
+    unit : str
+        Of the file's numbers, one of ``LENGTH_UNITS``; formats of meshes do not say.
+    up : str
+        The file's axis that points upwards: x, y, z, -x, -y or -z.
+
+    Raises
+    ------
+    BodyError
+        If there is no such file, it is no mesh, or not all of its numbers are finite.
+    ParameterError
+        If it is larger than may be read, or trimesh is not installed.
+
+    Examples
+    --------
+    >>> mesh = read_mesh("boulder.ply")
+    >>> mesh.faces.shape[1], bool(mesh.vertices[:, 2].max() > 0.5)
+    (3, True)
+    """
+    if unit not in LENGTH_UNITS:
+        raise BodyError("unknown unit {unit!r} of a mesh; known are {known}", unit=str(unit)[:40], known=list(LENGTH_UNITS))
+    if up not in UPWARD:
+        raise BodyError("{up!r} is no axis of a mesh: which one points upwards is one of {known}", up=str(up)[:40], known=list(UPWARD))
+    data = _bytes_of(name)
+    vertices, faces = _triangles(io.BytesIO(data), str(name))
+    check_budget(noted("triangles"), len(faces), "SEISBLOCK_TRIANGLES", where=str(name), error=BodyError)
+    if faces.size == 0:
+        raise BodyError("{name} holds no triangles: expected a surface, as a scanner's program exports it", name=str(name))
+    if not np.isfinite(vertices[faces]).all():
+        raise BodyError("{name} has vertices that are no finite numbers: export it again, without holes filled by nothing", name=str(name))
+    vertices, faces = _shared(vertices * LENGTH_UNITS[unit], faces)
+    first, second, third, sign = UPWARD[up]
+    turned = np.column_stack([vertices[:, first], vertices[:, second], sign * vertices[:, third]])
+    return Mesh(turned, faces, str(name), hashlib.sha256(data).hexdigest())
+
+
+def _bytes_of(name: str | Path) -> bytes:
+    """Return what a file of a mesh holds, if it is one by its name and not too large."""
+    path = Path(checks.path(name))
+    bundled = find_sample(path.name) if path.parent == Path() and not path.exists() else None
+    path = path if bundled is None else bundled
+    if path.suffix.lower() not in SUFFIXES:
+        raise BodyError("{name} is no mesh by its name: expected {suffixes}", name=str(name)[:200], suffixes=list(SUFFIXES))
+    try:
+        size, most = path.stat().st_size, limit("SEISBLOCK_READ_MIB")
+        if size > most * MIB:
+            check_budget("MiB", -(-size // MIB), "SEISBLOCK_READ_MIB", where=str(name), error=BodyError)
+        data = path.read_bytes()
+        reading(path)
+    except OSError as error:
+        raise BodyError("{name} cannot be read: {reason}", name=str(name)[:200], reason=reason(error)) from error
+    if not data.strip():
+        raise BodyError("{name} is empty", name=str(name))
+    return data
+
+
+def _triangles(stream: io.BytesIO, name: str) -> tuple[FloatArray, IntArray]:
+    """Return vertices and faces as a file has them; no other file is opened that it may name."""
+    try:
+        import trimesh
+    except ImportError as error:
+        raise BodyError("scans are read with trimesh: pip install 'seisblock[scan]'") from error
+    try:
+        loaded: Any = trimesh.load_mesh(stream, file_type=Path(name).suffix[1:].lower(), process=False)
+        faces = np.asarray(loaded.faces, dtype=np.int64).reshape(-1, 3)
+        vertices = np.asarray(loaded.vertices, dtype=np.float64).reshape(-1, 3)
+        inside = faces.size == 0 or (faces.min() >= 0 and faces.max() < len(vertices))
+    except MemoryError:
+        raise
+    except Exception as error:
+        raise BodyError("{name} is damaged, or no mesh: {why}", name=name, why=str(error)[:200] or type(error).__name__) from error
+    if not inside:
+        raise BodyError("{name} is damaged: a triangle names a vertex that is not there", name=name)
+    return vertices, faces
+
+
+def _shared(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
+    """Return a mesh in which equal vertices are one, without triangles that have two corners in one, and vertices that have none."""
+    used, faces = np.unique(faces, return_inverse=True)
+    points = np.ascontiguousarray(vertices[used]) + 0.0  # of the two zeros one
+    bits = points.view(np.uint64)
+    bits = (bits ^ (bits >> np.uint64(29))) * _MIXER
+    mixed = (bits ^ (bits >> np.uint64(32))).sum(axis=1, dtype=np.uint64)
+    _, first, number = np.unique(mixed, return_index=True, return_inverse=True)
+    if not np.array_equal(points[first][number], points):  # two points of one number: slower, and never wrong
+        _, first, number = np.unique(points, axis=0, return_index=True, return_inverse=True)
+    corners = number.reshape(-1)[faces.reshape(-1, 3)]
+    whole = (corners[:, 0] != corners[:, 1]) & (corners[:, 1] != corners[:, 2]) & (corners[:, 2] != corners[:, 0])
+    return points[first], corners[whole]

@@ -1,0 +1,84 @@
+"""A body in every direction of a record: which ones there are, which block it is in each, and how the motion is turned."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.bodies.block import Block
+from seisblock.bodies.scan.body import ScannedBody
+from seisblock.limits import check_budget
+from seisblock.records import Motion, Record, motion_of
+from seisblock.records.given import Factor, vertical_gain
+from seisblock.typing import FloatArray
+from seisblock.words import noted
+
+STEP_DEG = 5.0
+"""Between directions, unless told otherwise."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """The directions of a record, and a body in each.
+
+    Parameters
+    ----------
+    azimuths : (m,) array, degrees
+        Of +x, clockwise from north.
+    blocks : tuple of Block
+        One for each.
+    motion : Motion
+        Towards north.
+    gains : (m, 3) array
+        Factors on its rows that turn it to each azimuth.
+    """
+
+    azimuths: FloatArray
+    blocks: tuple[Block, ...]
+    motion: Motion
+    gains: FloatArray
+
+
+def sweep(body: Block | ScannedBody, record: Record, *, step_deg: float = STEP_DEG, vertical: Factor | None = None) -> Sweep:
+    """Return the directions of a record, half the circle, or all of it where a block is turned whose two sides differ.
+
+    A scan stands where it stands: towards the opposite azimuth it is the same block seen from behind.
+
+    Parameters
+    ----------
+    body : Block or ScannedBody
+    record : Record
+        With two horizontal components of known azimuths.
+    step_deg : float
+        Degrees between directions.
+    vertical : bool, float or None
+        Whether the vertical motion acts, or a factor on it; None: where the record has one.
+
+    Raises
+    ------
+    ParameterError
+        If the step is not positive, or makes more directions than may be looked in.
+    ComponentError
+        If the record has no two horizontals of known azimuths, or no vertical component where it is asked for.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> sweep(Block(0.24, 0.72), read("synthetic_jma.csv"), step_deg=45.0).azimuths.tolist()
+    [0.0, 45.0, 90.0, 135.0]
+    """
+    checks.instance(body, ScannedBody if isinstance(body, ScannedBody) else Block)
+    checks.instance(record, Record)
+    checks.positive("the step between directions", step_deg, "degrees")
+    two_sided = isinstance(body, Block) and body.centroid_offset != 0.0
+    around = 360.0 if two_sided else 180.0
+    check_budget(noted("directions"), math.ceil(around / step_deg), "SEISBLOCK_RUNS")
+    azimuths = np.arange(0.0, around, step_deg)
+    motion = motion_of(record, "0")
+    turn = np.radians(azimuths)
+    gains = np.column_stack([np.cos(turn), -np.sin(turn), np.full(turn.size, vertical_gain(motion, vertical))])
+    blocks = tuple(body.towards(azimuth) if isinstance(body, ScannedBody) else body for azimuth in azimuths.tolist())
+    return Sweep(azimuths, blocks, motion, gains)

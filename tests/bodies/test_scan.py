@@ -1,0 +1,407 @@
+"""Bodies from scans: what a surface encloses, on what it stands, and how it turns towards each azimuth, against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.polynomial import Polynomial
+from scipy.spatial.transform import Rotation
+
+from seisblock import Block, Inset, Motion, motion_of, read, solve_rock
+from seisblock.bodies.library import along, load_block
+from seisblock.bodies.scan.body import ScannedBody, weakest
+from seisblock.bodies.scan.directions import scan_azimuths
+from seisblock.bodies.scan.doubts import scan_doubts
+from seisblock.bodies.scan.enclosed import enclosed_by
+from seisblock.bodies.scan.mesh import UPWARD, Mesh, read_mesh
+from seisblock.bodies.scan.polygon import depth_within, hull, least_width, reach, shrunk
+from seisblock.bodies.scan.scan import scan_body
+from seisblock.bodies.scan.toml import load_scan, scanned_body, told
+from seisblock.bodies.toml import read_table
+from seisblock.errors import BodyError, ComponentError, InputError
+from tests import make_boulder
+from tests.bodies.meshes import box, frustum, write_obj, write_ply, write_stl
+
+EXACT = 1e-12
+"""Sums of some hundred terms, relative."""
+
+
+def regular(sides, radius):
+    """Return area, and second moment about a line through the middle, of a regular polygon."""
+    turn = 2.0 * math.pi / sides
+    return 0.5 * sides * radius**2 * math.sin(turn), sides * radius**4 / 24.0 * math.sin(turn) * (2.0 + math.cos(turn))
+
+
+@pytest.mark.parametrize(
+    ("below", "above"), [(0.3, 0.3), (0.3, 0.1), (0.25, 0.0), (0.1, 0.3)], ids=["cylinder", "frustum", "cone", "upside down"]
+)
+@pytest.mark.parametrize("sides", [3, 4, 17, 300])
+def test_what_a_frustum_encloses(sides, below, above):
+    """Volume, centre and inertia of prisms, frusta and cones over regular polygons are integrals of polynomials in z."""
+    height, far = 0.9, np.array([3.0, -2.0, 5.0])
+    vertices, faces = frustum(sides, below, above, height)
+    used = np.unique(faces)
+    found = enclosed_by(Mesh(*_shared(vertices[used] + far, np.searchsorted(used, faces))))
+    z = Polynomial([0.0, 1.0])
+    radius = below + (above - below) / height * z
+    area, moment = regular(sides, 1.0)
+    volume = (area * radius**2).integ()(height)
+    centre = (area * radius**2 * z).integ()(height) / volume
+    across = (moment * radius**4).integ()(height) / volume
+    along_z = (area * radius**2 * (z - centre) ** 2).integ()(height) / volume
+    assert found.volume == pytest.approx(volume, rel=EXACT * 1e3)
+    assert found.centre - far == pytest.approx((0.0, 0.0, centre), abs=1e-12)
+    expected = np.diag([across + along_z, across + along_z, 2.0 * across])
+    assert found.gyration == pytest.approx(expected, abs=1e-12)
+    assert found.pieces == 1
+
+
+def _shared(vertices, faces):
+    """Return a mesh without the doubled apex of a cone."""
+    _, first, number = np.unique(vertices.round(12), axis=0, return_index=True, return_inverse=True)
+    corners = number.reshape(-1)[faces]
+    whole = [len(set(face)) == 3 for face in corners.tolist()]
+    return vertices[first], corners[whole]
+
+
+@pytest.fixture(scope="module")
+def boxed(tmp_path_factory):
+    """Return the body of a box of 0.3 x 0.4 x 0.9 m with a density of 2000 kg/m^3."""
+    path = write_ply(tmp_path_factory.mktemp("box") / "box.ply", *box(0.3, 0.4, 0.9))
+    return scan_body(path, density=2000.0)
+
+
+def test_a_box_is_a_block_towards_each_of_its_sides(boxed):
+    """+x is east: towards 90 degrees it is as wide as along x. Mass, centre, inertia, alpha and p are those of the rectangle."""
+    for azimuth, width, depth in ((90.0, 0.3, 0.4), (0.0, 0.4, 0.3), (270.0, 0.3, 0.4), (180.0, 0.4, 0.3)):
+        found, expected = boxed.body.towards(azimuth), Block(width, 0.9, depth, density=2000.0)
+        assert found.total_mass == pytest.approx(expected.total_mass, rel=EXACT)
+        for name in ("arms", "radii", "slendernesses", "corner_inertias", "lever_ratios", "restitutions"):
+            assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=EXACT), name
+        assert found.frequency_parameter() == pytest.approx(math.sqrt(3.0 * 9.80665 / (4.0 * math.hypot(width, 0.9) / 2.0)), rel=EXACT)
+
+
+@pytest.mark.parametrize("azimuth", [13.0, 45.0, 100.0, 222.0, 359.0])
+def test_a_box_turns_about_its_corner_between_its_sides(boxed, azimuth):
+    """The arm is the reach of the corner, the inertia that about a level line: of a box turned by an angle both are closed forms."""
+    angle = math.radians(90.0 - azimuth)
+    c, s = abs(math.cos(angle)), abs(math.sin(angle))
+    found = boxed.body.towards(azimuth)
+    mass = 2000.0 * 0.3 * 0.4 * 0.9
+    assert found.arms == pytest.approx(((0.3 * c + 0.4 * s) / 2,) * 2, rel=EXACT)
+    about_y, about_x = mass * (0.3**2 + 0.9**2) / 12, mass * (0.4**2 + 0.9**2) / 12
+    assert found.gyration_squared * mass == pytest.approx(about_y * c * c + about_x * s * s, rel=1e-11)
+
+
+def test_facing_turns_the_body(boxed):
+    """A body that faces 40 degrees further round meets a motion that comes 40 degrees further round as it did before."""
+    turned = ScannedBody(**{**vars_of(boxed.body), "facing": 130.0})
+    for azimuth in (0.0, 17.0, 200.0):
+        before, after = boxed.body.towards(azimuth), turned.towards(azimuth + 40.0)
+        assert before.arms == pytest.approx(after.arms, rel=1e-12) and before.gyration_squared == pytest.approx(
+            after.gyration_squared, rel=1e-12
+        )
+
+
+def vars_of(body):
+    """Return the fields of a body."""
+    return {name: getattr(body, name) for name in ScannedBody.__dataclass_fields__}
+
+
+@pytest.mark.parametrize("write", [write_stl, write_obj, write_ply])
+def test_formats_agree(write, tmp_path):
+    """STL (single precision, no shared vertices), OBJ and PLY hold the same box; millimetres are a thousandth of metres."""
+    vertices, faces = box(300.0, 400.0, 900.0)
+    path = write(tmp_path / f"box.{write.__name__[-3:]}", vertices, faces)
+    mesh = read_mesh(path, unit="mm")
+    assert len(mesh.vertices) == 10 and len(mesh.faces) == 16
+    assert enclosed_by(mesh).volume == pytest.approx(0.108, rel=1e-7)
+
+
+@pytest.mark.parametrize("up", UPWARD)
+def test_every_axis_may_point_upwards(up, tmp_path):
+    """Whatever axis is up, volume and height are the same, nothing is mirrored, and the body stands."""
+    vertices, faces = frustum(5, 0.3, 0.2, 0.8, sheared=(0.05, 0.02))
+    first, second, third, sign = UPWARD[up]
+    shuffled = np.empty_like(vertices)
+    shuffled[:, first], shuffled[:, second], shuffled[:, third] = vertices[:, 0], vertices[:, 1], sign * vertices[:, 2]
+    body = scan_body(write_ply(tmp_path / "body.ply", shuffled, faces), up=up).body
+    upright = scan_body(write_ply(tmp_path / "upright.ply", vertices, faces)).body
+    assert body.centre == pytest.approx(upright.centre, abs=1e-12)
+    assert body.towards(77.0).arms == pytest.approx(upright.towards(77.0).arms, abs=1e-12)
+
+
+def test_a_scan_that_leans_is_laid_level(tmp_path, boxed):
+    """A box turned by 4 degrees about any level axis rests on its base again: the same body, and the turn is told."""
+    vertices, faces = box(0.3, 0.4, 0.9)
+    leaning = vertices @ Rotation.from_rotvec(math.radians(4.0) * np.array([math.cos(1.0), math.sin(1.0), 0.0])).as_matrix().T
+    found = scan_body(write_ply(tmp_path / "leaning.ply", leaning + 0.7, faces), density=2000.0)
+    assert math.degrees(found.tilt) == pytest.approx(4.0, abs=1e-6)
+    assert found.body.height == pytest.approx(0.9, abs=1e-8)
+    assert weakest(found.body)[0] == pytest.approx(weakest(boxed.body)[0], abs=1e-7)
+    assert np.array(found.body.inertia) == pytest.approx(np.array(boxed.body.inertia), abs=1e-6)
+    assert any("turned by 4 degrees" in doubt for doubt in scan_doubts(found))
+
+
+def test_feet_carry_and_a_hollow_between_them_does_not(tmp_path):
+    """The base is the hull of what touches: a box whose base is hollow but for its rim stands as a box does."""
+    vertices, faces = box(0.3, 0.4, 0.9)
+    vertices[8, 2] = 0.05  # the middle of the base
+    assert scan_body(write_ply(tmp_path / "hollow.ply", vertices, faces)).touching == 4
+    found = scan_body(write_ply(tmp_path / "hollow.ply", vertices, faces)).body
+    assert found.towards(90.0).arms == pytest.approx((0.15, 0.15), rel=1e-9)
+
+
+def test_the_tolerance_decides_what_carries(tmp_path):
+    """A foot 3 mm short carries with a tolerance of 4 mm, and not with one of 1 mm: then three others do, as a table rocks."""
+    vertices, faces = frustum(8, 0.3, 0.3, 0.6)
+    vertices[0, 2] = 0.003
+    path = write_ply(tmp_path / "short.ply", vertices, faces)
+    wide, narrow = (scan_body(path, tolerance=tolerance).body for tolerance in (0.004, 0.001))
+    assert wide.towards(90.0).arms[0] == pytest.approx(0.3, abs=1e-3)
+    assert narrow.towards(90.0).arms[0] == pytest.approx(0.3 * math.cos(math.pi / 4.0), abs=1e-3)
+    assert "depends on the tolerance" in " ".join(scan_doubts(scan_body(path, tolerance=0.002)))
+
+
+def test_an_irregular_body_against_points_in_a_grid():
+    """A boulder of 40 000 vertices against its own inequality at a million points: volume, centre and inertia to 0.5 %."""
+    towards, faces = make_boulder.sphere(40_000)
+    points = make_boulder.bumpy(towards)
+    points[:, 2] = np.maximum(points[:, 2], -make_boulder.CUT)
+    found = enclosed_by(Mesh(points, faces))
+    spacing = 0.011
+    axes = [np.arange(low + spacing / 2, high, spacing) for low, high in zip(points.min(axis=0), points.max(axis=0), strict=True)]
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    scaled = grid / make_boulder.EGG
+    away = np.linalg.norm(scaled, axis=1)
+    surface = np.linalg.norm(make_boulder.bumpy(scaled / away[:, None]) / make_boulder.EGG, axis=1)
+    inside = grid[(away <= surface) & (grid[:, 2] >= -make_boulder.CUT)]
+    assert found.volume == pytest.approx(len(inside) * spacing**3, rel=5e-3)
+    assert found.centre == pytest.approx(inside.mean(axis=0), abs=1e-3)
+    spread = np.cov(inside.T, bias=True)
+    assert found.gyration == pytest.approx(np.trace(spread) * np.eye(3) - spread, abs=5e-3 * np.trace(spread))
+
+
+@pytest.mark.parametrize("sides", [3, 4, 7, 60])
+def test_worn_edges_of_a_regular_polygon(sides):
+    """Moving all sides inwards leaves a similar polygon; its corners move by more than its sides."""
+    turn = 2.0 * np.pi * np.arange(sides) / sides
+    corners = np.column_stack([np.cos(turn), np.sin(turn)])
+    left = shrunk(corners, 0.1)
+    share = 1.0 - 0.1 / math.cos(math.pi / sides)
+    assert len(left) == sides
+    assert np.sort(np.linalg.norm(left, axis=1)) == pytest.approx(np.full(sides, share), rel=1e-9)
+    assert depth_within(left, (0.0, 0.0)) == pytest.approx(math.cos(math.pi / sides) - 0.1, rel=1e-9)
+
+
+def test_worn_edges_may_swallow_a_side():
+    """A short side between two long ones is gone when they meet before it; beyond the deepest point nothing is left."""
+    roof = hull([(-2.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.9, 1.1), (-2.0, 1.1)])
+    assert len(shrunk(roof, 0.2)) == 4 and len(roof) == 5
+    assert len(shrunk(roof, 0.6)) == 0
+    assert least_width(roof) == pytest.approx(1.1)
+    assert reach(roof, (0.0, 1.0)) == pytest.approx(1.1)
+
+
+def test_an_inset_moves_every_side_of_the_base(boxed):
+    """10 mm in: arms shrink by 10 mm towards sides, by more towards corners; a share is one of the least width, 0.3 m."""
+    worn = boxed.body.worn(Inset(length_m=0.01))
+    assert worn.towards(90.0).arms == pytest.approx((0.14, 0.14), rel=EXACT)
+    assert worn.towards(45.0).arms == pytest.approx(((0.28 + 0.38) / 2 / math.sqrt(2.0),) * 2, rel=EXACT)
+    assert worn.towards(90.0).inset == pytest.approx(0.01, rel=1e-9)
+    assert boxed.body.worn(0.1).inset_m == pytest.approx(0.03, rel=EXACT)
+    with pytest.raises(BodyError, match="leaves nothing of the base"):
+        boxed.body.worn(Inset(length_m=0.16))
+
+
+def test_towards_the_opposite_azimuth_it_is_the_same_block_seen_from_behind():
+    """Arms and restitutions change sides, mass and inertia stay: the two sides of a boulder differ."""
+    body = load_scan("boulder")
+    for azimuth in (0.0, 33.0, 120.0):
+        here, behind = body.towards(azimuth), body.towards(azimuth + 180.0)
+        assert here.arms == pytest.approx(behind.arms[::-1], rel=1e-12)
+        assert here.restitutions == pytest.approx(behind.restitutions[::-1], rel=1e-12)
+        assert abs(here.arms[0] - here.arms[1]) > 1e-3
+
+
+def test_the_table_of_azimuths_is_that_of_the_blocks():
+    """b, alpha, R, I_O, p and the threshold towards an azimuth are those of the block's right corner; the least alpha is among them."""
+    body = load_scan("boulder").worn(0.05)
+    around = scan_azimuths(body, step_deg=1.0)
+    for each in around[::37]:
+        block = body.towards(each.azimuth_deg)
+        assert (each.arm_m, each.slenderness_rad, each.radius_m) == (block.arms[0], block.slendernesses[0], block.radii[0])
+        inertia = block.gyration_squared * body.mass + body.mass * each.radius_m**2
+        assert each.pivot_inertia_kg_m2 == pytest.approx(inertia, rel=1e-12)
+        assert each.frequency_parameter_rad_s == pytest.approx(math.sqrt(body.mass * 9.80665 * each.radius_m / inertia), rel=1e-12)
+        assert each.threshold_m_s2 == pytest.approx(9.80665 * math.tan(each.slenderness_rad), rel=1e-12)
+    alpha, azimuth = weakest(body)
+    least = min(around, key=lambda each: each.slenderness_rad)
+    assert alpha <= least.slenderness_rad == pytest.approx(alpha, rel=1e-3)
+    assert abs(azimuth - least.azimuth_deg) <= 1.0
+
+
+def test_a_box_from_a_scan_rocks_as_the_block(boxed):
+    """Towards its side, a scanned box leans, hits and falls as the block of its sizes, at the same times."""
+    pulse = Motion.from_arrays(4.2 * np.sin(np.linspace(0.0, 4.0 * np.pi, 401)), 0.01, name="90")
+    scanned = solve_rock(along(boxed.body, pulse), pulse).outcome
+    drawn = solve_rock(Block(0.3, 0.9), pulse).outcome
+    assert scanned.rocks and scanned.impacts == drawn.impacts
+    assert scanned.max_rotation_rad == pytest.approx(drawn.max_rotation_rad, rel=1e-9)
+
+
+def test_a_motion_knows_its_azimuth():
+    """An azimuth and the code of a component both say where +x points; a motion of numbers alone does not, and a scan is told so."""
+    record = read("synthetic_jma.csv")
+    assert [motion_of(record, name).azimuth_deg for name in ("NS", "EW", "37")] == [0.0, 90.0, 37.0]
+    body, bare = load_scan("boulder"), Motion.from_arrays([0.0, 1.0], 0.01)
+    assert body.along(motion_of(record, "EW")) == body.towards(90.0)
+    assert bare.azimuth_deg is None
+    with pytest.raises(ComponentError, match="another block in each direction"):
+        along(body, bare)
+    assert along(load_block("gravestone"), bare) == load_block("gravestone")
+
+
+def test_a_body_is_read_as_it_was_written(tmp_path):
+    """Every number of the TOML keeps its digits; a name with quotation marks is one."""
+    found = scan_body("boulder.ply", inset=Inset(length_m=0.004), facing=12.5, called='a "stone" \\ 石')
+    path = tmp_path / "stone.toml"
+    path.write_text(told(found), encoding="utf-8")
+    assert load_scan(path) == found.body
+    assert (
+        told(scan_body("boulder.ply")).splitlines()[1:20]
+        == (make_boulder.sample_directory() / "boulder.toml").read_text(encoding="utf-8").splitlines()[1:20]
+    )
+
+
+BOX = box(0.3, 0.4, 0.9)
+
+
+def spoilt(what):
+    """Return vertices and faces of a box of which something is wrong."""
+    vertices, faces = BOX[0].copy(), BOX[1].copy()
+    if what == "open":
+        return vertices, faces[1:]
+    if what == "inside out":
+        return vertices, faces[:, ::-1]
+    if what == "in part":
+        faces[3] = faces[3, ::-1]
+    if what == "meets itself":
+        return np.concatenate([vertices, vertices[:2], [[0.3, 0.4, 0.9]]]), np.concatenate([faces, np.array([[0, 1, 12], [1, 0, 12]])])
+    if what == "flat":
+        vertices[:, 2] *= 1e-11
+    if what == "a point":
+        vertices, faces = frustum(12, 0.3, 0.0, 0.8)
+        vertices = vertices * (1.0, -1.0, -1.0)
+    if what == "top-heavy":
+        vertices, faces = frustum(12, 0.1, 0.1, 0.8, sheared=(0.25, 0.0))
+    if what == "not a number":
+        vertices[3, 1] = np.nan
+    return vertices, faces
+
+
+@pytest.mark.parametrize(
+    ("what", "told_so"),
+    [
+        ("open", "is open: 3 edges"),
+        ("inside out", "is inside out: its triangles run clockwise"),
+        ("in part", "is inside out in part: along 3 edges"),
+        ("meets itself", "meets itself: 1 edges belong to more than two"),
+        ("flat", "encloses nothing"),
+        ("a point", "rests on a point or an edge"),
+        ("top-heavy", "rests on a point or an edge"),
+        ("not a number", "no finite numbers"),
+    ],
+)
+def test_a_surface_that_is_no_body_is_refused_in_words(what, told_so, tmp_path):
+    """Open, inside out, non-manifold, flat, on its tip, top-heavy, not finite: each in its own sentence."""
+    with pytest.raises(BodyError, match=told_so):
+        scan_body(write_ply(tmp_path / "wrong.ply", *spoilt(what)))
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "told_so"),
+    [
+        ("empty.stl", b"", "is empty"),
+        ("words.stl", b"hello " * 40, "holds no triangles"),
+        ("words.ply", b"hello " * 40, "is damaged, or no mesh"),
+        ("words.obj", b"hello " * 40, "holds no triangles"),
+        ("far.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "is damaged"),
+        ("cut.ply", b"ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\nend_header\n\0", "is damaged"),
+        ("shape.step", b"ISO", "no mesh by its name"),
+    ],
+)
+def test_a_file_that_is_no_mesh_is_refused_in_words(name, data, told_so, tmp_path):
+    """Empty, other words, damaged, another format."""
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(BodyError, match=told_so):
+        read_mesh(tmp_path / name)
+
+
+def test_what_may_be_read_has_a_limit(tmp_path, monkeypatch):
+    """Bytes and triangles, each with the variable that lifts it."""
+    path = write_stl(tmp_path / "box.stl", *BOX)
+    monkeypatch.setenv("SEISBLOCK_TRIANGLES", "10")
+    with pytest.raises(BodyError, match=r"16 triangles, and 10 are allowed: .* SEISBLOCK_TRIANGLES"):
+        read_mesh(path)
+    monkeypatch.setenv("SEISBLOCK_READ_MIB", "1")
+    path.write_bytes(path.read_bytes() + bytes(2**21))
+    with pytest.raises(BodyError, match="SEISBLOCK_READ_MIB"):
+        read_mesh(path)
+
+
+def test_a_wrong_unit_is_a_doubt():
+    """A gravestone of 300 m, and one of 1 mm."""
+    for unit in ("km", "mm"):
+        assert any("files of meshes do not say their unit" in doubt for doubt in scan_doubts(scan_body("boulder.ply", unit=unit)))
+    assert not any("unit" in doubt for doubt in scan_doubts(scan_body("boulder.ply", inset=0.1)))
+
+
+def test_sharp_edges_are_a_doubt():
+    """What two granite rocks taught is said where no inset is given, and not where one is."""
+    assert "1.4 to 2.5 times" in " ".join(scan_doubts(scan_body("boulder.ply")))
+    assert list(scan_doubts(scan_body("boulder.ply", inset=0.1))) == []
+
+
+def test_what_else_stands_in_the_file_is_one_body(tmp_path):
+    """A second surface that does not touch the first is told of; a vertex that no triangle has is none."""
+    vertices, faces = BOX
+    both = write_ply(
+        tmp_path / "both.ply", np.concatenate([vertices, vertices * 0.1 + (0.0, 0.0, 1.2)]), np.concatenate([faces, faces + 10])
+    )
+    assert any("2 surfaces" in doubt for doubt in scan_doubts(scan_body(both)))
+    stray = write_ply(tmp_path / "stray.ply", np.concatenate([vertices, [[0.0, 0.0, -9.0]]]), faces)
+    assert scan_body(stray).body.height == pytest.approx(0.9, rel=EXACT)
+
+
+@pytest.mark.parametrize(
+    ("change", "told_so"),
+    [
+        ({"mass": -1.0}, "mass must be positive"),
+        ({"height": "x"}, "height"),
+        ({"centre": [0.0, 0.0]}, "expected 3 numbers in centre"),
+        ({"centre": [0.0, 0.0, 2.0]}, "between the ground and the top"),
+        ({"centre": [1.0, 0.0, 0.4]}, "does not lie above the base"),
+        ({"inertia": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]}, "three rows of three"),
+        ({"inertia": [[9.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]}, "principal moments"),
+        ({"inertia": 3}, "must be a list of rows"),
+        ({"base": [[0.0, 0.0], [1.0, 0.0]]}, "three corners or more"),
+        ({"base": [[-0.2, -0.2], [-0.2, 0.2], [0.2, 0.2], [0.2, -0.2]]}, "counter-clockwise"),
+        ({"base": [[-0.2, -0.2], [0.2, -0.2], [0.0, 0.1], [0.2, 0.2], [-0.2, 0.2]]}, "convex"),
+        ({"inset": "1m"}, "leaves nothing of the base"),
+        ({"facing": "north"}, "facing"),
+        ({"turned": 3}, "unknown entries"),
+    ],
+)
+def test_a_scan_that_is_described_wrongly_is_refused_in_words(change, told_so):
+    """Each slip in the TOML of a body is one sentence."""
+    with pytest.raises(InputError, match=told_so):
+        scanned_body({**read_table("boulder"), **change})
+
+
+def test_one_block_is_not_taken_for_a_scan():
+    """Where one block for all directions is needed, a scan is refused with what is missing."""
+    with pytest.raises(BodyError, match="another block in each direction"):
+        load_block("boulder")
+    with pytest.raises(BodyError, match='expected kind = "scan"'):
+        load_scan("gravestone")

@@ -1,0 +1,160 @@
+"""`seisblock body` and what takes its file: the arms of the azimuth that is solved, alike in rock, respond, criteria and batch."""
+
+import csv
+import json
+import sys
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.bodies.scan.scan import scan_body
+from seisblock.bodies.scan.toml import load_scan
+from seisblock.cli import main
+from seisblock.samples import sample_path
+from tests.bodies.meshes import box, write_stl
+
+SHORT = ("synthetic_jma.csv", "--window", "24:27")
+
+
+def run(*words):
+    """Return what a command line comes to."""
+    return CliRunner().invoke(main, [str(word) for word in words])
+
+
+def document(*words):
+    """Return the document of a command line."""
+    answer = run(*words, "--json")
+    assert answer.exit_code == 0, answer.stderr
+    return json.loads(answer.stdout)
+
+
+@pytest.fixture(scope="module")
+def stone(tmp_path_factory):
+    """Return the file of a body that the command wrote: edges 10 mm in, +x to the azimuth of 30 degrees."""
+    path = tmp_path_factory.mktemp("stone") / "stone.toml"
+    done = run("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--name", "stone", "--out", path)
+    assert done.exit_code == 0 and f"wrote {path}" in done.stderr.replace("\n", "")
+    return path
+
+
+def test_what_is_written_is_what_was_scanned(stone):
+    """The file holds the body of the library call, to the last digit."""
+    found = scan_body("boulder.ply", facing=30.0, called="stone").body
+    written = load_scan(stone)
+    assert written.inset_m == 0.01
+    assert written == found.worn(written.inset)
+
+
+def test_document_table_and_rows_say_the_same(stone, tmp_path):
+    """Alpha and p of each azimuth in JSON, in the CSV, and of the block that rock solves."""
+    rows = tmp_path / "azimuths.csv"
+    told = document("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--step", "90", "--csv", tmp_path / "unused.csv")
+    assert run("body", "boulder.ply", "--inset", "10mm", "--facing", "30", "--step", "90", "--csv", rows).exit_code == 0
+    with rows.open() as stream:
+        written = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
+    (result,) = told["results"]
+    assert written == result["directions"]
+    assert [each["azimuth_deg"] for each in written] == [0.0, 90.0, 180.0, 270.0]
+    rocked = document("rock", *SHORT, "--component", "EW", "--block", stone)
+    block = rocked["parameters"]["block"]
+    sides = block["slenderness_right_rad"], block["slenderness_left_rad"]
+    assert sides == pytest.approx([written[1]["slenderness_rad"], written[3]["slenderness_rad"]], rel=1e-12)
+    assert rocked["results"][0]["slenderness_rad"] == pytest.approx(min(sides), rel=1e-12)
+    assert rocked["results"][0]["frequency_parameter_rad_s"] == pytest.approx(
+        written[1 if sides[0] <= sides[1] else 3]["frequency_parameter_rad_s"], rel=1e-12
+    )
+
+
+def test_each_component_meets_its_own_block(stone):
+    """NS and EW find other arms, told beside each answer; respond and criteria take the same ones."""
+    body = load_scan(stone)
+    expected = [min(body.towards(azimuth).slendernesses) for azimuth in (0.0, 90.0)]
+    rocked = document("rock", *SHORT, "--block", stone)["results"]
+    assert [min(r["block"]["slenderness_right_rad"], r["block"]["slenderness_left_rad"]) for r in rocked] == pytest.approx(expected)
+    stood = document("respond", *SHORT, "--block", stone, "--mu", "0.4", "--runs", "0")["results"]
+    assert [r["block"] for r in stood] == [r["block"] for r in rocked]
+    cards = document("criteria", *SHORT, "--block", stone)["results"]
+    assert [card["simulated"]["slenderness_rad"] for card in cards] == pytest.approx(expected)
+    assert "alpha (rad)" in run("rock", *SHORT, "--block", stone).stdout
+    one = document("rock", *SHORT, "--block", "gravestone")["results"][0]
+    assert "block" not in one and "directions" not in one
+
+
+def test_an_inset_of_the_line_replaces_that_of_the_file(stone):
+    """Sharp again, or worn more: the polygon within is made anew."""
+    sharp, worn = (
+        document("rock", *SHORT, "--block", stone, "--component", "0", "--inset", inset)["parameters"]["block"] for inset in ("0", "3cm")
+    )
+    assert sharp["inset_m"] == 0.0 and sharp["slenderness_right_rad"] > worn["slenderness_right_rad"]
+    assert worn["inset_m"] >= 0.03 - 1e-12
+
+
+@pytest.mark.parametrize("solver", ["rock", "respond"])
+def test_a_batch_takes_the_arms_of_each_component(solver, stone, tmp_path):
+    """A row of the table is the answer of the solver's own command, for a file and for a row of a table that names it."""
+    table, bodies = tmp_path / "table.csv", tmp_path / "bodies.csv"
+    bodies.write_text(f"name,body,mu,inset\nas told,{stone},0.4,\nworn,{stone},0.4,2cm\n", encoding="utf-8")
+    done = run("batch", *SHORT, "--bodies", bodies, "--solver", solver, "--component", "EW,37", "--out", table)
+    assert done.exit_code == 0, done.output
+    with table.open() as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) == 4 and not any(row["failure"] for row in rows)
+    friction = ["--mu", "0.4", "--runs", "0"] if solver == "respond" else []
+    for row in rows:
+        inset = ["--inset", "2cm"] if row["body"] == "worn" else []
+        (told,) = document(solver, *SHORT, "--component", row["component"], "--block", stone, *inset, *friction)["results"]
+        for key in ("max_rotation_rad", "max_rotation_ratio", "impacts"):
+            assert float(row[key]) == told[key], key
+
+
+def test_a_scan_without_azimuth_is_a_failure_of_its_row(stone, tmp_path):
+    """A record of which nobody knows how it lay: one sentence in its row, and of the single command."""
+    record = tmp_path / "record.csv"
+    record.write_text("time,a (gal)\n" + "".join(f"{0.01 * i:.2f},{i % 7}\n" for i in range(200)), encoding="utf-8")
+    done = run("rock", record, "--block", stone)
+    assert done.exit_code == 3 and "another block in each direction" in done.stderr.replace("\n", " ")
+
+
+def test_every_direction_of_rock_and_respond(stone, tmp_path):
+    """The worst direction is the one that is answered, and stands first among all of them; the rose is drawn."""
+    for words in (("rock",), ("respond", "--mu", "0.4", "--runs", "0")):
+        figure = tmp_path / f"{words[0]}.svg"
+        line = (words[0], *SHORT, *words[1:], "--block", stone, "--component", "all-azimuths", "--scale", "0.5")
+        (result,) = document(*line, "--plot", figure)["results"]
+        directions = result["directions"]
+        assert len(directions) == 36 and float(result["component"]) == directions[0]["azimuth_deg"]
+        assert result["overturned"] is directions[0]["overturned"]
+        assert "furthest" in figure.read_text() if words[0] == "respond" else figure.exists()
+        table = run(*line).stdout
+        assert "All azimuths" in table and f"of {len(directions)} directions; this is the worst." in " ".join(table.split())
+
+
+def test_a_scan_is_not_written_over(tmp_path):
+    """R1: a table of azimuths cannot take the place of the scan; a body needs the name of a body; a folder is none."""
+    path = write_stl(tmp_path / "box.stl", *box(0.3, 0.4, 0.9))
+    before = path.read_bytes()
+    done = run("body", path, "--csv", path)
+    assert done.exit_code == 3 and "is a file that is read" in done.stderr.replace("\n", " ")
+    link = tmp_path / "box.toml"
+    link.symlink_to(path)
+    done = run("body", path, "--out", link)
+    assert done.exit_code == 3 and "is a file that is read" in done.stderr.replace("\n", " ")
+    assert path.read_bytes() == before
+    assert run("body", path, "--out", tmp_path / "none" / "box.toml").exit_code == 3
+    assert "written as .toml" in run("body", path, "--out", tmp_path / "box.stl").stderr
+
+
+def test_without_trimesh_it_says_what_to_install(monkeypatch):
+    """One sentence, and no traceback; the body that was written is read without it."""
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    done = run("body", "boulder.ply")
+    assert done.exit_code == 3 and "pip install 'seisblock[scan]'" in done.stderr
+    assert run("rock", *SHORT, "--block", "boulder").exit_code == 0
+
+
+def test_what_a_scan_cannot_be_asked():
+    """One block for all directions, a jump, a pile: each says why not."""
+    for words in (("report", "-o", "x.html", "--body", "boulder"), ("jump", "--block", "boulder"), ("stack", "--stones", "boulder")):
+        done = run(*words)
+        assert done.exit_code == 3 and "scan" in done.stderr, words
+    assert sample_path("boulder.ply").exists()

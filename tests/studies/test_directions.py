@@ -1,0 +1,77 @@
+"""Every direction of a record: rows side by side say what single runs say, for blocks and for scans, and the worst comes first."""
+
+import math
+
+import pytest
+
+from seisblock import Block, motion_of, read, solve_respond, solve_rock
+from seisblock.bodies.scan.toml import load_scan
+from seisblock.errors import ComponentError, ParameterError
+from seisblock.records.process import crop, scale
+from seisblock.studies.azimuths import sweep
+from seisblock.studies.rocking.azimuths import rock_directions
+from seisblock.studies.standing.azimuths import respond_directions
+
+BOULDER = load_scan("boulder").worn(0.1)
+RECORD = scale(crop(read("synthetic_jma.csv"), 22.0, 32.0), 0.42)
+
+
+@pytest.mark.parametrize("body", [Block(0.2, 0.72), Block(0.24, 0.72, centroid_offset=0.02), BOULDER], ids=["block", "two-sided", "scan"])
+def test_rocking_in_every_direction_is_that_of_single_runs(body):
+    """The same verdict, side, time of lying down and largest lean over alpha as one motion after the other."""
+    found = rock_directions(body, RECORD, step_deg=22.5)
+    assert {each.overturned for each in found} == {True, False}
+    for each in found:
+        motion = motion_of(RECORD, f"{each.azimuth_deg:g}")
+        block = body.along(motion) if body is BOULDER else body
+        one = solve_rock(block, motion).outcome
+        assert each.overturned is one.overturned and each.overturned_towards == (one.overturned_towards or None)
+        assert each.overturning_time_s == pytest.approx(one.overturning_time_s, abs=1e-6)
+        assert each.max_rotation_ratio == pytest.approx(one.max_rotation_ratio, rel=1e-6)
+        assert each.slenderness_rad == pytest.approx(one.slenderness_rad, rel=1e-12)
+
+
+def test_a_free_standing_scan_in_every_direction_is_that_of_single_runs():
+    """Verdict, largest lean, displacements and end as one motion after the other, each with its own arms."""
+    for each in respond_directions(BOULDER, RECORD, mu=0.35, step_deg=45.0):
+        motion = motion_of(RECORD, f"{each.azimuth_deg:g}")
+        block = BOULDER.along(motion)
+        one = solve_respond(block, motion, mu=0.35, sensitivity=False).outcome
+        assert each.overturned is one.overturned and each.overturned_towards == one.overturned_towards
+        assert each.max_rotation_rad == pytest.approx(one.max_rotation_rad, rel=1e-6, abs=1e-12)
+        assert each.max_rotation_ratio == pytest.approx(each.max_rotation_rad / block.slenderness, rel=1e-12)
+        assert each.final_displacement_m == pytest.approx(one.final_displacement_m, rel=1e-6, abs=1e-9)
+
+
+def test_the_worst_direction_comes_first():
+    """Falls before leans, sooner falls before later ones, larger leans before smaller ones."""
+    found = rock_directions(BOULDER, RECORD, step_deg=15.0)
+    fallen = [each.overturning_time_s for each in found if each.overturned]
+    leaning = [each.max_rotation_ratio for each in found if not each.overturned]
+    assert [each.overturned for each in found] == [True] * len(fallen) + [False] * len(leaning)
+    assert fallen == sorted(fallen) and leaning == sorted(leaning, reverse=True)
+
+
+def test_directions_run_over_what_differs():
+    """Half the circle for a block of two equal sides and for a scan, which stands where it stands; all of it for a block that is turned."""
+    assert sweep(Block(0.24, 0.72), RECORD, step_deg=10.0).azimuths.tolist() == [10.0 * i for i in range(18)]
+    assert len(sweep(BOULDER, RECORD, step_deg=10.0).blocks) == 18
+    assert len(sweep(Block(0.24, 0.72, centroid_offset=0.01), RECORD, step_deg=10.0).blocks) == 36
+
+
+def test_a_scan_meets_the_opposite_motion_with_the_other_side():
+    """Towards the opposite azimuth, the same fall to the same side of the compass, at the same time."""
+    here, there = (motion_of(RECORD, name) for name in ("45", "225"))
+    one, other = (solve_rock(BOULDER.along(motion), motion).outcome for motion in (here, there))
+    assert one.overturned and other.overturned
+    assert {one.overturned_towards, other.overturned_towards} == {"+x", "-x"}
+    assert one.overturning_time_s == pytest.approx(other.overturning_time_s, abs=1e-6)
+
+
+def test_what_has_no_directions_is_refused():
+    """A record of one horizontal, and a step that leads nowhere."""
+    with pytest.raises(ComponentError, match="two horizontal components"):
+        rock_directions(BOULDER, read("elcentro_1940_ns.csv"))
+    for step in (0.0, -5.0, math.nan):
+        with pytest.raises(ParameterError, match="step between directions"):
+            sweep(BOULDER, RECORD, step_deg=step)
