@@ -1,4 +1,4 @@
-"""Numbers that lost their decimal point: a column that is printed to so many decimals shows them in every line."""
+"""Numbers that lost their decimal point, or at the end of a file decimals: a column that is printed to so many shows them in every line."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ LEAST_LINES = 10
 
 MOST_LOST = 0.02
 """Share of its lines in which a column may lack the point and still be one of decimals."""
+
+LOOKED_BACK = 100
+"""Lines at the end that show how the last number would be printed."""
 
 _DECIMALS = re.compile(r"[-+]?\d*\.(\d*)(?:[eEdD][-+]?\d+)?")
 _WHOLE = re.compile(r"[-+]?\d+")
@@ -53,6 +56,28 @@ def doubts_of_decimals(lines: Sequence[str], first_line: int, separator: str | N
         decimals=decimals_printed,
     )
     return (Doubt("point", text),)
+
+
+def doubts_of_end(lines: Sequence[str], separator: str | None) -> tuple[Doubt, ...]:
+    """Return a doubt about a table that ends without an end of line, in a number of fewer decimals than its column has.
+
+    Parameters
+    ----------
+    lines, separator
+        As in :func:`doubts_of_decimals`; a text that ends with an end of line has an empty last one.
+    """
+    if not lines or not lines[-1].strip():
+        return ()
+    *others, last = [_decimals_of(line.split(separator)[-1]) for line in lines[-LOOKED_BACK:] if line.strip()]
+    if len(others) < LEAST_LINES or len(set(others)) > 1 or last >= others[0]:
+        return ()
+    return (Doubt("cut", said("the last line has no end: the file looks cut, and its last number with it")),)
+
+
+def _decimals_of(cell: str) -> int:
+    """Return how many decimals a number is printed to."""
+    match = _DECIMALS.fullmatch(cell.strip())
+    return len(match[1]) if match else 0
 
 
 def _some_are_lost(lines: Sequence[str], filled: int) -> bool:

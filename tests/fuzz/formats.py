@@ -6,7 +6,7 @@ import io
 import re
 import tempfile
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -24,6 +24,10 @@ ROWS = [
     for s, f in ((1.0, 2.0), (1.2, 1.3), (0.8, 4.0))
 ]
 """Three components, gal."""
+
+
+Rows = Sequence[np.ndarray]
+Writer = Callable[[Rows], bytes]
 
 
 @dataclass(frozen=True)
@@ -131,35 +135,43 @@ def _numbers(line: str) -> list[float]:
         return []
 
 
-def _table(separator: str, header: str, form: str = "{:.3f}", unit: float = 1.0) -> bytes:
-    """Return a plain table of time and three components, in gal or a unit of so many."""
-    rows = zip(T, *(row / unit for row in ROWS), strict=True)
-    return (header + "\n" + "".join(separator.join([f"{t:.2f}", *map(form.format, row)]) + "\n" for t, *row in rows)).encode()
+def _table(separator: str, header: str, form: str = "{:.3f}", unit: float = 1.0) -> Writer:
+    """Return what writes a plain table of time and three components, in gal or a unit of so many."""
+
+    def written(rows: Rows) -> bytes:
+        lines = zip(T, *(row / unit for row in rows), strict=True)
+        return (header + "\n" + "".join(separator.join([f"{t:.2f}", *map(form.format, line)]) + "\n" for t, *line in lines)).encode()
+
+    return written
 
 
-def _obspy(waveform: str, rows: int = 1) -> bytes:
-    """Return a file that obspy writes, counts of mm/s^2."""
-    stream = obspy.Stream()
-    for row, letter in list(zip(ROWS, "NEZ", strict=True))[:rows]:
-        header = {"station": "ABC", "channel": f"HN{letter}", "delta": 0.01, "starttime": obspy.UTCDateTime(2020, 1, 1)}
-        data = (row * 10).astype(np.float32 if waveform == "SAC" else np.int32)
-        stream.append(obspy.Trace(data, header=header))
-    with tempfile.TemporaryDirectory() as directory:
-        path = Path(directory) / "a"
-        stream.write(str(path), format=waveform)
-        return path.read_bytes()
+def _obspy(waveform: str, count: int = 1) -> Writer:
+    """Return what writes a file through obspy, so many components, counts of mm/s^2."""
+
+    def written(rows: Rows) -> bytes:
+        stream = obspy.Stream()
+        for row, letter in list(zip(rows, "NEZ", strict=True))[:count]:
+            header = {"station": "ABC", "channel": f"HN{letter}", "delta": 0.01, "starttime": obspy.UTCDateTime(2020, 1, 1)}
+            data = (row * 10).astype(np.float32 if waveform == "SAC" else np.int32)
+            stream.append(obspy.Trace(data, header=header))
+        with tempfile.TemporaryDirectory() as directory:
+            path = Path(directory) / "a"
+            stream.write(str(path), format=waveform)
+            return path.read_bytes()
+
+    return written
 
 
-def _knet_csv() -> bytes:
+def _knet_csv(rows: Rows) -> bytes:
     """Return NIED's CSV of six seconds."""
     head = KNET_CSV.split("2019/01/02 17:47:27.00")[0].replace("#60", "#6")
     times = [f"2019/01/02 17:47:{27 + t:05.2f},{t:.2f}" for t in T]
-    return (head + "".join(f"{t},{a:.2f},{b:.2f},{c:.2f}\n" for t, a, b, c in zip(times, *ROWS, strict=True))).encode()
+    return (head + "".join(f"{t},{a:.2f},{b:.2f},{c:.2f}\n" for t, a, b, c in zip(times, *rows, strict=True))).encode()
 
 
-def _at2() -> bytes:
+def _at2(rows: Rows) -> bytes:
     """Return an AT2 file."""
-    cells = [f"{x / 980.665:15.7E}" for x in ROWS[0]]
+    cells = [f"{x / 980.665:15.7E}" for x in rows[0]]
     body = "".join("".join(cells[i : i + 5]) + "\n" for i in range(0, SAMPLES, 5))
     head = f"PEER\nEvent, 1/1/2000, Place, 90\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=  {SAMPLES}, DT=   .0100 SEC\n"
     return (head + body).encode()
@@ -173,23 +185,53 @@ def _zip(name: str, data: bytes) -> bytes:
     return buffer.getvalue()
 
 
-KNET = knet([int(x * 1577) + 900 for x in ROWS[0]], duration="6").encode()
+def _jma(rows: Rows) -> bytes:
+    """Return a JMA CSV file."""
+    return (JMA_HEADER + "".join(f"{a:.3f},{b:.3f},{c:.3f}\r\n" for a, b, c in zip(*rows, strict=True))).encode("cp932")
+
+
+def _knet(row: int, **header: str) -> Writer:
+    """Return what writes one component in the layout of K-NET, on an offset of 900 counts."""
+    return lambda rows: knet([int(x * 1577) + 900 for x in rows[row]], duration="6", **header).encode()
+
+
+_one = _knet(0)
+WRITERS: dict[str, Writer] = {
+    "jma": _jma,
+    "knet": _one,
+    "kiknet": _knet(1, direction="5", station="NGNH31"),
+    "knet-csv": _knet_csv,
+    "at2": _at2,
+    "comma": _table(",", "time,NS (gal),EW (gal),UD (gal)"),
+    "blank": _table(" ", "t(s) ns_gal ew_gal ud_gal"),
+    "semicolon": _table(";", "time;N10E (m/s2);N80W (m/s2);UD (m/s2)", "{:.5f}", 100.0),
+    "one column": lambda rows: ("NS (gal)\n" + "".join(f"{x:.3f}\n" for x in rows[0])).encode(),
+    "slist": _obspy("SLIST"),
+    "tspair": _obspy("TSPAIR"),
+    "mseed": _obspy("MSEED", 3),
+    "sac": _obspy("SAC"),
+    "tar": lambda rows: tar({"a.NS": _one(rows)}),
+    "tar.gz": lambda rows: tar({"a.NS": _one(rows)}, mode="w:gz"),
+    "zip": lambda rows: _zip("a/b.NS", _one(rows)),
+}
+"""What writes three components, gal, in each format that is read."""
+
 MM = {"units": "mm/s2"}
+JUDGES: dict[str, Callable[[bytes, Record], str]] = {
+    "jma": judge_jma,
+    "knet": judge_knet,
+    "kiknet": judge_knet,
+    "knet-csv": judge_knet_csv,
+    "at2": judge_at2,
+    "comma": judge_clock,
+    "blank": judge_clock,
+    "semicolon": judge_clock,
+    "slist": judge_slist,
+    "tspair": judge_slist,
+    "sac": judge_sac,
+    "tar": lambda data, record: judge_knet(data[data.find(b"Origin Time") :], record),
+}
+OPTIONS: dict[str, dict[str, object]] = {"one column": {"dt": 0.01}, **dict.fromkeys(("slist", "tspair", "mseed", "sac"), MM)}
 FORMATS = {
-    "jma": Whole((JMA_HEADER + "".join(f"{a:.3f},{b:.3f},{c:.3f}\r\n" for a, b, c in zip(*ROWS, strict=True))).encode("cp932"), judge_jma),
-    "knet": Whole(KNET, judge_knet),
-    "kiknet": Whole(knet([int(x * 1577) + 900 for x in ROWS[1]], duration="6", direction="5", station="NGNH31").encode(), judge_knet),
-    "knet-csv": Whole(_knet_csv(), judge_knet_csv),
-    "at2": Whole(_at2(), judge_at2),
-    "comma": Whole(_table(",", "time,NS (gal),EW (gal),UD (gal)"), judge_clock),
-    "blank": Whole(_table(" ", "t(s) ns_gal ew_gal ud_gal"), judge_clock),
-    "semicolon": Whole(_table(";", "time;N10E (m/s2);N80W (m/s2);UD (m/s2)", "{:.5f}", 100.0), judge_clock),
-    "one column": Whole(("NS (gal)\n" + "".join(f"{x:.3f}\n" for x in ROWS[0])).encode(), options={"dt": 0.01}),
-    "slist": Whole(_obspy("SLIST"), judge_slist, MM),
-    "tspair": Whole(_obspy("TSPAIR"), judge_slist, MM),
-    "mseed": Whole(_obspy("MSEED", 3), options=MM),
-    "sac": Whole(_obspy("SAC"), judge_sac, MM),
-    "tar": Whole(tar({"a.NS": KNET}), lambda data, record: judge_knet(data[data.find(b"Origin Time") :], record)),
-    "tar.gz": Whole(tar({"a.NS": KNET}, mode="w:gz")),
-    "zip": Whole(_zip("a/b.NS", KNET)),
+    kind: Whole(written(ROWS), JUDGES.get(kind, lambda data, record: ""), OPTIONS.get(kind, {})) for kind, written in WRITERS.items()
 }

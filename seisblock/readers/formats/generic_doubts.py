@@ -46,6 +46,8 @@ def doubts_of_file(data: bytes, waveform: str, traces: Sequence[Any], warned: Se
         own = _of_lists(data.decode("latin-1"), sum(len(trace.data) for trace in traces))
     elif waveform == "SAC":
         own = _of_extremes(traces)
+    elif waveform == "MSEED":
+        own = _of_blocks(len(data), traces)
     return tuple(dict.fromkeys((*said_by_obspy, *own)))
 
 
@@ -86,6 +88,13 @@ def _ticks_evenly(times: Sequence[str]) -> bool:
         return True
     even = np.linspace(0.0, seconds[-1], seconds.size)
     return bool(np.abs(seconds - even).max() <= _TICK_S and (seconds.size < 2 or seconds[-1] > 0.0))
+
+
+def _of_blocks(size: int, traces: Sequence[Any]) -> Iterator[Doubt]:
+    """Yield a doubt about a miniSEED file of so many bytes that ends in the middle of a block, which obspy passes over."""
+    length = min(int(trace.stats.mseed.record_length) for trace in traces)
+    if size % length:
+        yield Doubt("cut", said("the file ends in the middle of a block of {length} bytes: it looks cut", length=length))
 
 
 def _of_extremes(traces: Sequence[Any]) -> Iterator[Doubt]:

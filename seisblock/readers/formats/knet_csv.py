@@ -10,7 +10,7 @@ from itertools import pairwise
 from seisblock.errors import RecordFormatError
 from seisblock.readers.cells import columns_of, fail, to_si
 from seisblock.readers.clock import even_dt
-from seisblock.readers.decimals import doubts_of_decimals
+from seisblock.readers.decimals import doubts_of_decimals, doubts_of_end
 from seisblock.readers.header import LARGEST_COUNT, number, time_in_japan
 from seisblock.readers.naming import TIME, code_of
 from seisblock.readers.source import Blob, decode
@@ -54,7 +54,8 @@ def read_knet_csv(blob: Blob) -> list[Record]:
             "{name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged", name=blob.name, rate=rate, dt=dt
         )
     start = _start(blob.name, lines[body], body + 1, float(columns[clock][0]))
-    doubts = _doubts(header, columns[clock].size, rate or 1.0 / dt) + doubts_of_decimals(lines[body:], body + 1, ",")
+    doubts = _doubts(header, columns[clock].size, rate or 1.0 / dt)
+    doubts += doubts_of_decimals(lines[body:], body + 1, ",") + doubts_of_end(lines[body:], ",")
     records = []
     for level, codes in sensors.items():
         rows = {code: columns[i] for code, i in codes.items()}

@@ -14,7 +14,7 @@ from seisblock.errors import ParameterError, RecordFormatError, UnitError
 from seisblock.readers.cells import columns_of, turned_si
 from seisblock.readers.clock import even_dt
 from seisblock.readers.columns import Column, Columns, columns_of_header, means_something
-from seisblock.readers.decimals import doubts_of_decimals
+from seisblock.readers.decimals import doubts_of_decimals, doubts_of_end
 from seisblock.readers.lines import lines_of, mapped
 from seisblock.readers.naming import TIME
 from seisblock.readers.source import Blob
@@ -109,6 +109,8 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
         )
     clocked = any(column.code == TIME for column in told.read)
     doubts = _doubts(lines, layout.body, clocked=clocked) + doubts_of_decimals(body, layout.body + 1, layout.separator)
+    if not any(doubt.kind == "cut" for doubt in doubts):
+        doubts += doubts_of_end(body, layout.separator)
     return Record(tuple(components), dt, source=blob.name, format=FORMAT, history=told.remarks, metadata=metadata, doubts=doubts)
 
 
