@@ -70,7 +70,7 @@ from .studies.inverse.survey import Survey, counted_survey, marked_survey
 from .studies.rocking.azimuths import RockAzimuth, rock_directions
 from .studies.rocking.margin import FactorRange, Margin, find_margin
 from .studies.rocking.perturb import Perturbation, Spread, perturb
-from .studies.rocking.spectra import RockingSpectrum, rocking_spectrum
+from .studies.rocking.spectra import RockingSpectrum, rocking_spectrum, rocking_spectrum_around
 from .studies.sliding import SlidePoint, slide_study
 from .studies.standing.azimuths import AzimuthFate, respond_directions
 from .studies.standing.mode_map import ModeMap, mode_map
@@ -167,6 +167,7 @@ __all__ = [
     "rock_verdict",
     "RockAzimuth",
     "rocking_spectrum",
+    "rocking_spectrum_around",
     "RockingSpectrum",
     "RockOptions",
     "RockOutcome",

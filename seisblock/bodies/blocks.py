@@ -12,6 +12,9 @@ from seisblock.bodies.block import Block, lever_ratio, resized, restitution_onto
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.typing import ArrayLike, FloatArray, IntArray
 
+MOST_WORN = 0.8
+"""Of the smaller arm of a block whose two sides differ, that its edges may be worn by."""
+
 
 @dataclass(frozen=True, eq=False)
 class Blocks:
@@ -128,6 +131,23 @@ def versions(block: Block, *, size: ArrayLike, slenderness: ArrayLike, inset_sha
         depth = float(inset[row]) / float(width[row])
         replace(resized(sharp, size=float(larger[row]), slenderness=float(wider[row])).worn(depth), centroid_offset=float(offset[row]))
     return Blocks(right, left, centre, gyration)
+
+
+def wear_within(block: Block, share: float) -> float:
+    """Return how far versions of a block may be worn, a share of its width per side.
+
+    Less than asked where its two sides differ so much that hardly anything would be left under its centre of gravity: what stands is not
+    worn like that.
+
+    Examples
+    --------
+    >>> wear_within(Block(0.2, 0.6), 0.1), round(wear_within(Block(0.2, 0.6, centroid_offset=0.09), 0.1), 6)
+    (0.1, 0.04)
+    """
+    if block.centroid_offset == 0.0:
+        return share
+    smaller = 0.5 - abs(block.centroid_offset) / block.width
+    return min(share, max(MOST_WORN * smaller, block.inset / block.width))
 
 
 def gathered(blocks: Sequence[Block]) -> Blocks:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
@@ -13,14 +14,22 @@ from seisblock.bodies.inset import SHARP, Inset
 from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.meant import OneOf
+from seisblock.cli.offered import ALL_AZIMUTHS
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.rock import along, need_vertical
+from seisblock.cli.sweeping import sweeps
 from seisblock.cli.types import FLOATS, INSET, LENGTHS, Count
 from seisblock.errors import ParameterError
 from seisblock.words import noted, said
 
+if TYPE_CHECKING:
+    from seisblock.records import Motion
+    from seisblock.studies.rocking.spectra import RockingSpectrum
+
 KINDS = ("rocking", "overturning", "sliding", "modes")
+AROUND = KINDS[:2]
+"""Kinds that look in every direction when they are asked to."""
 
 SMALLEST_REACH, LARGEST_REACH = 0.2, 1.5
 """Friction and b/h to which a map reaches that is not told how far, at least and at most."""
@@ -105,11 +114,14 @@ def spectrum(
 ) -> None:
     """Largest lean of rectangular blocks over their alpha, against size and slenderness, for each component.
 
-    Overturning is not monotone: look for islands in the figure. With --kind sliding, the largest slip against friction. With --kind modes,
-    what a free-standing block does, as respond tells it, over its friction and its shape, or over its friction and its size for one
-    shape; the vertical component acts where there is one, and --restitution is Poisson's, 0 unless given.
+    Overturning is not monotone: look for islands in the figure. With --component all-azimuths leans are those of the worst of 18
+    directions, and --kind overturning tells in how many of them each block falls. With --kind sliding, the largest slip against
+    friction. With --kind modes, what a free-standing block does, as respond tells it, over its friction and its shape, or over its
+    friction and its size for one shape; the vertical component acts where there is one, and --restitution is Poisson's, 0 unless given.
     """
     source = along(source, azimuth)
+    if sweeps(source) and kind not in AROUND:
+        raise ParameterError("--component {name} goes with --kind {kinds}", name=ALL_AZIMUTHS, kinds=list(AROUND))
     _one_of(sizes, "--sizes", frequency_parameter, "--frequency-parameter")
     _one_of(height_over_width, "--height-over-width", slenderness_rad, "--slenderness-rad")
     if kind == "sliding":
@@ -125,7 +137,7 @@ def spectrum(
         _refuse(kind, given)
         _sliding(source, output, gravity, mu, vertical)
         return
-    from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum, size_of, slenderness_of
+    from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, size_of, slenderness_of
 
     diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else None)
     alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else None)
@@ -136,20 +148,13 @@ def spectrum(
         return
     _refuse(kind, {"mu": mu})
     from seisblock.cli.emit import emit
-    from seisblock.cli.inputs import load, motions
-    from seisblock.cli.progress import progress
     from seisblock.present.documents.spectrum import document
     from seisblock.present.text import spectrum as shown
 
     diagonals = default_sizes(steps) if diagonals is None else diagonals
     alphas = default_slendernesses(steps) if alphas is None else alphas
     options: dict[str, Any] = {"restitution": restitution, "linear": linear, "vertical": vertical, "inset": inset or SHARP}
-    found = []
-    for record in load(source):
-        for motion in motions(record, source):
-            need_vertical(motion, vertical)
-            with progress("spectrum {name}", name=motion.name) as advance:
-                found.append((motion, rocking_spectrum(diagonals, alphas, motion, gravity=gravity, progress=advance, **options)))
+    found = list(_spectra(source, diagonals, alphas, {**options, "gravity": gravity}))
     emit(
         document(found, kind, options, gravity=gravity),
         output,
@@ -157,6 +162,27 @@ def spectrum(
         csv=lambda path: shown.write(path, found),
         figure=lambda: _draw(found, kind, gravity),
     )
+
+
+def _spectra(source: Source, sizes: Any, alphas: Any, options: dict[str, Any]) -> Iterator[tuple[Motion, RockingSpectrum]]:
+    """Yield the spectrum of each motion asked for; that of all directions, with the motion of the largest PGA, where they are."""
+    from seisblock.cli.inputs import load, motions
+    from seisblock.cli.progress import progress
+    from seisblock.records import motion_of
+    from seisblock.studies.rocking.spectra import rocking_spectrum, rocking_spectrum_around
+
+    if not sweeps(source):
+        for motion in (motion for record in load(source) for motion in motions(record, source)):
+            need_vertical(motion, options["vertical"])
+            with progress("spectrum {name}", name=motion.name) as advance:
+                yield motion, rocking_spectrum(sizes, alphas, motion, progress=advance, **options)
+        return
+    for record in load(replace(source, component=())):
+        with progress("spectrum {name}", name=ALL_AZIMUTHS) as advance:
+            found = rocking_spectrum_around(sizes, alphas, record, progress=advance, **options)
+        assert found.azimuths_deg is not None
+        strongest = max((motion_of(record, f"{azimuth:g}") for azimuth in found.azimuths_deg), key=lambda each: abs(each.horizontal).max())
+        yield replace(strongest, name=ALL_AZIMUTHS), found
 
 
 def _refuse(kind: str, given: dict[str, Any]) -> None:

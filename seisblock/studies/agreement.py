@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import wear_within
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
 from seisblock.bodies.inset import SHARP, WORN
 from seisblock.bodies.pile.pile import Pile
@@ -131,7 +132,7 @@ def agreement(
     pga = float(np.abs(motion.horizontal).max())
     if pga == 0.0:
         return Agreement(tuple(others), 0, len(others), None)
-    worn = block if block.inset else block.worn(WORN)
+    worn = block if block.inset else block.worn(wear_within(block, WORN.share))
     opinions = [
         _simulated(SHARP_BLOCK, block.worn(SHARP), motion, pga, gravity, options),
         _simulated(WORN_BLOCK, worn, motion, pga, gravity, options),

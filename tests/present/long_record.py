@@ -55,7 +55,7 @@ from seisblock.studies.inverse.estimate import estimate_shaking
 from seisblock.studies.inverse.factors import scale_factors, slid
 from seisblock.studies.inverse.survey import counted_survey
 from seisblock.studies.rocking.azimuths import rock_directions
-from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum
+from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum, rocking_spectrum_around
 from seisblock.studies.sliding import slide_study as study_of_sliding
 from seisblock.studies.standing.azimuths import respond_directions
 from seisblock.studies.standing.mode_map import mode_map as map_of_modes
@@ -130,6 +130,12 @@ def spectra():
 
 
 @functools.cache
+def around():
+    found = rocking_spectrum_around(default_sizes(8), default_slendernesses(8), record(), step_deg=45.0)
+    return [(motion("NS"), found)]
+
+
+@functools.cache
 def slides():
     return [(motion(c), study_of_sliding([0.05 * i for i in range(1, 11)], motion(c))) for c in BOTH]
 
@@ -193,6 +199,7 @@ OF_THE_RECORD = dict(of_models()) | {
     "criteria": (criteria.figure, lambda gal: criteria.figure(cards(), gal=gal)),
     "rocking": (spectrum.figure, lambda _: spectrum.figure(spectra(), "rocking", 9.81)),
     "overturning": (spectrum.figure, lambda _: spectrum.figure(spectra()[:1], "overturning", 9.81)),
+    "overturning, all azimuths": (spectrum.figure, lambda _: spectrum.figure(around(), "overturning", 9.81)),
     "sliding": (sliding_spectrum.figure, lambda _: sliding_spectrum.figure(slides())),
     "study": (
         slide_study.figure,

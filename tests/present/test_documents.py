@@ -44,6 +44,7 @@ EVERY = (
     "stack --criterion --grid 14 --points 2 --without mizubachi",
     "criteria --block gravestone",
     "spectrum --steps 3",
+    "spectrum --steps 2 --component all-azimuths",
     "spectrum --kind sliding --mu 0.1,0.2 --vertical --component EW",
     "spectrum --kind modes --mu 0.2,0.5 --height-over-width 1,4 --component EW",
     "overturn-rate --cemetery aoyama.csv",

@@ -2,12 +2,25 @@
 
 import math
 
+import numpy as np
 import pytest
 
-from seisblock import Block, motion_of, read, solve_respond, solve_rock
+from seisblock import (
+    Block,
+    motion_of,
+    perturb,
+    read,
+    respond_probability,
+    rocking_spectrum,
+    rocking_spectrum_around,
+    solve_respond,
+    solve_rock,
+)
+from seisblock.bodies.blocks import wear_within
 from seisblock.bodies.scan.toml import load_scan
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.records.process import crop, scale
+from seisblock.studies.agreement import agreement
 from seisblock.studies.azimuths import sweep
 from seisblock.studies.rocking.azimuths import rock_directions
 from seisblock.studies.standing.azimuths import respond_directions
@@ -75,3 +88,34 @@ def test_what_has_no_directions_is_refused():
     for step in (0.0, -5.0, math.nan):
         with pytest.raises(ParameterError, match="step between directions"):
             sweep(BOULDER, RECORD, step_deg=step)
+
+
+def test_a_spectrum_of_all_directions_is_the_worst_of_theirs():
+    """Leans are the largest, falls count their directions, and the worst one is that of the first fall, or of the largest lean."""
+    sizes, alphas = [0.4, 1.0, 3.0], [0.12, 0.2, 0.3, 0.5]
+    found = rocking_spectrum_around(sizes, alphas, RECORD, step_deg=45.0)
+    each = [rocking_spectrum(sizes, alphas, motion_of(RECORD, name)) for name in ("0", "45", "90", "135")]
+    assert found.azimuths_deg.tolist() == [0.0, 45.0, 90.0, 135.0]
+    falls = np.array([one.overturned for one in each])
+    assert found.overturned.tolist() == falls.any(axis=0).tolist()
+    assert found.overturning_rate.tolist() == falls.mean(axis=0).tolist()
+    assert 0.0 < found.overturning_rate.mean() < 1.0 and not found.overturned.all()
+    leans = np.array([one.max_rotation_ratio for one in each])
+    assert found.max_rotation_ratio == pytest.approx(leans.max(axis=0), rel=1e-6)
+    standing = ~found.overturned & (leans.max(axis=0) > 1e-6)
+    assert standing.any()
+    assert found.worst_azimuth_deg[standing].tolist() == (45.0 * leans.argmax(axis=0)[standing]).tolist()
+    for i, j in np.argwhere(found.overturned)[:4]:
+        block = Block(sizes[i] * math.sin(alphas[j]), sizes[i] * math.cos(alphas[j]))
+        first = next(one for one in rock_directions(block, RECORD, step_deg=45.0) if one.overturned)
+        assert found.worst_azimuth_deg[i, j] == first.azimuth_deg
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.09])
+def test_versions_of_a_body_that_stands_keep_something_to_stand_on(offset):
+    """A body whose centre of gravity lies 10 mm inside its base has versions, and other models, though a tenth of its width is more."""
+    block, motion = Block(0.2, 0.6, centroid_offset=offset), motion_of(RECORD, "NS")
+    assert wear_within(block, 0.1) == pytest.approx(0.04 if offset else 0.1)
+    assert wear_within(block.worn(0.045), 0.1) == pytest.approx(0.045 if offset else 0.1)
+    assert perturb(block, motion, 10).runs == respond_probability(block, motion, mu=0.5, runs=10).runs == 10
+    assert agreement(block, motion).models >= 3

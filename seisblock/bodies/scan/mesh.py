@@ -124,7 +124,7 @@ def _triangles(stream: io.BytesIO, name: str) -> tuple[FloatArray, IntArray]:
     except MemoryError:
         raise
     except Exception as error:
-        raise BodyError("{name} is damaged, or no mesh: {why}", name=name, why=str(error)[:200] or type(error).__name__) from error
+        raise BodyError("{name} is damaged, or no mesh: export it again", name=name) from error
     if not inside:
         raise BodyError("{name} is damaged: a triangle names a vertex that is not there", name=name)
     return vertices, faces

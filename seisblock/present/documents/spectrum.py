@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from msgspec import Struct
+from msgspec import UNSET, Struct, UnsetType
 
 from seisblock.bodies.block import Restitution
 from seisblock.bodies.inset import Inset
@@ -17,6 +17,7 @@ from seisblock.references import papers
 from seisblock.studies.rocking.spectra import RockingSpectrum
 from seisblock.studies.sliding import SlidePoint
 from seisblock.studies.standing.mode_map import GOVERNING, ModeMap
+from seisblock.typing import FloatArray
 
 
 class RockingParameters(Struct, frozen=True, kw_only=True):
@@ -73,6 +74,12 @@ class RockingResult(Result, frozen=True, kw_only=True):
     max_rotation_ratio : matrix of float
         Largest lean over alpha.
     overturned : matrix of bool
+    azimuths_deg : list of float
+        With --component all-azimuths: the directions; the leans are then those of the worst, and what falls in any has overturned.
+    overturning_rate : matrix of float
+        Share of the directions in which a block falls.
+    worst_azimuth_deg : matrix of float
+        Direction in which it falls first, or leans furthest.
     """
 
     component: str
@@ -82,6 +89,9 @@ class RockingResult(Result, frozen=True, kw_only=True):
     height_over_width: list[float]
     max_rotation_ratio: list[list[float]]
     overturned: list[list[bool]]
+    azimuths_deg: list[float] | UnsetType = UNSET
+    overturning_rate: list[list[float]] | UnsetType = UNSET
+    worst_azimuth_deg: list[list[float]] | UnsetType = UNSET
 
 
 class SlidingResult(Result, frozen=True, kw_only=True):
@@ -192,11 +202,19 @@ def document(spectra: Sequence[tuple[Motion, RockingSpectrum]], kind: str, optio
                 height_over_width=(1 / np.tan(each.slenderness_rad)).tolist(),
                 max_rotation_ratio=each.max_rotation_ratio.tolist(),
                 overturned=each.overturned.tolist(),
+                azimuths_deg=_listed(each.azimuths_deg),
+                overturning_rate=_listed(each.overturning_rate),
+                worst_azimuth_deg=_listed(each.worst_azimuth_deg),
             ),
         )
         for motion, each in spectra
     )
     return ROCKING.document(RockingParameters(kind=kind, gravity_m_s2=gravity, **options), found, citations=papers("rocking"))
+
+
+def _listed(values: FloatArray | None) -> Any:
+    """Return an array as a list, nothing for none."""
+    return UNSET if values is None else values.tolist()
 
 
 def sliding_document(curves: Sequence[tuple[Motion, Sequence[SlidePoint]]], *, gravity: float, vertical: bool) -> Document:

@@ -26,13 +26,17 @@ LEAN = LinearSegmentedColormap.from_list("lean", [ROCKED, "#3d6f9e"])
 """From the first hop to the edge of falling, none of it as light as what stands still or as dark as what falls."""
 
 
+FALLING = LinearSegmentedColormap.from_list("falling", ["#e3b9a8", FELL])
+"""From falling in one direction to falling in all."""
+
+
 def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
     """Return the figure: per component a map of size against slenderness of what stands still, rocks (by how far it leans), and falls."""
     motions = [motion for motion, _ in spectra]
     made, axes = canvas.new_figure(
         1, columns=len(spectra), width=1.6 + 4.4 * len(spectra), height=5.0, sharey=True, title=heading_of(motions)
     )
-    shaded, seen, limits = None, set(), False
+    shaded, shares, seen, limits = None, None, set(), False
     for axis, name, (motion, found) in zip(axes, names_of(motions), spectra, strict=True):
         x, y = edges(np.degrees(found.slenderness_rad)), log_edges(found.size_m)
         rocked = ~found.overturned & (found.max_rotation_ratio > 0.0)
@@ -42,6 +46,9 @@ def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
         if kind == "rocking" and rocked.any():
             lean = np.where(rocked, found.max_rotation_ratio, np.nan)
             shaded = axis.pcolormesh(x, y, lean, cmap=LEAN, vmin=0.0, vmax=1.0, rasterized=True)
+        if kind == "overturning" and found.overturning_rate is not None:
+            some = np.where(found.overturned, found.overturning_rate, np.nan)
+            shares = axis.pcolormesh(x, y, some, cmap=FALLING, vmin=0.0, vmax=1.0, rasterized=True)
         log_ticks(axis, y)
         still = math.degrees(math.atan(float(np.abs(motion.horizontal).max()) / gravity))
         if x.min() < still < x.max():
@@ -58,6 +65,10 @@ def figure(spectra: Spectra, kind: str, gravity: float) -> Figure:
     if shaded is not None:
         bar = made.colorbar(shaded, ax=axes, shrink=0.85, pad=0.02)
         bar.set_label(tell("largest lean over α"), fontsize=8)
+        bar.ax.tick_params(labelsize=7)
+    if shares is not None:
+        bar = made.colorbar(shares, ax=axes, shrink=0.85, pad=0.02)
+        bar.set_label(tell("share of directions in which it falls"), fontsize=8)
         bar.ax.tick_params(labelsize=7)
     names = (tell("stands still"), tell("rocks and stands"), tell("falls"))
     handles: list[Any] = [

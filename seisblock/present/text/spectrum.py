@@ -14,7 +14,7 @@ from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
 from seisblock.studies.rocking.spectra import RockingSpectrum
 from seisblock.typing import IntArray
-from seisblock.words import noted, tell
+from seisblock.words import noted, roughly, tell
 
 Spectra = Sequence[tuple[Motion, RockingSpectrum]]
 
@@ -33,6 +33,10 @@ def tables(spectra: Spectra, kind: str, worn: str = "") -> Iterator[Any]:
 def verdict(motion: Motion, found: RockingSpectrum) -> str:
     """Return how many of the blocks overturn."""
     falls, every = int(found.overturned.sum()), found.overturned.size
+    if found.azimuths_deg is not None and found.overturning_rate is not None:
+        always = int((found.overturning_rate == 1.0).sum())
+        text = noted("{falls} of {all} blocks overturn in one of {count} directions at least, {always} in all of them.")
+        return tell(text, falls=falls, all=every, count=found.azimuths_deg.size, always=always)
     return tell("{name}: {falls} of {all} blocks overturn.", name=motion.name, falls=falls, all=every)
 
 
@@ -40,6 +44,8 @@ def _shares(motion: Motion, found: RockingSpectrum, kind: str, worn: str) -> Ite
     """Yield the table of one component."""
     rows, columns = thinned(found.size_m.size, MOST_ROWS), thinned(found.slenderness_rad.size, MOST_COLUMNS)
     what = tell("overturning") if kind == "overturning" else tell("largest lean over alpha")
+    if found.overturning_rate is not None:
+        what = tell("directions in which it falls") if kind == "overturning" else tell("largest lean over alpha, worst direction")
     heads = [f"{1 / math.tan(found.slenderness_rad[j]):.2f}" for j in columns]
     cells = [[f"{found.size_m[i]:.3g}", *(_cell(found, i, j, kind) for j in columns)] for i in rows]
     title = tell("{name}: {what}; down 2R (m), across H/B", name=motion.name, what=what) + tell(worn)
@@ -49,6 +55,8 @@ def _shares(motion: Motion, found: RockingSpectrum, kind: str, worn: str) -> Ite
 
 def _cell(found: RockingSpectrum, i: int, j: int, kind: str) -> str:
     """Return one cell of the table."""
+    if found.overturned[i, j] and kind == "overturning" and found.overturning_rate is not None and found.overturning_rate[i, j] < 1.0:
+        return roughly(found.overturning_rate[i, j])
     if found.overturned[i, j]:
         return tell(FALLS)
     ratio = found.max_rotation_ratio[i, j]
@@ -61,7 +69,8 @@ def thinned(count: int, most: int) -> IntArray:
 
 
 def write(path: Path, spectra: Spectra) -> None:
-    """Write every block as a row of CSV, SI."""
+    """Write every block as a row of CSV, SI; of all directions with the share in which it falls, and the worst."""
+    around = any(found.azimuths_deg is not None for _, found in spectra)
     header = [
         "component",
         "size_m",
@@ -70,12 +79,16 @@ def write(path: Path, spectra: Spectra) -> None:
         "height_over_width",
         "max_rotation_ratio",
         "overturned",
+        *(["overturning_rate", "worst_azimuth_deg"] if around else []),
     ]
-    write_table(
-        path,
-        header,
-        (
-            [
+    write_table(path, header, (row for motion, found in spectra for row in _rows(motion, found)))
+
+
+def _rows(motion: Motion, found: RockingSpectrum) -> Iterator[list[Any]]:
+    """Yield the row of each block."""
+    for i, size in enumerate(found.size_m):
+        for j, alpha in enumerate(found.slenderness_rad):
+            yield [
                 motion.name,
                 float(size),
                 float(found.frequency_parameter_rad_s[i]),
@@ -83,9 +96,5 @@ def write(path: Path, spectra: Spectra) -> None:
                 1 / math.tan(alpha),
                 float(found.max_rotation_ratio[i, j]),
                 bool(found.overturned[i, j]),
+                *(float(each[i, j]) for each in (found.overturning_rate, found.worst_azimuth_deg) if each is not None),
             ]
-            for motion, found in spectra
-            for i, size in enumerate(found.size_m)
-            for j, alpha in enumerate(found.slenderness_rad)
-        ),
-    )

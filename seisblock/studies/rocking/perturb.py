@@ -9,7 +9,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import versions
+from seisblock.bodies.blocks import versions, wear_within
 from seisblock.bodies.inset import HALF
 from seisblock.limits import check_budget
 from seisblock.records import Motion
@@ -131,7 +131,7 @@ def perturb(
     dice = np.random.default_rng(checks.seed(seed))
     draws = np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs)])
     size, slenderness, bounce, amplitude, turn, wear = draws.T
-    deepest = max(spread.inset, block.inset / block.width) if spread.inset else None
+    deepest = max(wear_within(block, spread.inset), block.inset / block.width) if spread.inset else None
     changed = versions(
         block,
         size=1.0 + spread.size * size,

@@ -9,17 +9,25 @@ from typing import Unpack
 import numpy as np
 
 from seisblock import checks
-from seisblock.bodies.blocks import rectangles
+from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import Blocks, rectangles
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
-from seisblock.records import Motion
+from seisblock.records import Motion, Record
 from seisblock.showing import Drawn
 from seisblock.solvers.rock.rocker import RockOptions, rockers
+from seisblock.studies.azimuths import sweep
 from seisblock.studies.rocking.verdicts import all_verdicts
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted, said
+
+STEP_DEG = 10.0
+"""Between the directions of a spectrum, unless told otherwise: there are as many spectra to compute."""
+
+AFTERWARDS = 1e9
+"""Time of a fall that energy decides after the record, s."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +45,13 @@ class RockingSpectrum(Drawn):
     max_rotation_ratio : (n, m) array
         Largest lean over alpha; pi/2 over alpha where the block overturns.
     overturned : (n, m) array of bool
+    azimuths_deg : (k,) array, degrees, or None
+        The directions that were looked in, clockwise from north, where it is one of all of them: the largest lean is then that of the worst
+        direction, and a block has overturned that falls in any.
+    overturning_rate : (n, m) array or None
+        Share of those directions in which a block falls.
+    worst_azimuth_deg : (n, m) array, degrees, or None
+        That in which it falls first, or leans furthest.
     """
 
     size_m: FloatArray
@@ -44,6 +59,9 @@ class RockingSpectrum(Drawn):
     slenderness_rad: FloatArray
     max_rotation_ratio: FloatArray
     overturned: BoolArray
+    azimuths_deg: FloatArray | None = None
+    overturning_rate: FloatArray | None = None
+    worst_azimuth_deg: FloatArray | None = None
 
 
 def rocking_spectrum(
@@ -83,15 +101,92 @@ def rocking_spectrum(
     >>> rocking_spectrum([1.0, 2.0], [0.3], pulse).max_rotation_ratio.round(2).tolist()
     [[5.24], [0.43]]
     """
-    diagonal = _grid(sizes, noted("size 2R"), "m", math.inf)
-    alpha = _grid(slendernesses, noted("slenderness"), "rad", math.pi / 2)
-    check_budget(noted("cells"), diagonal.size * alpha.size, "SEISBLOCK_CELLS")
-    blocks = rectangles(np.outer(diagonal, np.sin(alpha)).ravel(), np.outer(diagonal, np.cos(alpha)).ravel(), inset)
+    diagonal, alpha, blocks = _blocks(sizes, slendernesses, inset)
     some = rockers(blocks, motion, **options)
     found = all_verdicts(some, motion, some.gains(), progress=progress)
     shape = diagonal.size, alpha.size
     p = np.sqrt(1.5 * some.gravity / diagonal)
     return RockingSpectrum(diagonal, p, alpha, found.max_rotation_ratio.reshape(shape), found.overturned.reshape(shape))
+
+
+def rocking_spectrum_around(
+    sizes: ArrayLike,
+    slendernesses: ArrayLike,
+    record: Record,
+    *,
+    step_deg: float = STEP_DEG,
+    inset: Inset = SHARP,
+    progress: Progress | None = None,
+    **options: Unpack[RockOptions],
+) -> RockingSpectrum:
+    """Return the rocking spectrum of a record in the worst of its directions, and in how many of them each block falls.
+
+    Parameters
+    ----------
+    sizes, slendernesses : (n,), (m,) arrays, m and rad
+        As of :func:`rocking_spectrum`.
+    record : Record
+        With two horizontal components of known azimuths.
+    step_deg : float
+        Degrees between directions, over half the circle: the blocks are the same to both sides.
+    inset, progress, options
+        As of :func:`rocking_spectrum`.
+
+    Raises
+    ------
+    ParameterError
+        If a size, a slenderness, the step or an option is out of range, or there is none.
+    ComponentError
+        If the record has no two horizontals of known azimuths.
+
+    Examples
+    --------
+    >>> from seisblock import read
+    >>> found = rocking_spectrum_around([0.5, 4.0], [0.2], read("synthetic_jma.csv"), step_deg=30.0)
+    >>> found.overturned.tolist(), found.overturning_rate.round(2).tolist()
+    ([[True], [True]], [[1.0], [0.83]])
+    """
+    diagonal, alpha, blocks = _blocks(sizes, slendernesses, inset)
+    around = sweep(Block(1.0, 1.0), record, step_deg=step_deg, vertical=options.get("vertical", False))
+    count, directions = len(blocks), around.azimuths.size
+    check_budget(noted("cells"), count * directions, "SEISBLOCK_CELLS")
+    some = rockers(blocks, around.motion, **options)
+    ratio, worst, falls = np.full(count, -1.0), np.zeros(count), np.zeros(count, dtype=np.int64)
+    first = np.full(count, np.inf)
+    for row, azimuth in enumerate(around.azimuths.tolist()):
+        advance = None if progress is None else _after(progress, row * count, directions * count)
+        found = all_verdicts(some, around.motion, around.gains[row], progress=advance)
+        # a fall after the record comes after every fall within it, and before the largest lean of what stands
+        time = np.where(found.overturned, np.nan_to_num(found.lies_down_s, nan=AFTERWARDS), np.inf)
+        worse = (time < first) | ((time == first) & (found.max_rotation_ratio > ratio))
+        ratio, worst, first = (
+            np.where(worse, new, old) for new, old in ((found.max_rotation_ratio, ratio), (azimuth, worst), (time, first))
+        )
+        falls += found.overturned
+    shape = diagonal.size, alpha.size
+    return RockingSpectrum(
+        diagonal,
+        np.sqrt(1.5 * some.gravity / diagonal),
+        alpha,
+        ratio.reshape(shape),
+        (falls > 0).reshape(shape),
+        around.azimuths,
+        (falls / directions).reshape(shape),
+        worst.reshape(shape),
+    )
+
+
+def _after(progress: Progress, done: int, total: int) -> Progress:
+    """Return the progress of a part of a study, told as that of the whole."""
+    return lambda part, _: progress(done + part, total)
+
+
+def _blocks(sizes: ArrayLike, slendernesses: ArrayLike, inset: Inset) -> tuple[FloatArray, FloatArray, Blocks]:
+    """Return diagonals, slendernesses and the blocks of their grid."""
+    diagonal = _grid(sizes, noted("size 2R"), "m", math.inf)
+    alpha = _grid(slendernesses, noted("slenderness"), "rad", math.pi / 2)
+    check_budget(noted("cells"), diagonal.size * alpha.size, "SEISBLOCK_CELLS")
+    return diagonal, alpha, rectangles(np.outer(diagonal, np.sin(alpha)).ravel(), np.outer(diagonal, np.cos(alpha)).ravel(), inset)
 
 
 def size_of(frequency_parameter: ArrayLike, gravity: float = STANDARD_GRAVITY) -> FloatArray:

@@ -14,7 +14,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import Blocks
+from seisblock.bodies.blocks import Blocks, wear_within
 from seisblock.bodies.blocks import versions as resized_versions
 from seisblock.bodies.inset import HALF
 from seisblock.errors import ParameterError
@@ -207,8 +207,9 @@ def respond_probability(
 def _bodies(block: Block, versions: Versions, draws: FloatArray) -> Blocks:
     """Return the versions of a body: their size, and how far their edges are worn."""
     share = block.inset / block.width
-    half = versions.inset / 2
-    middle = half if share <= versions.inset else share
+    deepest = wear_within(block, versions.inset)
+    half = deepest / 2
+    middle = half if share <= deepest else share
     worn = np.maximum(middle + half * draws[:, 1], 0.0)
     return resized_versions(block, size=1.0 + versions.size * draws[:, 0], slenderness=np.ones(len(draws)), inset_share=worn)
 
