@@ -19,8 +19,30 @@ WHERE = {
 }
 
 
+SCRIPT = """\
+%(complete_func)s() {
+    local IFS=$'\\n' word=${COMP_WORDS[COMP_CWORD]} line kind value
+    [[ $word == "=" ]] && word=
+    COMPREPLY=()
+    for line in $(env COMP_WORDS="${COMP_WORDS[*]}" COMP_CWORD=$COMP_CWORD %(complete_var)s=bash_complete "$1"); do
+        IFS=, read -r kind value <<< "$line"
+        if [[ $kind == file ]]; then
+            compopt -o filenames
+            COMPREPLY+=($(compgen -f -- "$word"))
+        else
+            COMPREPLY+=("$value")
+        fi
+    done
+}
+complete -o nosort -F %(complete_func)s %(prog_name)s
+"""
+"""What bash runs: click's own script forgets the names there are where files may be given, too."""
+
+
 class Bash(BashComplete):
     """Bash, to which ``--component=N`` is three words: the sign between them is none of ours."""
+
+    source_template = SCRIPT
 
     def get_completion_args(self) -> tuple[list[str], str]:
         """Return the words before the one that is typed, and that one."""

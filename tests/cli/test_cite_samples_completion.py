@@ -3,12 +3,15 @@
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
+import seisblock
 from seisblock.cli import COMMANDS, main
 from seisblock.references import CITED, REFERENCES
 from seisblock.samples import list_samples, sample_directory
@@ -102,3 +105,40 @@ def test_the_shell_completes_commands_options_and_samples():
     assert "plain,--side" in complete("seisblock jump --si", 2).split()
     offered = complete("seisblock jump syn", 2).split()
     assert "plain,synthetic_jma.csv" in offered and "file,syn" in offered
+
+
+BASH = shutil.which("bash")
+
+
+@pytest.mark.skipif(BASH is None, reason="no bash")
+@pytest.mark.parametrize(
+    ("words", "offered"),
+    [
+        (("measure", "synth"), {"synthetic_jma.csv", "synthetic_mine.csv"}),
+        (("rock", "--block", "gr"), {"gravestone", "granite.toml"}),
+        (("stack", "--without", "mi"), {"mizubachi"}),
+        (("rock", "--component", "=", "U"), {"UD"}),
+    ],
+    ids=" ".join,
+)
+def test_bash_offers_names_and_files_together(words, offered, tmp_path):
+    """The script itself, run by bash: what is bundled stands beside the files there are."""
+    for name in ("synthetic_mine.csv", "granite.toml"):
+        (tmp_path / name).touch()
+    program, folder = tmp_path / "bin" / "seisblock", tmp_path / "bin"
+    folder.mkdir()
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m seisblock "$@"\n', encoding="utf-8")
+    program.chmod(0o755)
+    typed = " ".join(f"'{word}'" for word in ("seisblock", *words))
+    lines = (
+        run("completion", "bash").stdout,
+        "compopt() { :; }",  # which bash allows while the tabulator is pressed only
+        f"COMP_WORDS=({typed}); COMP_CWORD={len(words)}; _seisblock_completion seisblock",
+        'printf "%s\\n" "${COMPREPLY[@]}"',
+    )
+    home = os.pathsep.join(filter(None, (str(Path(seisblock.__file__).parents[1]), os.environ.get("PYTHONPATH"))))
+    environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ['PATH']}", "PYTHONPATH": home}
+    done = subprocess.run(
+        [BASH, "--norc", "-c", "\n".join(lines)], env=environment, cwd=tmp_path, capture_output=True, text=True, check=True, timeout=60
+    )
+    assert offered <= set(done.stdout.split()), done.stderr

@@ -121,7 +121,7 @@ def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatc
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lang", ["en", "ja"])
-@pytest.mark.parametrize("name", ["rock", "rock, two", "slide, two", "jump, two", "respond, two"])
+@pytest.mark.parametrize("name", ["rock", "rock, two", "slide, two", "jump, two", "respond, two", "uplift"])
 def test_columns_stand_below_each_other_where_the_width_is_one_of_a_journal(name, lang):
     """A column of 85 mm as high as a page holds histories, phase planes and both components; the title that was asked for goes along."""
     with speaking(lang):
@@ -130,6 +130,19 @@ def test_columns_stand_below_each_other_where_the_width_is_one_of_a_journal(name
     assert crowded(figure, tuple(visible_texts(figure))) == []
     assert figure.get_size_inches() == pytest.approx((COLUMN / 0.0254, 0.235 / 0.0254))
     assert figure.heading.get_text() == "as asked"
+
+
+@pytest.mark.parametrize("lang", ["en", "ja"])
+@pytest.mark.parametrize("number", [3, 4])
+def test_a_key_does_not_lie_on_a_curve_of_a_small_figure(number, lang):
+    """Letters shrink less than a figure: a key that had room among the curves goes above them."""
+    with speaking(lang):
+        figure = EVERY[f"as fig. {number} of Okumura"][1](True)
+        figure.draw_without_rendering()
+        assert not figure.hides_a_curve(figure.axes[0].get_legend())
+        figure = fitted(figure, size=Size(COLUMN, 0.06, "mm"))
+        figure.draw_without_rendering()
+    assert not figure.hides_a_curve(figure.axes[0].get_legend())
 
 
 @pytest.mark.parametrize("name", OF_THE_RECORD)

@@ -9,6 +9,7 @@ from typing import IO, Any
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
 
@@ -92,6 +93,11 @@ class Sheet(Figure):
             if self.narrowed:
                 self._lift_legends(renderer)
             super().draw(renderer)
+
+    def hides_a_curve(self, key: Legend) -> bool:
+        """Return whether the key of a panel lies on one of its curves."""
+        box, lines = key.get_window_extent(), key.axes.lines if key.axes is not None else ()
+        return any(line.get_path().transformed(line.get_transform()).intersects_bbox(box, filled=False) for line in lines)
 
     def _lift_legends(self, renderer: Any) -> None:
         """Put each legend that lies on its panel's title above it."""

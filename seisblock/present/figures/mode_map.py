@@ -133,6 +133,7 @@ def _name_regions(axis: Axes, found: ModeMap, x: FloatArray, y: FloatArray) -> N
                 tell(NAMES[GOVERNING[index]]),
                 color="white" if dark else "0.1",
                 fontsize=9,
+                path_effects=[] if dark else HALO,
                 ha="center",
                 va="center",
                 clip_on=True,

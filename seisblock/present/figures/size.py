@@ -232,7 +232,7 @@ def _given_way(sheet: Sheet) -> dict[Any, dict[str, Any]]:
         if box.width > panel.width and several > 1:
             found[axis] = {"ncols": max(int(several * panel.width / box.width), 1)}
         inside = axis is not None and where["bbox_to_anchor"] is None
-        if inside and box.width * box.height > MOST_HIDDEN * panel.width * panel.height:
+        if inside and (box.width * box.height > MOST_HIDDEN * panel.width * panel.height or sheet.hides_a_curve(key)):
             found[axis] = {**found.get(axis, {}), "loc": "lower right", "bbox_to_anchor": (1.0, ABOVE), "borderaxespad": 0.0}
     return found
 
@@ -267,7 +267,8 @@ def _shorten(text: Text, room: float, long: float) -> None:
     said = text.get_text()
     if not said or long <= room:
         return
-    lines = wrapped(said.replace("\n", " "), max(int(columns(said) * room / long), 1))
+    longest = max(map(columns, said.split("\n")))  # it is that which is so long
+    lines = wrapped(said.replace("\n", " "), max(int(longest * room / long), 1))
     if len(lines) <= MOST_LINES:
         text.set_text("\n".join(lines))
 
