@@ -47,6 +47,8 @@ def test_outputs_are_never_harmed(folder):
         ("--cluster tcp://127.0.0.1:9", "no Dask scheduler answers"),
         ("--cluster local:none", "1 to 512"),
         ("--window 0:5 --window 6:7", "one --window"),
+        ("--mu 0.3", "rock has no option --mu: leave it out"),
+        ("--solver jump --mu 0.3 --vertical", "jump has no option --vertical: leave it out"),
     ],
 )
 def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):

@@ -6,6 +6,7 @@ import types
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
+from inspect import signature
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from seisblock.bodies.block import Block
@@ -94,6 +95,19 @@ class BatchModel:
         hints = get_type_hints(self.outcome)
         found = {field.name: _scalar(hints[field.name]) for field in fields(self.outcome)}
         return {name: kind for name, kind in found.items() if kind is not None}
+
+    def refuse_unknown(self, options: Told) -> None:
+        """Refuse options that neither the solver nor its bodies have.
+
+        Raises
+        ------
+        ParameterError
+            Naming them.
+        """
+        known = (*signature(self.solve).parameters, *(name for name in ("mu", "mu_kinetic") if name in self.columns))
+        unknown = [f"`{name}`" for name in options if name not in known]
+        if unknown:
+            raise ParameterError("{solver} has no option {names}: leave it out", solver=self.name, names=unknown)
 
     def unheard(self, listed: ListedBody) -> list[str]:
         """Return what is told of a body that this solver takes no notice of."""

@@ -114,6 +114,7 @@ def make_plan(
         raise ParameterError("the number of runs must be a whole number, 0 for none; found {runs}", runs=runs)
     if runs and model.chance is None:
         raise ParameterError("{solver} has no perturbed versions: leave the runs out, or take respond or rock", solver=solver)
+    model.refuse_unknown(options)
     named = _named(bodies, model)
     names = (components,) if isinstance(components, str) else tuple(components)
     plan = Plan(solver, placed(model, named, options), names, preparation, reading, runs, checks.seed(seed), strict)
