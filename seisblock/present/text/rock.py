@@ -160,10 +160,12 @@ def verdict(outcome: RockOutcome, direction: str) -> str:
         told = tell("stands still")
     elif not outcome.overturned:
         told = tell("rocks and stands: {way}", way=way_to_alpha(outcome.max_rotation_ratio))
-    elif outcome.decided_after_record:
-        told = tell("overturns to {side}, after the record's end", side=fell)
-    else:
+    elif outcome.overturning_time_s is None:
         told = tell("overturns to {side}", side=fell)
+    else:
+        late = outcome.decided_after_record
+        text = noted("overturns to {side} at {time:.2f} s, after the record") if late else noted("overturns to {side} at {time:.2f} s")
+        told = tell(text, side=fell, time=outcome.overturning_time_s)
     return told + (tell("; a change of the record by less than 2 % changes this") if outcome.verdict_flips_within_2_percent else "")
 
 
