@@ -62,6 +62,9 @@ from .solvers.uplift.solve import solve_uplift
 from .studies.batch.run import run_batch
 from .studies.batch.table import BatchTable
 from .studies.cemetery.rate import Rate, overturning_rate, rate_curve
+from .studies.fragility.answer import Fragility, FragilityStudy
+from .studies.fragility.lognormal import Lognormal, fit_fragility
+from .studies.fragility.run import run_fragility
 from .studies.gravestone_criterion import CriterionStudy, criterion_study
 from .studies.inverse.assumptions import Assumptions
 from .studies.inverse.estimate import ShakingEstimate, estimate_shaking
@@ -104,6 +107,9 @@ __all__ = [
     "FactorRange",
     "Fates",
     "find_margin",
+    "fit_fragility",
+    "Fragility",
+    "FragilityStudy",
     "from_slenderness",
     "highpass",
     "InputError",
@@ -120,6 +126,7 @@ __all__ = [
     "load_pile",
     "load_scan",
     "load_two_layer",
+    "Lognormal",
     "make_setting",
     "Margin",
     "marked_survey",
@@ -173,6 +180,7 @@ __all__ = [
     "RockOutcome",
     "rotate",
     "run_batch",
+    "run_fragility",
     "Sample",
     "sample_path",
     "scale",

@@ -36,12 +36,12 @@ def load(source: Source, *, vertical_counts: bool = False, whole: bool = False) 
     with progress("reading {names}", names=[Path(name).name for name in names]):
         records = read_all(names, format=source.format, units=source.units, dt=source.dt, station=source.station, level=source.level)
         prepared = [_prepared(record, source, vertical_counts=vertical_counts, whole=whole) for record in records]
-    _tell_doubts(prepared, strict=source.strict)
+    tell_doubts(prepared, strict=source.strict)
     at_work("computing")
     return prepared
 
 
-def _tell_doubts(records: list[Record], *, strict: bool) -> None:
+def tell_doubts(records: list[Record], *, strict: bool) -> None:
     """Say what is doubtful about the records, in one line where silence was asked for, or refuse them."""
     from seisblock.records.doubtful import refuse_doubtful, sentences
 

@@ -136,15 +136,15 @@ def test_every_key_exists():
 
 def test_every_reference_stands_once_and_is_used():
     """The bibliography says nothing twice, and holds nothing that the program does not rely on."""
-    bibliography = (PACKAGE / "references.py").read_text(encoding="utf-8")
+    bibliography = (PACKAGE / "references" / "literature.py").read_text(encoding="utf-8")
     assert len(re.findall(r"^    Reference\(", bibliography, re.MULTILINE)) == len(REFERENCES)
-    text = "".join(path.read_text(encoding="utf-8") for path in sources() if path.name != "references.py")
+    text = "".join(path.read_text(encoding="utf-8") for path in sources() if path.parent.name != "references")
     assert set(REFERENCES) <= set(CITATION.findall(text))
 
 
 def test_papers_are_named_in_one_table():
     """No answer brings a list of papers of its own: a key alone is written in the table of references only."""
-    trees = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sources() if path.name != "references.py"}
+    trees = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sources() if path.parent.name != "references"}
     constants = [(path.name, node.value) for path, tree in trees.items() for node in ast.walk(tree) if isinstance(node, ast.Constant)]
     assert [(name, value) for name, value in constants if isinstance(value, str) and value in REFERENCES] == []
 

@@ -56,6 +56,14 @@ ANSWERS = (
     ("infer", *SHORT, "--slid", "5cm", "--mu", "0.3", "--limit", "1.5", "--steps", "30"),
     ("infer", *SHORT, "--jumped", "20cm", "--limit", "1.2", "--steps", "12", "--component", "EW"),
     ("batch", "synthetic_jma.csv", "gone.csv", "--bodies", "gravestone", "--solver", "rock", "--force", "--out", "FOLDER/table.csv"),
+    (
+        *("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", "--width", "30cm", "--height", "1.2", "--solver", "rock", "--im"),
+        *("pgv,pga", "--limit", "rock,lean=0.5,overturn", "--steps", "8", "--perturb", "3", "--bootstrap", "20", "--compare", "50,0.4"),
+    ),
+    (
+        *("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", "--mu", "0.1", "--solver", "slide", "--limit", "slip=5cm,slip=90m"),
+        *("--steps", "8", "--method", "ida", "--bootstrap", "20", "--levels", "10,20,40,80,160", "--im", "pgv"),
+    ),
     ("validate", "--paper", "Fujino1978", "--all"),
     ("cite",),
     ("samples",),
@@ -66,6 +74,12 @@ ANSWERS = (
 REFUSALS = (
     (),
     ("batch", "--bodies", "gravestone", "--out", "table.xlsx"),
+    ("fragility",),
+    ("fragility", "synthetic_jma.csv"),
+    ("fragility", "synthetic_jma.csv", *BLOCK, "--solver", "rock"),
+    ("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", *BLOCK, "--solver", "rock", "--levels", "1,2"),
+    ("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", *BLOCK, "--solver", "rock", "--limit", "fall"),
+    ("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", *BLOCK, "--solver", "rock", "--compare", "1"),
     ("nosuch",),
     ("measure", "--nosuch"),
     ("measure", "nofile"),

@@ -27,6 +27,7 @@ KINDS: dict[str, tuple[str, ...]] = {
     "infer": ("infer:STONES", "infer:SLID", "infer:JUMPED"),
     "body": ("body:BODY",),
     "batch": ("batch:BATCH",),
+    "fragility": ("fragility:FRAGILITY",),
     "validate": ("validate:VALIDATE",),
     "cite": ("library:CITE",),
     "samples": ("library:SAMPLES",),

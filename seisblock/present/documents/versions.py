@@ -14,6 +14,7 @@ VERSIONS = {
     "infer": 2,
     "body": 1,
     "batch": 1,
+    "fragility": 1,
     "validate": 1,
     "cite": 1,
     "samples": 1,

@@ -18,6 +18,7 @@ from seisblock.present.page import page
 from seisblock.present.text.tables import number
 from seisblock.records import Motion, Record
 from seisblock.results import Response
+from seisblock.studies.fragility.answer import FragilityStudy
 from seisblock.typing import FloatArray
 from seisblock.words import listed, tell
 
@@ -34,7 +35,7 @@ def plot(shown: Any) -> Figure:
 
     Parameters
     ----------
-    shown : Response, Record, Motion, ResponseSpectrum or RockingSpectrum
+    shown : Response, Record, Motion, ResponseSpectrum, RockingSpectrum or FragilityStudy
 
     Raises
     ------
@@ -77,6 +78,10 @@ def _figure(shown: Any) -> Figure:
         return inputs.record_figure(shown)
     if isinstance(shown, Motion):
         return inputs.motion_figure(shown)
+    if isinstance(shown, FragilityStudy):
+        from seisblock.present.figures.fragility import figure
+
+        return figure(shown)
     return inputs.response_spectrum_figure(shown) if isinstance(shown, ResponseSpectrum) else inputs.rocking_spectrum_figure(shown)
 
 
@@ -97,6 +102,10 @@ def _said(shown: Any) -> tuple[str, dict[str, Any], Sequence[str]]:
     if isinstance(shown, ResponseSpectrum):
         highest = int(shown.sa_m_s2.argmax())
         return "Sₐ", {"damping": shown.damping, "sa_m_s2": float(shown.sa_m_s2[highest]), "period_s": float(shown.period_s[highest])}, ()
+    if isinstance(shown, FragilityStudy):
+        keys = ("body", "limit", "median", "unit", "beta", "records")
+        curves = [{key: value for key, value in plain(curve).items() if key in keys} for curve in shown.curves]
+        return shown.measure.label, {"solver": shown.solver, "method": shown.method, "curves": curves}, shown.notes
     return "2R, α", {"overturned": int(shown.overturned.sum()), "blocks": shown.overturned.size}, ()
 
 

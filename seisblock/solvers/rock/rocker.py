@@ -14,7 +14,7 @@ from seisblock.bodies.blocks import Blocks, each
 from seisblock.errors import ParameterError
 from seisblock.records.given import Factor, check_call, check_motion, vertical_gain
 from seisblock.records.motion import Motion
-from seisblock.typing import FloatArray
+from seisblock.typing import FloatArray, IntArray
 from seisblock.units import STANDARD_GRAVITY
 
 Pair = tuple[float, float]
@@ -96,7 +96,7 @@ class Rockers:
     def __len__(self) -> int:
         return self.alphas.shape[0]
 
-    def __getitem__(self, part: slice) -> Rockers:
+    def __getitem__(self, part: slice | IntArray) -> Rockers:
         """Return some of them."""
         return replace(self, alphas=self.alphas[part], levers=self.levers[part], onto=self.onto[part])
 

@@ -115,10 +115,10 @@ def make_plan(
     if runs and model.chance is None:
         raise ParameterError("{solver} has no perturbed versions: leave the runs out, or take respond or rock", solver=solver)
     model.refuse_unknown(options)
-    named = _named(bodies, model)
+    listed = named(bodies, model)
     names = (components,) if isinstance(components, str) else tuple(components)
-    plan = Plan(solver, placed(model, named, options), names, preparation, reading, runs, checks.seed(seed), strict)
-    return plan, _unheard(model, named)
+    plan = Plan(solver, placed(model, listed, options), names, preparation, reading, runs, checks.seed(seed), strict)
+    return plan, unheard(model, listed)
 
 
 def each_record(
@@ -167,7 +167,7 @@ def _tasks(records: Location | Record | Iterable[Location | Record], reading: Op
             yield from gather([str(each) for each in some], reading)
 
 
-def _named(bodies: Bodies, model: BatchModel) -> list[ListedBody | Placed]:
+def named(bodies: Bodies, model: BatchModel) -> list[ListedBody | Placed]:
     """Return the bodies of a batch with their names; those that are given as they are take every option as it is given."""
     if isinstance(bodies, (str, PathLike)):
         return list(read_bodies(str(bodies)))
@@ -199,7 +199,7 @@ def _named(bodies: Bodies, model: BatchModel) -> list[ListedBody | Placed]:
     return found
 
 
-def _unheard(model: BatchModel, bodies: Sequence[ListedBody | Placed]) -> tuple[str, ...]:
+def unheard(model: BatchModel, bodies: Sequence[ListedBody | Placed]) -> tuple[str, ...]:
     """Return what is to be known of a list of bodies that says more than a solver hears."""
     unheard = dict.fromkeys(key for body in bodies if isinstance(body, ListedBody) for key in model.unheard(body))
     return (said("{solver} takes no notice of {columns}", columns=list(unheard), solver=model.name),) if unheard else ()

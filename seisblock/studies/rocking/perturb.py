@@ -15,14 +15,17 @@ from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import check_call
 from seisblock.records.motion import ACROSS
-from seisblock.solvers.rock.rocker import RockOptions, rockers
+from seisblock.solvers.rock.rocker import Rockers, RockOptions, rockers
 from seisblock.studies.intervals import wilson_interval
 from seisblock.studies.rocking.verdicts import all_verdicts
-from seisblock.typing import Progress
+from seisblock.typing import FloatArray, Progress
 from seisblock.words import noted
 
 OWN_SCATTER = noted("this model's own scatter")
 """What a share of perturbed runs, and its interval, are of."""
+
+AMPLITUDE, TURN = 3, 4
+"""Columns of the draws that change the shaking."""
 
 
 @dataclass(frozen=True)
@@ -128,9 +131,33 @@ def perturb(
     check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
     check_call(block, Block, motion)
     turns = spread.azimuth_deg if motion.acceleration[ACROSS].any() else 0.0
-    dice = np.random.default_rng(checks.seed(seed))
-    draws = np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs)])
-    size, slenderness, bounce, amplitude, turn, wear = draws.T
+    draws = draws_of(runs, checks.seed(seed))
+    some = changed_rockers(block, motion, spread, draws, **options)
+    factor, angle = 1.0 + spread.amplitude * draws[:, AMPLITUDE], np.radians(turns * draws[:, TURN])
+    # +x turned clockwise, seen from above
+    gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * some.vertical])
+    found = all_verdicts(some, motion, gains, progress=progress)
+    count = int(found.overturned.sum())
+    return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)
+
+
+def draws_of(runs: int, seed: int) -> FloatArray:
+    """Return what tells so many versions of a block and its shaking apart: five numbers in [-1, 1] and one in [0, 1] each, (runs, 6)."""
+    dice = np.random.default_rng(seed)
+    return np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs)])
+
+
+def changed_rockers(block: Block, motion: Motion, spread: Spread, draws: FloatArray, **options: Unpack[RockOptions]) -> Rockers:
+    """Return the versions of a block as they rock: changed by the shares that the draws say, each within its spread.
+
+    Parameters
+    ----------
+    block, motion, spread, options
+        As of :func:`perturb`.
+    draws : (m, 6) array
+        Of :func:`draws_of`.
+    """
+    size, slenderness, bounce, _, _, wear = draws.T
     deepest = max(wear_within(block, spread.inset), block.inset / block.width) if spread.inset else None
     changed = versions(
         block,
@@ -139,10 +166,4 @@ def perturb(
         inset_share=None if deepest is None else deepest * wear,
     )
     some = rockers(changed, motion, **options)
-    some = replace(some, onto=np.minimum(some.onto * (1.0 + spread.restitution * bounce[:, None]), 1.0))
-    factor, angle = 1.0 + spread.amplitude * amplitude, np.radians(turns * turn)
-    # +x turned clockwise, seen from above
-    gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * some.vertical])
-    found = all_verdicts(some, motion, gains, progress=progress)
-    count = int(found.overturned.sum())
-    return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)
+    return replace(some, onto=np.minimum(some.onto * (1.0 + spread.restitution * bounce[:, None]), 1.0))

@@ -169,16 +169,16 @@ def respond_probability(
         tenon=tenon,
     )
     draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, 6))
-    rough = 1.0 + versions.mu * draws[:, 2]
-    bouncy = restitution + versions.restitution * 0.5 * (1.0 + draws[:, 3])
-    settings = Settings(
-        _bodies(block, versions, draws),
-        mu * rough,
-        (mu if mu_kinetic is None else mu_kinetic) * rough,
-        np.maximum(restitution, np.minimum(bouncy, ROUGHEST)),
-        rocking_restitution,
-        gravity,
-        tenon,
+    settings = changed_settings(
+        block,
+        versions,
+        draws,
+        mu=mu,
+        mu_kinetic=mu_kinetic,
+        restitution=restitution,
+        rocking_restitution=rocking_restitution,
+        gravity=gravity,
+        tenon=tenon,
     )
     gains = _gains(motion, versions, draws, vertical)
     fallen, shifts = [], []
@@ -201,6 +201,40 @@ def respond_probability(
         {f"q{round(100 * share):02d}": float(value) for share, value in zip(QUANTILES, standing, strict=False)},
         versions,
         seed,
+    )
+
+
+def changed_settings(
+    block: Block,
+    versions: Versions,
+    draws: FloatArray,
+    *,
+    mu: float,
+    mu_kinetic: float | None = None,
+    restitution: float = 0.0,
+    rocking_restitution: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    tenon: float = 0.0,
+) -> Settings:
+    """Return the versions of a body and its contact: changed by the shares that the draws say, each as far as versions may differ.
+
+    Parameters
+    ----------
+    block, versions, mu, mu_kinetic, restitution, rocking_restitution, gravity, tenon
+        As of :func:`respond_probability`.
+    draws : (m, 6) array
+        In [-1, 1].
+    """
+    rough = 1.0 + versions.mu * draws[:, 2]
+    bouncy = restitution + versions.restitution * 0.5 * (1.0 + draws[:, 3])
+    return Settings(
+        _bodies(block, versions, draws),
+        mu * rough,
+        (mu if mu_kinetic is None else mu_kinetic) * rough,
+        np.maximum(restitution, np.minimum(bouncy, ROUGHEST)),
+        rocking_restitution,
+        gravity,
+        tenon,
     )
 
 

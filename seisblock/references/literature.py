@@ -1,9 +1,7 @@
-"""The literature: one entry per key, used by docstrings, ``seisblock cite`` and every JSON document."""
+"""The entries of the bibliography, each once."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 
@@ -33,7 +31,7 @@ class Reference:
         return f"@{self.kind}{{{self.key},\n{body}\n}}"
 
 
-_ALL = (
+LITERATURE = (
     Reference(
         "Urone2022",
         "Urone, P. P. and Hinrichs, R.",
@@ -204,71 +202,53 @@ _ALL = (
         "European Journal of Mechanics A/Solids, 18(4), 653-677",
         doi="10.1016/S0997-7538(99)00144-8",
     ),
+    Reference(
+        "Baker2015",
+        "Baker, J. W.",
+        2015,
+        "Efficient analytical fragility function fitting using dynamic structural analysis",
+        "Earthquake Spectra, 31(1), 579-599",
+        doi="10.1193/021113EQS025M",
+    ),
+    Reference(
+        "Vamvatsikos2002",
+        "Vamvatsikos, D. and Cornell, C. A.",
+        2002,
+        "Incremental dynamic analysis",
+        "Earthquake Engineering and Structural Dynamics, 31(3), 491-514",
+        doi="10.1002/eqe.141",
+    ),
+    Reference(
+        "LucoCornell2007",
+        "Luco, N. and Cornell, C. A.",
+        2007,
+        "Structure-specific scalar intensity measures for near-source and ordinary earthquake ground motions",
+        "Earthquake Spectra, 23(2), 357-392",
+        doi="10.1193/1.2723158",
+    ),
+    Reference(
+        "DimitrakopoulosParaskeva2015",
+        "Dimitrakopoulos, E. G. and Paraskeva, T. S.",
+        2015,
+        "Dimensionless fragility curves for rocking response to near-fault excitations",
+        "Earthquake Engineering and Structural Dynamics, 44(12), 2015-2033",
+        doi="10.1002/eqe.2571",
+    ),
+    Reference(
+        "Lilliefors1967",
+        "Lilliefors, H. W.",
+        1967,
+        "On the Kolmogorov-Smirnov test for normality with mean and variance unknown",
+        "Journal of the American Statistical Association, 62(318), 399-402",
+        doi="10.1080/01621459.1967.10482916",
+    ),
+    Reference(
+        "SuWei1991",
+        "Su, J. Q. and Wei, L. J.",
+        1991,
+        "A lack-of-fit test for the mean function in a generalized linear model",
+        "Journal of the American Statistical Association, 86(414), 420-426",
+        doi="10.1080/01621459.1991.10475059",
+    ),
 )
-
-REFERENCES = {reference.key: reference for reference in _ALL}
-"""Every reference by its key."""
-
-SOFTWARE = Reference(
-    "seisblock",
-    "seisblock contributors",
-    2025,
-    "seisblock: what ground motion does to objects that nobody bolted down",
-    "Python package",
-    kind="software",
-)
-"""The program itself."""
-
-RESTS_ON: dict[str, tuple[str, ...]] = {
-    "measures": ("Furukawa2009", "JMA1996", "Arias1970", "TrifunacBrady1975", "Parzen1961"),
-    "response spectrum": ("NigamJennings1969",),
-    "sliding": ("Fujino1978",),
-    "one-way sliding": ("Newmark1965",),
-    "rocking": ("Housner1963", "Zhang2001", "Ishiyama1982"),
-    "a scan's arms": ("Housner1963", "Furukawa2009"),
-    "jump": ("Sugimoto2017",),
-    "two-layer body": ("Sugimoto2017",),
-    "landing with friction": ("WangMason1992", "Moreau1988"),
-    "uplift": ("Okumura1987",),
-    "pile": ("Furukawa2009",),
-    "all modes": ("ShentonJones1991", "Shenton1996", "Housner1963", "WangMason1992", "Moreau1988", "GenotBrogliato1999"),
-    "overturning criteria": ("Furukawa2009", "Tsutsui", "Housner1963", "Zhang2001", "Ishiyama1982"),
-    "gravestones as fitted": ("Furukawa2009",),
-    "gravestones as blocks": ("Furukawa2009", "Housner1963"),
-    "intensity of a velocity": ("Midorikawa1999",),
-}
-"""What each question rests on: the only place where an answer finds its papers."""
-
-
-def papers(*questions: str) -> tuple[str, ...]:
-    """Return the keys of the papers that the answers to some questions rely on, each once, in their order.
-
-    Examples
-    --------
-    >>> papers("jump", "landing with friction")
-    ('Sugimoto2017', 'WangMason1992', 'Moreau1988')
-    """
-    return tuple(dict.fromkeys(key for question in questions for key in RESTS_ON[question]))
-
-
-def cited_in(texts: Iterable[str]) -> tuple[str, ...]:
-    """Return the keys that stand in brackets in some texts, each once, in their order."""
-    return tuple(dict.fromkeys(key for text in texts for key in re.findall(r"\[(\w+)\]", text) if key in REFERENCES))
-
-
-CITED: dict[str, tuple[str, ...]] = {
-    "measure": papers("measures", "response spectrum"),
-    "slide": papers("sliding", "one-way sliding"),
-    "rock": papers("rocking"),
-    "jump": papers("jump"),
-    "uplift": papers("uplift"),
-    "respond": papers("all modes", "two-layer body"),
-    "batch": papers("all modes", "two-layer body"),
-    "body": papers("a scan's arms"),
-    "criteria": papers("overturning criteria", "rocking", "all modes"),
-    "spectrum": papers("rocking", "sliding", "all modes"),
-    "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),
-    "infer": papers("gravestones as fitted", "gravestones as blocks", "intensity of a velocity", "sliding", "jump"),
-    "stack": papers("pile"),
-}
-"""What the answers of each command rely on unless options ask for more; one answer's own list stands in its document."""
+"""In the order in which the program came to rely on them."""

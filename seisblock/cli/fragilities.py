@@ -1,0 +1,124 @@
+"""How ``seisblock fragility`` goes about it: records, bodies, the study, and where its answer goes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import click
+
+from seisblock.bodies.roster import ListedBody, read_bodies
+from seisblock.bodies.toml import read_table
+from seisblock.cli.emit import emit
+from seisblock.cli.inputs import preparation_of, refuse_windows, tell_doubts
+from seisblock.cli.options import Source
+from seisblock.cli.output import Output
+from seisblock.cli.progress import progress
+from seisblock.errors import ParameterError
+from seisblock.present.documents.fragility import document
+from seisblock.present.files import write_table
+from seisblock.present.text import fragility as shown
+from seisblock.readers.dispatch import Options
+from seisblock.studies.fragility.intensity import intensity_measure
+from seisblock.studies.fragility.lognormal import Lognormal
+from seisblock.studies.fragility.run import bodies_of, run_fragility
+from seisblock.studies.fragility.suite import read_suite
+from seisblock.words import said, tell
+
+SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset")
+
+
+def run(
+    source: Source,
+    output: Output,
+    *,
+    bodies: tuple[str, ...],
+    solver: str,
+    limits: tuple[str, ...],
+    measures: tuple[str, ...],
+    levels: tuple[float, ...] | None,
+    compare: str | None,
+    asked: Mapping[str, Any],
+) -> None:
+    """Run the study, and say what it comes to."""
+    refuse_windows(source)
+    measure = intensity_measure(measures[0])
+    size, _ = measure.shown()
+    other = None if compare is None else _curve(compare, size)
+    options = {key: asked[key] for key in ("mu", "restitution", "vertical", "gravity") if asked[key] is not None}
+    listed = list(read_bodies(bodies)) if bodies else [_one(asked, solver)]
+    if bodies and any(asked[key] is not None for key in (*SIZES, "block")):
+        raise ParameterError("give --bodies, or the sizes of one body, not both")
+    if not source.record:
+        raise ParameterError("no RECORD is given: name ten and more, a folder, or a list (@records.txt)")
+    components = tuple(name for name in source.component if name.lower() != "all")
+    reading = Options(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
+    with progress("reading the records"):
+        records, left_out = read_suite(source.record, reading, strict=source.strict)
+    tell_doubts(records, strict=source.strict)
+    with progress("fragility") as advance:
+        study = run_fragility(
+            records,
+            listed,
+            solver,
+            limits=limits,
+            im=measures,
+            method=asked["method"],
+            levels=None if levels is None else [level * size for level in levels],
+            steps=asked["steps"],
+            perturb=asked["perturb"] or 0,
+            components=components,
+            preparation=preparation_of(source, components),
+            confidence=asked["confidence"],
+            bootstrap=asked["bootstrap"],
+            seed=asked["seed"],
+            progress=advance,
+            **options,
+        )
+    stand = bodies_of(listed, solver, options)
+    chosen = {**asked, "im": [intensity_measure(name).name for name in measures], "perturb": asked["perturb"] or 0}
+
+    def figure() -> Any:
+        from seisblock.present.figures.fragility import figure as drawn
+
+        return drawn(study, gal=output.gal, compare=other)
+
+    emit(
+        document(study, stand, chosen, compare=other, notes=left_out),
+        output,
+        tables=lambda: shown.tables(study, gal=output.gal, compare=other),
+        csv=lambda path: write_table(path, *shown.columns(study)),
+        figure=figure,
+    )
+
+
+def _one(asked: Mapping[str, Any], solver: str) -> ListedBody:
+    """Return the one body that sizes or a name describe, as a list would hold it."""
+    told = {key: asked[key] for key in SIZES if asked[key] is not None}
+    if asked["block"]:
+        sizes = [key for key in told if key != "inset"]
+        if sizes:
+            raise ParameterError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
+        side = {} if asked["side"] is None else {"side": asked["side"]}
+        name = Path(asked["block"]).stem
+        return ListedBody(name, {**told, **side}, read_table(asked["block"]), asked["block"])
+    if solver == "slide":
+        return ListedBody(said("object"), {}, None, said("the object"))
+    missing = [f"--{key}" for key in ("width", "height") if key not in told]
+    if missing:
+        text = "which body? {missing} missing: give --width and --height, --block NAME|FILE (say gravestone), or a list, --bodies"
+        raise ParameterError(text, missing=missing)
+    name = said("block {width:g} x {height:g} m", width=told["width"], height=told["height"])
+    return ListedBody(name, told, None, said("the block"))
+
+
+def _curve(text: str, size: float) -> Lognormal:
+    """Return the curve that a median, in the unit shown, and a beta describe."""
+    try:
+        median, beta = (float(part) for part in text.split(","))
+    except ValueError:
+        raise click.BadParameter(
+            tell("{value!r} is not a median and a beta such as 50,0.4", value=text[:100]), param_hint="--compare"
+        ) from None
+    return Lognormal(median * size, beta)

@@ -1,0 +1,105 @@
+"""Fragilities in pictures: the counts at the levels, the curve through them, its interval, and a curve to compare with."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure, panel_title
+from seisblock.present.text.fragility import limit_name
+from seisblock.studies.fragility.answer import Fragility, FragilityStudy
+from seisblock.studies.fragility.estimate import CLOUD
+from seisblock.studies.fragility.lognormal import Lognormal
+from seisblock.words import percent, tell
+
+LOOKS = ((ACCENT, "-", "o"), (SECOND, (0, (5, 1.5)), "s"), ("0.15", (0, (1.5, 1.2)), "^"), ("0.5", "-.", "D"))
+"""Colour, line and mark of the limits, in their order; different in grey."""
+
+POINTS = 241
+MOST_TICKS = 7
+FEWEST_TOGETHER = 8
+"""Motions as they are, of which nothing can be drawn but yes and no, are counted in groups of as many at least."""
+
+
+def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None = None) -> Figure:
+    """Return the figure: a panel for each body, with the share of the runs at each level, the curve, and the band of its interval.
+
+    Parameters
+    ----------
+    study : FragilityStudy
+    gal : bool
+        Unit of the intensities: gal, kine and cm, else SI.
+    compare : Lognormal or None
+        A curve to draw beside.
+    """
+    bodies = list(dict.fromkeys(curve.body for curve in study.curves))
+    columns = 1 if len(bodies) < 3 else 2 if len(bodies) < 7 else 3
+    rows = math.ceil(len(bodies) / columns)
+    first = study.curves[0]
+    title = tell("{records} records, {motions} motions", records=first.records, motions=first.motions)
+    width = 6.4 if columns == 1 else 4.2 * columns
+    made, axes = new_figure(rows, columns=columns, width=width, height=0.8 + 2.9 * rows, title=title, sharex=False, sharey=True)
+    size, unit = study.measure.shown(gal=gal)
+    name = f"{study.measure.label} ({unit})" if unit else study.measure.label
+    for index, axis in enumerate(axes):
+        if index >= len(bodies):
+            axis.set_visible(False)
+            continue
+        mine = [i for i, curve in enumerate(study.curves) if curve.body == bodies[index]]
+        for place, each in enumerate(mine):
+            _curve(axis, study, each, LOOKS[place % len(LOOKS)], size)
+        if compare is not None:
+            x = np.geomspace(*axis.get_xlim(), POINTS)
+            axis.plot(x, compare.probability(x * size), color=INPUT, linewidth=1.0, linestyle=(0, (4, 2)), label=tell("compared with"))
+        panel_title(axis, bodies[index])
+        label(axis, x=name if index + columns >= len(bodies) else "", y=tell("probability") if index % columns == 0 else "")
+        axis.set_ylim(-0.02, 1.02)
+        _ticks(axis)
+        legend(axis, bbox_to_anchor=(1.0, 0.03), ncols=1)
+    return made
+
+
+def _curve(axis: Axes, study: FragilityStudy, index: int, look: tuple[str, Any, str], size: float) -> None:
+    """Draw one curve with its counts and its band."""
+    curve, band = study.curves[index], study.bands[index]
+    colour, dashes, mark = look
+    axis.set_xscale("log")
+    intensities, shares = _shares(curve)
+    axis.plot(np.array(intensities) / size, shares, mark, color=colour, markersize=3, markerfacecolor="none", markeredgewidth=0.7)
+    low, high = (end / size for end in (min(each.im for each in curve.levels), max(each.im for each in curve.levels)))
+    name = limit_name(curve.limit)
+    if curve.curve is None:
+        axis.plot([], [], mark, color=colour, markersize=3, markerfacecolor="none", label=tell("{limit}: no curve", limit=name))
+        return
+    if band is not None:
+        x, below, above = (np.array(column) for column in zip(*band, strict=True))
+        text = tell("{level} interval", level=percent(study.confidence, "g")) if axis.get_legend_handles_labels()[0] == [] else None
+        axis.fill_between(x / size, below, above, color=colour, alpha=0.16, linewidth=0, label=text)
+    x = np.geomspace(low, high, POINTS)
+    text = tell("{limit}: {median:.3g}, beta {beta:.2f}", limit=name, median=curve.curve.median / size, beta=curve.curve.beta)
+    axis.plot(x, curve.curve.probability(x * size), color=colour, linestyle=dashes, linewidth=1.4, label=text)
+
+
+def _shares(curve: Fragility) -> tuple[list[float], list[float]]:
+    """Return the shares at the levels; of motions as they are, those of groups of similar intensity."""
+    if curve.method != CLOUD:
+        return [each.im for each in curve.levels], [each.exceeding / each.runs for each in curve.levels]
+    groups = np.array_split(np.arange(len(curve.levels)), max(len(curve.levels) // FEWEST_TOGETHER, 1))
+    some = [[curve.levels[i] for i in group] for group in groups if group.size]
+    middle = [float(np.exp(np.mean([math.log(each.im) for each in group]))) for group in some]
+    return middle, [sum(each.exceeding for each in group) / sum(each.runs for each in group) for group in some]
+
+
+def _ticks(axis: Axes) -> None:
+    """Name round intensities along the axis: 1, 2 and 5 of each decade, or the decades alone where there are many."""
+    low, high = axis.get_xlim()
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    within = [[n * 10.0**d for d in decades for n in some if low <= n * 10.0**d <= high] for some in ((1, 2, 5), (1,))]
+    chosen = within[0] if len(within[0]) <= MOST_TICKS else within[1]
+    axis.set_xticks(chosen, [f"{each:g}" for each in chosen])
+    axis.minorticks_off()
+    axis.set_xlim(low, high)

@@ -1,0 +1,77 @@
+"""The literature: one entry per key, used by docstrings, ``seisblock cite`` and every JSON document."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from seisblock.references.literature import LITERATURE, Reference
+
+REFERENCES = {reference.key: reference for reference in LITERATURE}
+"""Every reference by its key."""
+
+SOFTWARE = Reference(
+    "seisblock",
+    "seisblock contributors",
+    2025,
+    "seisblock: what ground motion does to objects that nobody bolted down",
+    "Python package",
+    kind="software",
+)
+"""The program itself."""
+
+RESTS_ON: dict[str, tuple[str, ...]] = {
+    "measures": ("Furukawa2009", "JMA1996", "Arias1970", "TrifunacBrady1975", "Parzen1961"),
+    "response spectrum": ("NigamJennings1969",),
+    "sliding": ("Fujino1978",),
+    "one-way sliding": ("Newmark1965",),
+    "rocking": ("Housner1963", "Zhang2001", "Ishiyama1982"),
+    "a scan's arms": ("Housner1963", "Furukawa2009"),
+    "jump": ("Sugimoto2017",),
+    "two-layer body": ("Sugimoto2017",),
+    "landing with friction": ("WangMason1992", "Moreau1988"),
+    "uplift": ("Okumura1987",),
+    "pile": ("Furukawa2009",),
+    "all modes": ("ShentonJones1991", "Shenton1996", "Housner1963", "WangMason1992", "Moreau1988", "GenotBrogliato1999"),
+    "overturning criteria": ("Furukawa2009", "Tsutsui", "Housner1963", "Zhang2001", "Ishiyama1982"),
+    "gravestones as fitted": ("Furukawa2009",),
+    "gravestones as blocks": ("Furukawa2009", "Housner1963"),
+    "intensity of a velocity": ("Midorikawa1999",),
+    "fragility": ("Baker2015", "Vamvatsikos2002", "LucoCornell2007", "DimitrakopoulosParaskeva2015", "Lilliefors1967", "SuWei1991"),
+}
+"""What each question rests on: the only place where an answer finds its papers."""
+
+
+def papers(*questions: str) -> tuple[str, ...]:
+    """Return the keys of the papers that the answers to some questions rely on, each once, in their order.
+
+    Examples
+    --------
+    >>> papers("jump", "landing with friction")
+    ('Sugimoto2017', 'WangMason1992', 'Moreau1988')
+    """
+    return tuple(dict.fromkeys(key for question in questions for key in RESTS_ON[question]))
+
+
+def cited_in(texts: Iterable[str]) -> tuple[str, ...]:
+    """Return the keys that stand in brackets in some texts, each once, in their order."""
+    return tuple(dict.fromkeys(key for text in texts for key in re.findall(r"\[(\w+)\]", text) if key in REFERENCES))
+
+
+CITED: dict[str, tuple[str, ...]] = {
+    "measure": papers("measures", "response spectrum"),
+    "slide": papers("sliding", "one-way sliding"),
+    "rock": papers("rocking"),
+    "jump": papers("jump"),
+    "uplift": papers("uplift"),
+    "respond": papers("all modes", "two-layer body"),
+    "batch": papers("all modes", "two-layer body"),
+    "body": papers("a scan's arms"),
+    "fragility": papers("fragility", "all modes", "rocking", "sliding", "pile"),
+    "criteria": papers("overturning criteria", "rocking", "all modes"),
+    "spectrum": papers("rocking", "sliding", "all modes"),
+    "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),
+    "infer": papers("gravestones as fitted", "gravestones as blocks", "intensity of a velocity", "sliding", "jump"),
+    "stack": papers("pile"),
+}
+"""What the answers of each command rely on unless options ask for more; one answer's own list stands in its document."""

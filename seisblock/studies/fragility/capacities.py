@@ -1,0 +1,107 @@
+"""When it happens first: the intensities at which motions, scaled up and up, pass a limit."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.studies.fragility.lognormal import Lognormal
+from seisblock.typing import BoolArray, FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Capacities:
+    """When motions pass a limit for the first time.
+
+    Parameters
+    ----------
+    log_factor : (m,) array
+        Logarithm of the factor, the middle between the level at which it happened first and the one before; infinite where at none.
+    monotone : (m,) array of bool
+        Whether it happened at all levels above.
+    """
+
+    log_factor: FloatArray
+    monotone: BoolArray
+
+
+def capacities(passed: BoolArray, log_levels: FloatArray) -> Capacities:
+    """Return when each row of runs passed a limit first, on rising levels ([Vamvatsikos2002]_ section 4).
+
+    Parameters
+    ----------
+    passed : (m, n) array of bool
+    log_levels : (m, n) or (n,) array
+        Logarithms of the factors, or of the intensities.
+    """
+    grid = np.broadcast_to(log_levels, passed.shape)
+    ever, first = passed.any(axis=1), passed.argmax(axis=1)
+    rows = np.arange(len(passed))
+    middle = 0.5 * (grid[rows, first] + grid[rows, np.maximum(first - 1, 0)])
+    monotone = np.logical_or.accumulate(passed, axis=1) == passed
+    return Capacities(np.where(ever, middle, np.inf), np.asarray(monotone.all(axis=1)))
+
+
+def moments(log_capacities: FloatArray, weights: FloatArray, top: float) -> tuple[FloatArray, FloatArray]:
+    """Return medians and betas of samples of intensities at which it happens first ([Baker2015]_ eqs. (2), (3); censored (4)-(7)).
+
+    Where all happened, mean and standard deviation of the logarithms; where some did not, up to the highest level, the values that make
+    that most likely.
+
+    Parameters
+    ----------
+    log_capacities : (m,) array
+        Infinite where it did not happen.
+    weights : (b, m) array
+        How often each counts in each sample.
+    top : float
+        Logarithm of the highest level.
+
+    Returns
+    -------
+    (b,) arrays
+        NaN where fewer than two happened, or all at one level.
+    """
+    seen = np.isfinite(log_capacities)
+    value = np.where(seen, log_capacities, 0.0)
+    counted = weights[:, seen].sum(axis=1)
+    censored = weights[:, ~seen].sum(axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean = (weights * value).sum(axis=1) / counted
+        spread = (weights * seen * (value - mean[:, None]) ** 2).sum(axis=1)
+        deviation = np.sqrt(spread / (counted - 1.0))
+    good = (counted >= 2.0) & (spread > 1e-12)
+    for row in np.flatnonzero(good & (censored > 0.0)):
+        mean[row], deviation[row] = _censored(value[seen], weights[row, seen], float(censored[row]), top, mean[row], deviation[row])
+    return np.where(good, np.exp(mean), np.nan), np.where(good, deviation, np.nan)
+
+
+def _censored(value: FloatArray, weight: FloatArray, censored: float, top: float, mean: float, deviation: float) -> tuple[float, float]:
+    """Return mean and standard deviation of a normal sample, some of it above `top`, by EM ([Baker2015]_ eqs. (4)-(7))."""
+    from scipy.special import log_ndtr
+
+    count = float(weight.sum())
+    for _ in range(500):
+        z = (top - mean) / deviation
+        ratio = math.exp(-0.5 * z * z - 0.5 * math.log(2.0 * math.pi) - float(log_ndtr(-z)))
+        first = mean + deviation * ratio
+        second = mean**2 + deviation**2 + deviation * (top + mean) * ratio
+        new = (float(weight @ value) + censored * first) / (count + censored)
+        total = float(weight @ value**2) + censored * second
+        spread = math.sqrt(max(total / (count + censored) - new * new, 1e-24))
+        done = abs(new - mean) + abs(spread - deviation) < 1e-10
+        mean, deviation = new, spread
+        if done:
+            break
+    return mean, deviation
+
+
+def fit_capacities(intensities: FloatArray, *, top: float | None = None) -> Lognormal | None:
+    """Return the lognormal of intensities at which it happened first, infinite where it did not up to `top`; None where none follows."""
+    with np.errstate(divide="ignore"):
+        logs = np.log(np.asarray(intensities, dtype=np.float64))
+    highest = math.log(top) if top is not None else float(np.max(logs[np.isfinite(logs)], initial=0.0))
+    medians, betas = moments(logs, np.ones((1, logs.size)), highest)
+    return Lognormal(float(medians[0]), float(betas[0])) if math.isfinite(float(medians[0])) else None

@@ -1,0 +1,265 @@
+"""From runs to curves: counts, fits, intervals over records, and where the scatter comes from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from seisblock.studies.fragility.answer import Dispersion, Efficiency, Fragility, FragilityLevel, Goodness
+from seisblock.studies.fragility.capacities import Capacities, capacities, moments
+from seisblock.studies.fragility.comparison import efficiency_of_capacities, efficiency_of_cloud
+from seisblock.studies.fragility.goodness import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
+from seisblock.studies.fragility.intensity import IntensityMeasure
+from seisblock.studies.fragility.limits import LimitState, at_least
+from seisblock.studies.fragility.lognormal import FALLS, Lognormal, curves, curves_together, no_curve
+from seisblock.studies.fragility.suite import Suite
+from seisblock.typing import BoolArray, FloatArray
+from seisblock.words import Said
+
+STRIPES, IDA, CLOUD = "stripes", "ida", "cloud"
+METHODS = (STRIPES, IDA, CLOUD)
+
+
+@dataclass(frozen=True, eq=False)
+class Passed:
+    """The runs of one body.
+
+    Parameters
+    ----------
+    body : str
+    limits : tuple of LimitState
+    passed : (m, n, v, k) array of bool
+        Motions, levels, versions, limits.
+    levels : (m, n) array
+        Intensities; the same for all motions unless nothing was scaled.
+    values : sequence of (m,) arrays
+        Intensity of each motion as it is, in each of the measures compared, the curve's own first.
+    """
+
+    body: str
+    limits: tuple[LimitState, ...]
+    passed: BoolArray
+    levels: FloatArray
+    values: Sequence[FloatArray]
+
+
+@dataclass(frozen=True)
+class Rules:
+    """How curves are fitted.
+
+    Parameters
+    ----------
+    method : str
+    measures : tuple of IntensityMeasure
+    confidence : float, 1
+    bootstrap : int
+        Samples of records behind the intervals.
+    seed : int
+    """
+
+    method: str
+    measures: tuple[IntensityMeasure, ...]
+    confidence: float
+    bootstrap: int
+    seed: int
+
+
+Band = tuple[tuple[float, float, float], ...] | None
+
+
+def estimate(runs: Passed, suite: Suite, rules: Rules) -> list[tuple[Fragility, Band]]:
+    """Return the curves of one body, and the bands of their intervals.
+
+    Several limits are fitted with one beta, so that their curves do not cross; a run that passed a later limit is past those before it.
+
+    Parameters
+    ----------
+    runs : Passed
+    suite : Suite
+    rules : Rules
+    """
+    states = at_least(runs.passed)
+    dice = np.random.default_rng(rules.seed)
+    weights = np.vstack([np.ones(len(suite.motions)), suite.weights(rules.bootstrap, dice)])
+    shown = rules.measures[0].shown()
+    problems = [_problem(rules.method, runs.levels, states[..., k], shown) for k in range(len(runs.limits))]
+    good = [k for k, problem in enumerate(problems) if problem is None]
+    alone = [_fitted(rules.method, runs.levels, states[..., [k]], weights) for k in good]
+    together = _fitted(rules.method, runs.levels, states[..., good], weights) if len(good) > 1 else None
+    found: list[tuple[Fragility, Band]] = []
+    for k, problem in enumerate(problems):
+        firsts = _firsts(states[..., k], runs.levels)
+        counted = _counted_curve(runs, suite, rules, states[..., k], k, firsts)
+        if problem is not None:
+            found.append((replace(counted, problem=problem), None))
+            continue
+        own = alone[good.index(k)][:, :, 0]
+        both = own if together is None else together[:, :, good.index(k)]
+        fitted, band = _with_curve(counted, both, runs.levels, rules.confidence)
+        if fitted.curve is not None:
+            fitted = replace(
+                fitted,
+                median_alone=None if together is None else float(own[0, 0]),
+                beta_alone=None if together is None else float(own[1, 0]),
+                dispersion=_dispersion(rules.method, runs.levels, states[..., k]),
+                goodness=_goodness(rules.method, fitted.curve, runs.levels, states[..., k], firsts, dice),
+                measures=tuple(_efficiencies(runs, suite, rules, states[..., k], firsts)),
+            )
+        found.append((fitted, band))
+    return found
+
+
+def _counted_curve(runs: Passed, suite: Suite, rules: Rules, passed: BoolArray, limit: int, firsts: Capacities) -> Fragility:
+    """Return what is known of one limit before a curve is fitted."""
+    # of versions, most
+    jumps = (~firsts.monotone).reshape(passed.shape[0], passed.shape[2]).mean(axis=1) > 0.5
+    return Fragility(
+        body=runs.body,
+        limit=runs.limits[limit].name,
+        im=rules.measures[0].name,
+        unit=rules.measures[0].unit,
+        method=rules.method,
+        records=len(suite.records),
+        motions=len(suite.motions),
+        non_monotone_records=np.unique(suite.owner[jumps]).size,
+        non_monotone_motions=int(jumps.sum()),
+        censored_motions=int((~passed.any(axis=(1, 2))).sum()),
+        levels=tuple(_counted(rules.method, runs.levels, passed)),
+    )
+
+
+def _with_curve(counted: Fragility, samples: FloatArray, levels: FloatArray, confidence: float) -> tuple[Fragility, Band]:
+    """Return a limit with its curve, the first of some samples, and its intervals, those of the others."""
+    (median, *medians), (beta, *betas) = samples
+    if not math.isfinite(median):
+        return replace(counted, problem=FALLS), None
+    kept = np.isfinite(medians)
+    ends = [(1.0 - confidence) / 2.0, (1.0 + confidence) / 2.0]
+    found = replace(counted, median=float(median), beta=float(beta), bootstrap_lost_count=int((~kept).sum()))
+    if kept.sum() < 2:
+        return found, None
+    some = np.array([medians, betas])[:, kept]
+    (low, high), (least, most) = np.quantile(some, ends, axis=1).T.tolist()
+    return replace(found, median_interval=(low, high), beta_interval=(least, most)), _band(some[0], some[1], levels, ends)
+
+
+def _rows(passed: BoolArray) -> BoolArray:
+    """Return runs with a row for each motion and version, and a column for each level."""
+    motions, levels, versions = passed.shape
+    return np.asarray(passed.transpose(0, 2, 1).reshape(motions * versions, levels))
+
+
+def _firsts(passed: BoolArray, levels: FloatArray) -> Capacities:
+    """Return when it happened first, as the logarithm of the intensity, for each motion and version."""
+    return capacities(_rows(passed), np.log(np.repeat(levels, passed.shape[2], axis=0)))
+
+
+def _problem(method: str, levels: FloatArray, passed: BoolArray, shown: tuple[float, str]) -> Said | None:
+    """Return why no curve follows from the runs of one limit, in the user's unit; None where one does."""
+    flat = levels[0] if method != CLOUD else levels[:, 0]
+    counts = passed.sum(axis=(0, 2)) if method != CLOUD else passed.sum(axis=(1, 2))
+    size = passed.shape[2] * (len(passed) if method != CLOUD else 1)
+    return no_curve(flat, counts.astype(np.float64), np.full(flat.size, float(size)), shown, scaled=method != CLOUD, first=method == IDA)
+
+
+def _fitted(method: str, levels: FloatArray, states: BoolArray, weights: FloatArray) -> FloatArray:
+    """Return medians and betas, (2, b, k), of some limits, with one beta where there are several, fitted to samples of motions."""
+    limits = range(states.shape[3])
+    if method == IDA:
+        top = math.log(float(levels.max()))
+        grid = np.log(np.repeat(levels, states.shape[2], axis=0))
+        every = np.repeat(weights, states.shape[2], axis=1)
+        found = [moments(capacities(_rows(states[..., k]), grid).log_factor, every, top) for k in limits]
+        medians, betas = (np.stack(column, axis=1) for column in zip(*found, strict=True))
+        if len(found) > 1:
+            # one beta for all: the root of the mean square
+            betas = np.tile(np.sqrt((betas**2).mean(axis=1, keepdims=True)), (1, len(found)))
+        return np.array([medians, betas])
+    if method == CLOUD:
+        # each motion is a level of its own
+        counts = np.stack([weights * states[:, 0, :, k].sum(axis=1) for k in limits], axis=1)
+        used = (levels[:, 0], counts, weights * states.shape[2])
+    else:
+        counts = np.stack([weights @ states[..., k].sum(axis=2) for k in limits], axis=1)
+        used = (levels[0], counts, np.tile(weights.sum(axis=1, keepdims=True) * states.shape[2], (1, levels.shape[1])))
+    if len(limits) == 1:
+        medians, betas = curves(used[0], used[1][:, 0], used[2])
+        return np.array([medians[:, None], betas[:, None]])
+    medians, beta = curves_together(*used)
+    return np.array([medians, np.tile(beta[:, None], (1, len(limits)))])
+
+
+def _counted(method: str, levels: FloatArray, passed: BoolArray) -> list[FragilityLevel]:
+    """Return the counts at each level; of each motion where nothing was scaled, in the order of their intensities."""
+    if method == CLOUD:
+        order = np.argsort(levels[:, 0], kind="stable")
+        return [FragilityLevel(float(levels[m, 0]), passed.shape[2], int(passed[m].sum())) for m in order]
+    counts, size = passed.sum(axis=(0, 2)), passed.shape[0] * passed.shape[2]
+    return [FragilityLevel(float(level), size, int(count)) for level, count in zip(levels[0], counts, strict=True)]
+
+
+def _dispersion(method: str, levels: FloatArray, passed: BoolArray) -> Dispersion | None:
+    """Return the parts of the scatter by the law of total variance (derived here).
+
+    Given a version v of the body, ln(intensity) has the mean mu_v and the standard deviation beta_v over the motions. Over both,
+    Var = E[beta_v^2] + Var[mu_v]: what records differ, and what is not known of the body. The same versions meet the same motions, so that
+    the means differ by the body alone.
+    """
+    versions = passed.shape[2]
+    if versions < 2:
+        return None
+    fits = [_fitted(method, levels, passed[:, :, [v], None], np.ones((1, len(passed)))) for v in range(versions)]
+    medians, betas = np.array(fits)[:, :, 0, 0].T
+    good = np.isfinite(medians)
+    if good.sum() < 2:
+        return None
+    records, parameter = float((betas[good] ** 2).mean()), float(np.log(medians[good]).var(ddof=1))
+    total = math.sqrt(records + parameter)
+    return Dispersion(math.sqrt(records), math.sqrt(parameter), total, versions, int((~good).sum()))
+
+
+def _goodness(
+    method: str, curve: Lognormal, levels: FloatArray, passed: BoolArray, firsts: Capacities, dice: np.random.Generator
+) -> Goodness:
+    """Return how well a curve fits."""
+    versions = passed.shape[2]
+    if method == IDA:
+        means = firsts.log_factor if versions == 1 else firsts.log_factor.reshape(-1, versions).mean(axis=1)
+        return goodness_of_capacities(curve, means, math.log(float(levels.max())), dice)
+    if method == CLOUD:
+        return goodness_of_cloud(curve, levels[:, 0], passed.sum(axis=(1, 2)).astype(np.float64), float(versions), dice)
+    counts = passed.sum(axis=(0, 2)) / versions
+    return goodness_of_stripes(curve, levels[0], counts, float(len(passed)), len(passed), dice)
+
+
+def _efficiencies(runs: Passed, suite: Suite, rules: Rules, passed: BoolArray, firsts: Capacities) -> list[Efficiency]:
+    """Return the measures side by side, where there are several."""
+    if len(rules.measures) < 2:
+        return []
+    properties = (("ln(pgv/pga)", suite.shapes), ("magnitude", suite.magnitudes))
+    own = rules.measures[0]
+    factors = (firsts.log_factor.reshape(len(passed), -1) - np.log(runs.values[0])[:, None]) / own.power
+    happened = passed.sum(axis=(1, 2)).astype(np.float64)
+    found = []
+    for measure, values in zip(rules.measures, runs.values, strict=True):
+        each = (
+            efficiency_of_cloud(measure, values, happened, float(passed.shape[2]), properties)
+            if rules.method == CLOUD
+            else efficiency_of_capacities(measure, values, factors, properties)
+        )
+        found += [each] if each is not None else []
+    return found
+
+
+def _band(medians: FloatArray, betas: FloatArray, levels: FloatArray, ends: list[float]) -> Band:
+    """Return the interval of the probability at intensities across the levels."""
+    from scipy.special import ndtr
+
+    if medians.size < 2:
+        return None
+    x = np.geomspace(float(levels.min()), float(levels.max()), 121)
+    low, high = np.quantile(ndtr((np.log(x) - np.log(medians)[:, None]) / betas[:, None]), ends, axis=0)
+    return tuple(zip(x.tolist(), low.tolist(), high.tolist(), strict=True))

@@ -1,0 +1,151 @@
+"""What counts as having happened: a state of the object that a run passes or does not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.errors import ParameterError
+from seisblock.typing import BoolArray, FloatArray
+from seisblock.units import parse_length
+
+ROCK, LEAN, SLIP, OVERTURN = "rock", "lean", "slip", "overturn"
+
+ANSWERS = {"rock": (ROCK, LEAN, OVERTURN), "respond": (ROCK, LEAN, SLIP, OVERTURN), "slide": (SLIP,), "stack": (SLIP, OVERTURN)}
+"""The limits that each solver knows an answer to."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ends:
+    """What some runs came to, (m,) each; None where the solver does not say.
+
+    Parameters
+    ----------
+    overturned : bool
+    lean : float, 1
+        Largest lean over the slenderness alpha of its side.
+    slip_m : float, m
+        How far the object was moved; infinite where it fell.
+    """
+
+    overturned: BoolArray | None = None
+    lean: FloatArray | None = None
+    slip_m: FloatArray | None = None
+
+
+@dataclass(frozen=True)
+class LimitState:
+    """A limit that an object passes, or does not.
+
+    Parameters
+    ----------
+    kind : str
+        ``overturn``; ``rock``, it leaves its rest; ``lean``, it leans by more than a share of its slenderness; ``slip``, it is moved by
+        more than a length, or falls.
+    threshold : float or None
+        The share, 1, or the length, m.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such limit, or its threshold is missing or of no use.
+    """
+
+    kind: str
+    threshold: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.kind not in (ROCK, LEAN, SLIP, OVERTURN):
+            raise ParameterError(
+                "there is no limit {name!r}; there are {known}",
+                name=str(self.kind)[:100],
+                known=[OVERTURN, ROCK, f"{SLIP}=5cm", f"{LEAN}=0.5"],
+            )
+        if (self.kind in (LEAN, SLIP)) != (self.threshold is not None):
+            raise ParameterError("a limit of slip or lean needs a number, slip=5cm or lean=0.5, and no other has one")
+        if self.threshold is not None:
+            checks.positive("the threshold of a limit", self.threshold)
+
+    @property
+    def name(self) -> str:
+        """As it is asked for: ``overturn``, ``slip=0.05m``, ``lean=0.5``."""
+        if self.threshold is None:
+            return self.kind
+        return f"{self.kind}={self.threshold:g}{'m' if self.kind == SLIP else ''}"
+
+    def passed(self, ends: Ends) -> BoolArray:
+        """Return which runs passed it."""
+        found = {OVERTURN: ends.overturned, ROCK: ends.lean, LEAN: ends.lean, SLIP: ends.slip_m}[self.kind]
+        assert found is not None
+        return np.asarray(found > (self.threshold or 0.0))
+
+
+def limit_state(text: str | LimitState) -> LimitState:
+    """Return the limit that a text names.
+
+    Parameters
+    ----------
+    text : str
+        ``overturn``, ``rock``, ``slip=5cm`` (a length with its unit, or in m), or ``lean=0.5`` (a share of the slenderness).
+
+    Raises
+    ------
+    ParameterError, UnitError
+        If it names none.
+
+    Examples
+    --------
+    >>> limit_state("slip=5cm").threshold
+    0.05
+    """
+    if isinstance(text, LimitState):
+        return text
+    kind, equals, number = str(text).strip().partition("=")
+    if not equals:
+        return LimitState(kind)
+    if kind == SLIP:
+        return LimitState(kind, parse_length(number, what="slip"))
+    try:
+        return LimitState(kind, float(number))
+    except ValueError:
+        raise ParameterError("the threshold of {text!r} is no number: write lean=0.5", text=str(text)[:100]) from None
+
+
+def limit_states(texts: str | LimitState | Sequence[str | LimitState], solver: str) -> tuple[LimitState, ...]:
+    """Return the limits that a solver is asked about, in the order in which they are passed.
+
+    Raises
+    ------
+    ParameterError
+        If there is none, two are the same, or the solver knows no answer to one.
+    """
+    given = [texts] if isinstance(texts, (str, LimitState)) else list(texts)
+    found = tuple(limit_state(each) for each in given)
+    if not found:
+        raise ParameterError("no limit is given: say overturn, rock, slip=5cm or lean=0.5")
+    for each in found:
+        if each.kind not in ANSWERS[solver]:
+            raise ParameterError(
+                "{solver} knows no answer to the limit {name!r}; it knows {known}",
+                solver=solver,
+                name=each.name,
+                known=list(ANSWERS[solver]),
+            )
+    if len(set(found)) < len(found):
+        raise ParameterError("a limit is given twice: name each once")
+    order = (ROCK, LEAN, SLIP, OVERTURN)
+    return tuple(sorted(found, key=lambda each: (order.index(each.kind), each.threshold or 0.0)))
+
+
+def at_least(passed: BoolArray) -> BoolArray:
+    """Return which runs came to each limit or beyond it: one that passed a later limit is past those before it.
+
+    Parameters
+    ----------
+    passed : (..., k) array of bool
+        Limits in their order along the last axis.
+    """
+    return np.asarray(np.logical_or.accumulate(passed[..., ::-1], axis=-1)[..., ::-1])

@@ -1,0 +1,238 @@
+"""Fragilities of some bodies over a suite of records: every record, at every level, with every body."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
+from seisblock.readers.source import Location
+from seisblock.records import Preparation, Record
+from seisblock.studies.batch.models import Placed, batch_model
+from seisblock.studies.batch.run import AS_READ, Bodies, named
+from seisblock.studies.batch.task import Unplaced, placed
+from seisblock.studies.fragility.answer import FragilityStudy
+from seisblock.studies.fragility.estimate import CLOUD, METHODS, STRIPES, Passed, Rules, estimate
+from seisblock.studies.fragility.followers import FOLLOWERS, PERTURBED, Draws, version_draws
+from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for, intensity_measure
+from seisblock.studies.fragility.levels import STEPS, chosen_levels, levels_of
+from seisblock.studies.fragility.limits import LimitState, limit_states
+from seisblock.studies.fragility.notes import notes_on
+from seisblock.studies.fragility.suite import Suite, read_suite, suite_of
+from seisblock.studies.intervals import CONFIDENCE
+from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
+from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
+
+BOOTSTRAP = 1000
+"""Samples of records behind the intervals, unless another number is asked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What is run: bodies and limits under the motions of a suite.
+
+    Parameters
+    ----------
+    solver : str
+    bodies : tuple of Placed
+    limits : tuple of LimitState
+    suite : Suite
+    values : sequence of sequences of (m,) arrays
+        For each body, the intensities of the motions as they are, in each measure.
+    draws : (v, 6) array or None
+    """
+
+    solver: str
+    bodies: tuple[Placed, ...]
+    limits: tuple[LimitState, ...]
+    suite: Suite
+    values: Sequence[Sequence[FloatArray]]
+    draws: Draws
+
+    def passed(self, body: int, motion: int, factors: FloatArray, draws: Draws) -> BoolArray:
+        """Return which limits a body passes under a motion times some factors, (n, v, k)."""
+        ends = FOLLOWERS[self.solver](self.bodies[body], self.suite.motions[motion], factors, draws)
+        versions = 1 if draws is None else len(draws)
+        return np.stack([limit.passed(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
+
+
+def run_fragility(
+    records: Location | Record | Sequence[Location | Record],
+    bodies: Bodies,
+    solver: str = "respond",
+    *,
+    limits: str | LimitState | Sequence[str | LimitState] = "overturn",
+    im: str | IntensityMeasure | Sequence[str | IntensityMeasure] = "pga",
+    method: str = STRIPES,
+    levels: ArrayLike | None = None,
+    steps: int = STEPS,
+    perturb: int = 0,
+    components: str | Sequence[str] = (),
+    preparation: Preparation = AS_READ,
+    confidence: float = CONFIDENCE,
+    bootstrap: int = BOOTSTRAP,
+    seed: int = 0,
+    progress: Progress | None = None,
+    **options: Any,
+) -> FragilityStudy:
+    """Return how likely some bodies are to pass a limit, against the intensity of the shaking: lognormal curves with their intervals.
+
+    Parameters
+    ----------
+    records : path or Record, or several
+        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.gather.gather`; or records as they were read.
+    bodies : path, bodies, or mapping of names to bodies
+        As of :func:`~seisblock.studies.batch.run.run_batch`.
+    solver : str
+        ``respond``, ``rock``, ``slide`` or ``stack``.
+    limits : str, or several
+        ``overturn``, ``rock``, ``slip=5cm``, ``lean=0.5``; several are states one beyond the other, and share one beta.
+    im : str, or several
+        ``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``p*pgv``: of the component solved. The curve is drawn over the first; the
+        others are compared with it.
+    method : str
+        ``stripes``: every record at every level, maximum likelihood; ``ida``: the level at which each record does it first; ``cloud``:
+        records as they are, probit regression.
+    levels : array, in `unit`
+        That of the measure, SI; chosen between where hardly anything and where nearly all happens when left out.
+    steps : int
+        How many are chosen.
+    perturb : int
+        Versions of each body, 0 for the body as it is.
+    components, preparation
+        As of :func:`~seisblock.studies.batch.run.run_batch`.
+    confidence : float, 1
+        Level of the intervals.
+    bootstrap, seed : int
+        Samples of records behind them, and the seed of all dice.
+    progress : callable
+        Told the number of runs done and the number in all.
+    options
+        Of the solver: ``mu``, ``vertical``, ``restitution``, ``gravity``, ...
+
+    Raises
+    ------
+    ParameterError
+        If nothing can be asked so, there are fewer than two records, or no curve follows from any of the runs.
+    BodyError, RecordError
+        If a body or a record cannot be read.
+
+    Notes
+    -----
+    The counts z_i of n_i runs at level x_i are binomial with p_i = Phi(ln(x_i/median)/beta), whose likelihood is made largest
+    ([Baker2015]_ eq. (11)). Records are scaled whole: their shape stays as it is, whatever the level.
+
+    Examples
+    --------
+    >>> from seisblock.bodies.block import Block
+    >>> study = run_fragility(
+    ...     ["synthetic_jma.csv", "elcentro_1940_ns.csv"], Block(0.3, 1.2, name="shelf"), "rock", im="pgv", steps=12, bootstrap=20
+    ... )
+    >>> [(curve.body, curve.limit, curve.motions) for curve in study.curves]
+    [('shelf', 'overturn', 3)]
+    """
+    if solver not in FOLLOWERS:
+        raise ParameterError(
+            "there is no solver {name!r} for a fragility; there are {known}", name=str(solver)[:100], known=list(FOLLOWERS)
+        )
+    if method not in METHODS:
+        raise ParameterError("there is no method {name!r}; there are {known}", name=str(method)[:100], known=list(METHODS))
+    if method == CLOUD and levels is not None:
+        raise ParameterError("a cloud takes the records as they are, at no levels: leave `levels` out, or take stripes")
+    checks.instance(preparation, Preparation)
+    checks.within("the confidence", confidence, "(0, 1)")
+    checks.whole("the samples of the bootstrap", bootstrap, least=2)
+    checks.whole("the number of versions", perturb, least=0)
+    check_budget(noted("samples of the bootstrap"), bootstrap, "SEISBLOCK_RUNS")
+    if perturb and solver not in PERTURBED:
+        raise ParameterError("{solver} has no versions of a body: leave `perturb` out", solver=solver)
+    states = limit_states(limits, solver)
+    several = [im] if isinstance(im, (str, IntensityMeasure)) else list(im)
+    measures = tuple(dict.fromkeys(intensity_measure(each) for each in several))
+    if not measures:
+        raise ParameterError("no intensity measure is given: say pga, pgv, pgd, sa=0.5, arias or p*pgv")
+    names = (components,) if isinstance(components, str) else tuple(components)
+    stand = bodies_of(bodies, solver, options)
+    found, left_out = read_suite(records)
+    suite = suite_of(found, names, preparation)
+    known = [suite.intensities(measure) for measure in measures]
+    gravity = float(options.get("gravity", STANDARD_GRAVITY))
+    values = [[each * m.share(body.body, gravity) for each, m in zip(known, measures, strict=True)] for body in stand]
+    study = Study(solver, stand, states, suite, values, version_draws(perturb, checks.seed(seed)))
+    rules = Rules(method, measures, confidence, bootstrap, seed)
+    grids = _grids(study, rules, levels, steps)
+    every = _follow(study, rules, grids, progress)
+    curves, bands = zip(*(each for runs in every for each in estimate(runs, suite, rules)), strict=True)
+    if all(curve.median is None for curve in curves):
+        raise ParameterError("{body}, {limit}: {why}", body=curves[0].body, limit=curves[0].limit, why=curves[0].problem)
+    factors = [factors_for(grid, value[0][:, None], measures[0]) for grid, value in zip(grids, values, strict=True)]
+    range_ = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
+    notes = (*left_out, *notes_on(curves, [value[0] for value in values], rules))
+    return FragilityStudy(curves, measures[0], solver, method, confidence, bands, range_, suite.records, notes)
+
+
+def bodies_of(bodies: Bodies, solver: str, options: Mapping[str, Any]) -> tuple[Placed, ...]:
+    """Return bodies as a solver takes them, or refuse the first that it cannot take.
+
+    Parameters
+    ----------
+    bodies, solver
+        As of :func:`run_fragility`.
+    options : mapping
+        Of the solver, for every body that says nothing else.
+    """
+    model = batch_model(solver)
+    model.refuse_unknown(options)
+    found: list[Placed] = []
+    for each in placed(model, named(bodies, model), options):
+        if isinstance(each, Unplaced):
+            raise ParameterError("{name}: {reason}", name=each.name, reason=each.reason)
+        found.append(each)
+    return tuple(found)
+
+
+def _grids(study: Study, rules: Rules, levels: ArrayLike | None, steps: int) -> list[FloatArray]:
+    """Return the intensities of the runs of each body, (m, n): levels, or those of the motions as they are."""
+    motions = len(study.suite.motions)
+    if rules.method == CLOUD:
+        return [values[0][:, None] for values in study.values]
+    if levels is None:
+
+        def shares_at(level: float) -> FloatArray:
+            """Return in which share of the motions each body passes each limit."""
+            passed = [
+                study.passed(b, m, factors_for(np.array([level]), values[0][m], rules.measures[0]), None)[0, 0]
+                for b, values in enumerate(study.values)
+                for m in range(motions)
+            ]
+            return np.asarray(np.reshape(passed, (len(study.bodies), motions, -1)).mean(axis=1))
+
+        grid = chosen_levels(shares_at, math.exp(float(np.mean([np.log(values[0]).mean() for values in study.values]))), steps)
+    else:
+        grid = levels_of(levels)
+    return [np.tile(grid, (motions, 1))] * len(study.bodies)
+
+
+def _follow(study: Study, rules: Rules, grids: list[FloatArray], progress: Progress | None) -> list[Passed]:
+    """Return the runs of each body."""
+    versions = 1 if study.draws is None else len(study.draws)
+    each = grids[0].shape[1] * versions
+    total = each * len(study.suite.motions) * len(study.bodies)
+    check_budget(noted("runs"), total, "SEISBLOCK_CELLS")
+    found, done = [], 0
+    for b, (body, grid, values) in enumerate(zip(study.bodies, grids, study.values, strict=True)):
+        passed = []
+        for m in range(len(study.suite.motions)):
+            passed.append(study.passed(b, m, factors_for(grid[m], values[0][m], rules.measures[0]), study.draws))
+            done += each
+            if progress is not None:
+                progress(done, total)
+        found.append(Passed(body.name, study.limits, np.stack(passed), grid, values))
+    return found

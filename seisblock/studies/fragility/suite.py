@@ -1,0 +1,144 @@
+"""A suite of records as the bodies feel them: the motions of their components, and how strong each is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+
+import numpy as np
+
+from seisblock.errors import ParameterError, SeisblockError
+from seisblock.readers.dispatch import Options
+from seisblock.readers.gather import gather
+from seisblock.readers.source import Location
+from seisblock.records import Motion, Preparation, Record, motion_of
+from seisblock.records.site import earthquake_of
+from seisblock.studies.fragility.intensity import IntensityMeasure
+from seisblock.typing import FloatArray, IntArray
+from seisblock.words import said
+
+ALL = "all"
+
+
+@dataclass(frozen=True, eq=False)
+class Suite:
+    """The motions of some records.
+
+    Parameters
+    ----------
+    records : tuple of Record
+    motions : tuple of Motion
+    owner : (m,) array of int
+        Which record each motion is of.
+    magnitudes : (m,) array
+        Of the earthquakes, NaN where the file does not say.
+    """
+
+    records: tuple[Record, ...]
+    motions: tuple[Motion, ...]
+    owner: IntArray
+    magnitudes: FloatArray
+
+    def intensities(self, measure: IntensityMeasure) -> FloatArray:
+        """Return the intensity of each motion as it is, (m,), without the share of a body.
+
+        Raises
+        ------
+        ParameterError
+            If there is no shaking in one of them.
+        """
+        found = np.array([measure.of(motion) for motion in self.motions])
+        for row in np.flatnonzero(~(found > 0.0))[:1]:
+            raise ParameterError(
+                "{record}, {name}: there is no shaking in it, so that no factor brings it to a level: leave it out",
+                record=self.records[self.owner[row]].source or said("record"),
+                name=self.motions[row].name,
+            )
+        return found
+
+    @cached_property
+    def shapes(self) -> FloatArray:
+        """Logarithm of PGV over PGA of each motion, (m,), s: how slowly it shakes."""
+        pgv, pga = IntensityMeasure("pgv"), IntensityMeasure("pga")
+        return np.array([math.log(pgv.of(motion) / pga.of(motion)) for motion in self.motions])
+
+    def weights(self, samples: int, dice: np.random.Generator) -> FloatArray:
+        """Return how often each motion counts in samples that draw whole records, (samples, m)."""
+        count = len(self.records)
+        return np.asarray(dice.multinomial(count, np.full(count, 1.0 / count), samples)[:, self.owner], dtype=np.float64)
+
+
+def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation: Preparation) -> Suite:
+    """Return the motions of some records: of each component asked for, or of all horizontals.
+
+    Parameters
+    ----------
+    records : sequence of Record
+        As they were read.
+    components : tuple of str
+        Codes or azimuths; all horizontals when empty.
+    preparation : Preparation
+
+    Raises
+    ------
+    ParameterError
+        If there are fewer than two records.
+    ComponentError
+        If a record lacks a component.
+    """
+    if len(records) < 2:
+        raise ParameterError(
+            "one record says nothing of how records differ: give several, ten or more, a folder or a list (@records.txt); found {count}",
+            count=len(records),
+        )
+    prepared = tuple(preparation.apply(record) for record in records)
+    motions, owner, magnitudes = [], [], []
+    for index, record in enumerate(prepared):
+        asked = components and not any(name.lower() == ALL for name in components)
+        for name in components if asked else tuple(component.code for component in record.horizontals) or (ALL,):
+            motions.append(motion_of(record, name))
+            owner.append(index)
+            shook = earthquake_of(record)
+            magnitudes.append(np.nan if shook is None or shook.magnitude is None else shook.magnitude)
+    return Suite(prepared, tuple(motions), np.array(owner, dtype=np.int64), np.array(magnitudes, dtype=np.float64))
+
+
+def read_suite(
+    records: Location | Record | Sequence[Location | Record], reading: Options | None = None, *, strict: bool = False
+) -> tuple[list[Record], tuple[str, ...]]:
+    """Return the records that some names stand for, and a sentence for each file that could not be read.
+
+    Parameters
+    ----------
+    records : path or Record, or several
+    reading : Options
+        What the caller says of files that do not say it themselves.
+    strict : bool
+        Whether a file that cannot be read is refused.
+
+    Raises
+    ------
+    RecordError
+        If none can be read, or one cannot and all must.
+    """
+    known = reading or Options()
+    given = [records] if isinstance(records, (str, PathLike, Record)) else list(records)
+    found: list[Record] = []
+    left_out: list[str] = []
+    failure: SeisblockError | None = None
+    for one in given:
+        for each in [one] if isinstance(one, Record) else gather([str(one)], known):
+            try:
+                found.append(each if isinstance(each, Record) else each.read(known))
+            except SeisblockError as error:
+                failure = error
+                if strict:
+                    raise
+                left_out.append(said("left out: {why}", why=error.said))
+    if failure is not None and not found:
+        raise failure
+    wanted = [record for record in found if known.station in (None, record.station)]
+    return wanted, tuple(left_out)

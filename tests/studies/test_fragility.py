@@ -1,0 +1,413 @@
+"""Fragilities: fits against others' fits and closed forms, what the scatter comes from, and runs against single runs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import statsmodels.api as sm
+from scipy.special import ndtr
+from scipy.stats import CensoredData, linregress, norm
+
+import seisblock
+from seisblock.bodies.block import Block
+from seisblock.errors import ParameterError
+from seisblock.records import Component, Motion, Preparation, Record, motion_of
+from seisblock.solvers.respond.solve import solve_respond
+from seisblock.solvers.rock.solve import solve_rock
+from seisblock.solvers.slide.solve import solve_slide
+from seisblock.solvers.stack.solve import solve_stack
+from seisblock.studies.fragility.capacities import capacities, moments
+from seisblock.studies.fragility.comparison import efficiency_of_capacities, efficiency_of_cloud
+from seisblock.studies.fragility.estimate import Passed, Rules, estimate
+from seisblock.studies.fragility.followers import FOLLOWERS, version_draws
+from seisblock.studies.fragility.goodness import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
+from seisblock.studies.fragility.intensity import factors_for, intensity_measure
+from seisblock.studies.fragility.limits import limit_state, limit_states
+from seisblock.studies.fragility.lognormal import Lognormal, curves, curves_together, fit_fragility
+from seisblock.studies.fragility.run import bodies_of, run_fragility
+from seisblock.studies.fragility.suite import suite_of
+from seisblock.units import STANDARD_GRAVITY
+from tests.motions import synthetic_suite
+
+INDEPENDENT = 1e-3
+"""Two optimisers of one likelihood; what the issue asks."""
+
+ROUND_OFF = 1e-9
+SHELF = Block(0.3, 1.2, name="shelf")
+IM = {name: intensity_measure(name) for name in ("pga", "pgv", "pgd", "sa=0.5", "arias", "p*pgv")}
+PGV = IM["pgv"]
+
+
+@pytest.fixture(scope="module")
+def records():
+    """Twenty short records."""
+    return synthetic_suite(20, seed=3, seconds=20.0)
+
+
+def drawn(count, *, median=0.7, beta=0.45, seed=0):
+    """Return intensities at which it happens, drawn from a lognormal."""
+    return median * np.exp(beta * np.random.default_rng(seed).normal(size=count))
+
+
+def by_statsmodels(columns, happened, runs):
+    """Return the coefficients of a probit regression as statsmodels fits it."""
+    probit = sm.families.Binomial(sm.families.links.Probit())
+    return sm.GLM(np.column_stack([happened, runs - happened]), columns, family=probit).fit(tol=1e-12).params
+
+
+class TestFits:
+    @pytest.mark.parametrize("seed", range(4))
+    def test_stripes_are_the_probit_regression_of_others(self, seed):
+        """Median and beta are those of statsmodels' binomial GLM, at forty levels and at five."""
+        levels = np.geomspace(0.1, 4.0, 40 if seed % 2 else 5)
+        happened = (drawn(44, seed=seed)[:, None] <= levels).sum(axis=0)
+        a, b = by_statsmodels(sm.add_constant(np.log(levels)), happened, 44)
+        found = fit_fragility(levels, happened, 44)
+        assert found.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
+        assert found.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
+
+    def test_limits_together_are_one_regression_with_a_constant_each(self):
+        """One beta for three limits is the slope of statsmodels' regression with three constants; the medians rise."""
+        levels = np.geomspace(0.1, 8.0, 30)
+        happened = np.array([(factor * drawn(40)[:, None] <= levels).sum(axis=0) for factor in (1.0, 1.3, 2.4)])
+        design = np.column_stack([np.tile(np.log(levels), 3), np.repeat(np.eye(3), 30, axis=0)])
+        b, *constants = by_statsmodels(design, happened.ravel(), 40)
+        medians, beta = curves_together(levels, happened[None].astype(float), np.full((1, 30), 40.0))
+        assert medians[0] == pytest.approx(np.exp(-np.array(constants) / b), rel=INDEPENDENT)
+        assert beta[0] == pytest.approx(1.0 / b, rel=INDEPENDENT)
+        assert (np.diff(medians[0]) > 0.0).all()
+
+    def test_samples_side_by_side_are_samples_alone(self):
+        """A bootstrap's samples, fitted together, are to 1e-8 what each is fitted by itself; the one without a curve is not a number."""
+        levels = np.geomspace(0.1, 4.0, 25)
+        counts = np.array([(drawn(30, seed=seed)[:, None] <= levels).sum(axis=0) for seed in range(20)] + [np.zeros(25)], dtype=float)
+        medians, betas = curves(levels, counts, np.full((1, 25), 30.0))
+        alone = [fit_fragility(levels, row, 30) for row in counts[:-1]]
+        assert medians[:-1] == pytest.approx([each.median for each in alone], rel=1e-8)
+        assert betas[:-1] == pytest.approx([each.beta for each in alone], rel=1e-8)
+        assert np.isnan([medians[-1], betas[-1]]).all()
+
+    def test_first_exceedances_have_their_moments(self):
+        """Where all happened: mean and standard deviation of the logarithms."""
+        logs = np.log(drawn(30))
+        medians, betas = moments(logs, np.ones((1, 30)), 10.0)
+        assert medians[0] == pytest.approx(np.exp(logs.mean()), rel=ROUND_OFF)
+        assert betas[0] == pytest.approx(logs.std(ddof=1), rel=ROUND_OFF)
+
+    def test_those_beyond_the_highest_level_count_as_beyond_it(self):
+        """Censored at the top: scipy's fit of a normal sample censored on the right."""
+        logs, top = np.log(drawn(40)), np.log(0.9)
+        seen = logs[logs <= top]
+        mean, deviation = norm.fit(CensoredData.right_censored(np.minimum(logs, top), logs > top))
+        medians, betas = moments(np.where(logs <= top, logs, np.inf), np.ones((1, 40)), top)
+        assert 20 < seen.size < 35
+        assert medians[0] == pytest.approx(np.exp(mean), rel=INDEPENDENT)
+        assert betas[0] == pytest.approx(deviation, rel=INDEPENDENT)
+
+    def test_a_weight_of_two_is_the_same_motion_twice(self):
+        """Samples of the bootstrap count motions; counting one twice is having it twice."""
+        logs = np.log(drawn(12))
+        twice = moments(np.append(logs, logs[3]), np.ones((1, 13)), 10.0)
+        weighted = moments(logs, np.where(np.arange(12) == 3, 2.0, 1.0)[None], 10.0)
+        assert np.ravel(weighted) == pytest.approx(np.ravel(twice), rel=ROUND_OFF)
+
+    def test_the_curve_is_the_lognormal_distribution(self):
+        """Probability and its inverse; nothing at zero."""
+        curve = Lognormal(2.0, 0.5)
+        assert curve.probability([0.0, 2.0, 2.0 * np.exp(0.5)]) == pytest.approx([0.0, 0.5, ndtr(1.0)])
+        assert curve.probability(curve.at(0.1)) == pytest.approx(0.1)
+
+    @pytest.mark.parametrize(
+        ("happened", "says"),
+        [
+            ([0, 0, 0, 0], "at no level, up to 8: ask for higher"),
+            ([10, 10, 10, 10], "at all levels, from 1 on: ask for lower"),
+            ([0, 0, 10, 10], "never happens up to 2 and always from 4 on: ask for levels between"),
+            ([0, 4, 10, 10], "never happens below 2 and always above"),
+            ([6, 5, 4, 3], "does not happen more often at higher levels"),
+        ],
+    )
+    def test_nothing_is_drawn_through_nothing(self, happened, says):
+        """No exceedance, all, a jump between two levels, or none that rises: a sentence that says which levels would tell."""
+        with pytest.raises(ParameterError, match=says):
+            fit_fragility([1.0, 2.0, 4.0, 8.0], happened, 10)
+
+    @pytest.mark.parametrize(
+        ("levels", "happened", "runs", "says"),
+        [
+            ([1.0], [1], 2, "two levels or more"),
+            ([1.0, -2.0], [1, 1], 2, "must be positive"),
+            ([1.0, 2.0], [1, 3], 2, "between 0 and the number of runs"),
+            ([1.0, 2.0], [1], 2, "as many counts"),
+        ],
+    )
+    def test_counts_that_make_no_sense_are_refused(self, levels, happened, runs, says):
+        """One level, a negative one, more than there were runs, counts that are missing."""
+        with pytest.raises(ParameterError, match=says):
+            fit_fragility(levels, happened, runs)
+
+
+class TestIntensity:
+    @pytest.mark.parametrize("name", list(IM))
+    def test_a_level_is_reached(self, name, records):
+        """A motion times its factor has the intensity of the level, in every measure: the Arias intensity grows with the square."""
+        measure, motion = IM[name], motion_of(records[0], "EW")
+        share = measure.share(SHELF, STANDARD_GRAVITY)
+        level = 3.7 * measure.of(motion) * share
+        factor = float(factors_for(np.array([level]), measure.of(motion) * share, measure)[0])
+        scaled = Motion(motion.acceleration * factor, motion.dt)
+        assert measure.of(scaled) * share == pytest.approx(level, rel=1e-9)
+        assert factor == pytest.approx(3.7 ** (0.5 if name == "arias" else 1.0), rel=1e-12)
+
+    def test_the_measures_are_those_of_the_component_solved(self):
+        """PGA, PGV and PGD are what `measure` says of the component, and of an azimuth."""
+        record = seisblock.read("synthetic_jma.csv")
+        for name in ("EW", "37"):
+            told = seisblock.measure(record, [name]).components[0]
+            motion = motion_of(record, name)
+            found = [IM[key].of(motion) for key in ("pga", "pgv", "pgd", "arias")]
+            assert found == pytest.approx([told.pga_m_s2, told.pgv_m_s, told.pgd_m, told.arias_m_s], rel=1e-12)
+
+    def test_p_pgv_is_of_the_body(self):
+        """P PGV/g: twice the size, p over the root of two."""
+        shares = [IM["p*pgv"].share(Block(0.3 * k, 1.2 * k), STANDARD_GRAVITY) for k in (1.0, 2.0)]
+        assert shares[0] == pytest.approx(SHELF.frequency_parameter() / STANDARD_GRAVITY)
+        assert shares[0] / shares[1] == pytest.approx(np.sqrt(2.0))
+        with pytest.raises(ParameterError, match="take pgv"):
+            IM["p*pgv"].share(0.3, STANDARD_GRAVITY)
+
+    @pytest.mark.parametrize("text", ["pgx", "sa", "sa=x", "sa=-1", "pga=2"])
+    def test_what_is_no_measure_is_refused(self, text):
+        """An unknown name, a period that is missing, none, or too many."""
+        with pytest.raises(ParameterError):
+            intensity_measure(text)
+
+    @pytest.mark.parametrize(
+        ("text", "solver"), [("fall", "rock"), ("lean", "rock"), ("rock=2", "rock"), ("slip=5cm", "rock"), ("overturn", "slide")]
+    )
+    def test_what_is_no_limit_is_refused(self, text, solver):
+        """An unknown name, a threshold that is missing or too many, and what a solver does not answer."""
+        with pytest.raises(ParameterError):
+            limit_states(text, solver)
+
+
+class TestRuns:
+    def test_many_factors_are_single_runs(self, records):
+        """Each solver's rows at once say what its single runs say, factor by factor."""
+        motion = motion_of(records[1], "EW")
+        factors = np.array([0.3, 0.7, 1.0, 1.4, 2.0, 3.0])
+        scaled = [Motion(motion.acceleration * factor, motion.dt) for factor in factors]
+        ends = {}
+        for solver, body, options in (("rock", SHELF, {}), ("respond", SHELF, {"mu": 0.3}), ("slide", 0.2, {})):
+            (placed,) = bodies_of([body], solver, options)
+            ends[solver] = FOLLOWERS[solver](placed, motion, factors, None)
+        alone = [solve_rock(SHELF, each).outcome for each in scaled]
+        assert ends["rock"].overturned.tolist() == [each.overturned for each in alone]
+        assert ends["rock"].lean == pytest.approx([each.max_rotation_ratio for each in alone], rel=1e-9)
+        assert 0 < ends["rock"].overturned.sum() < 6
+        free = [solve_respond(SHELF, each, mu=0.3, sensitivity=False).outcome for each in scaled]
+        assert ends["respond"].overturned.tolist() == [each.overturned for each in free]
+        stood = ~ends["respond"].overturned
+        assert ends["respond"].slip_m[stood] == pytest.approx(
+            [abs(each.final_displacement_m) for each in free if not each.overturned], abs=1e-9
+        )
+        assert np.isinf(ends["respond"].slip_m[~stood]).all()
+        slid = [solve_slide(0.2, each).outcome for each in scaled]
+        assert ends["slide"].slip_m == pytest.approx([max(each.max_slip_m, abs(each.final_slip_m)) for each in slid], abs=1e-12)
+
+    def test_a_pile_is_followed_too(self):
+        """A stone that falls at some factor is what the pile's own solver says."""
+        (placed,) = bodies_of("lantern", "stack", {"points": 2})
+        record = Preparation(window=(25.0, 26.0)).apply(seisblock.read("synthetic_jma.csv"))
+        motion = motion_of(record, "EW")
+        ends = FOLLOWERS["stack"](placed, motion, np.array([0.1]), None)
+        outcome = solve_stack(placed.body, Motion(0.1 * motion.acceleration, motion.dt, record=record), points=2).outcome
+        assert ends.overturned.tolist() == [outcome.overturned_any]
+        assert ends.slip_m[0] == max(outcome.residual_slip_m.values())
+
+    def test_where_rocking_begins_is_known(self, records):
+        """A block leaves its rest at a PGA of g B/H: over PGV the first exceedances are g B/H times PGV/PGA, their moments the curve's."""
+        levels = np.geomspace(0.02, 3.0, 800)
+        (curve,) = run_fragility(records, SHELF, "rock", limits="rock", im="pgv", method="ida", levels=levels, bootstrap=20).curves
+        motions = [motion_of(record, "EW") for record in records]
+        exact = np.log([STANDARD_GRAVITY * 0.25 * PGV.of(m) / IM["pga"].of(m) for m in motions])
+        half_a_step = np.log(levels[1] / levels[0]) / 2
+        assert curve.median == pytest.approx(np.exp(exact.mean()), rel=half_a_step)
+        assert curve.beta == pytest.approx(exact.std(ddof=1), abs=half_a_step)
+        assert curve.non_monotone_records == 0
+        # over PGA there is nothing but a step, and no curve
+        with pytest.raises(ParameterError, match=r"never happens up to 2[34].* gal and always from 2[45]"):
+            run_fragility(records, SHELF, "rock", limits="rock", im="pga", levels=[2.3, 2.4, 2.5, 2.6], bootstrap=2)
+
+    def test_three_methods_agree_on_what_is_monotone(self, records):
+        """Sliding farther than a length is monotone: stripes and first exceedances give one median and beta within their intervals."""
+        found = {
+            method: run_fragility(records, 0.1, "slide", limits="slip=5cm", im="pgv", method=method, bootstrap=200).curves[0]
+            for method in ("stripes", "ida")
+        }
+        assert found["ida"].non_monotone_records == 0
+        low, high = found["stripes"].median_interval
+        assert low < found["ida"].median < high
+        assert found["ida"].beta == pytest.approx(found["stripes"].beta, rel=0.15)
+
+    def test_a_cloud_is_a_regression_on_the_records_as_they_are(self, records):
+        """What happened under the records unscaled, on the logarithm of the intensity, as statsmodels regresses it."""
+        factors = np.exp(np.random.default_rng(5).normal(0.4, 0.3, 20))
+        uneven = [Preparation(scale=float(factor)).apply(record) for record, factor in zip(records, factors, strict=True)]
+        (curve,) = run_fragility(uneven, SHELF, "rock", im="pgd", method="cloud", bootstrap=50).curves
+        motions = [motion_of(record, "EW") for record in uneven]
+        fell = np.array([float(solve_rock(SHELF, motion).outcome.overturned) for motion in motions])
+        a, b = by_statsmodels(sm.add_constant(np.log([IM["pgd"].of(motion) for motion in motions])), fell, 1)
+        assert curve.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
+        assert curve.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
+        assert sum(level.exceeding for level in curve.levels) == fell.sum()
+
+    def test_levels_are_chosen_where_it_happens(self, records):
+        """Nobody says levels: hardly any fall at the lowest, nearly all at the highest."""
+        (curve,) = run_fragility(records, SHELF, "rock", im="pgv", steps=15, bootstrap=2).curves
+        shares = [level.exceeding / level.runs for level in curve.levels]
+        assert len(shares) == 15 and shares[0] <= 0.02 and shares[-1] >= 0.95
+
+    def test_limits_are_states_one_beyond_the_other(self, records):
+        """Rocking, a lean and a fall share a beta; their medians rise, and so do the counts from state to state at every level."""
+        study = run_fragility(records, SHELF, "rock", limits=("overturn", "rock", "lean=0.5"), im="pgv", steps=20, bootstrap=20)
+        assert [curve.limit for curve in study.curves] == ["rock", "lean=0.5", "overturn"]
+        medians, betas = zip(*((curve.median, curve.beta) for curve in study.curves), strict=True)
+        assert medians[0] < medians[1] < medians[2] and len(set(betas)) == 1
+        counts = np.array([[level.exceeding for level in curve.levels] for curve in study.curves])
+        assert (np.diff(counts, axis=0) <= 0).all()
+        assert len({curve.beta_alone for curve in study.curves}) == 3
+
+    def test_the_same_seed_gives_the_same_intervals(self, records):
+        """Versions and samples are seeded; another seed moves them."""
+
+        def ask(seed):
+            return run_fragility(records, SHELF, "rock", im="pgv", steps=12, bootstrap=50, perturb=3, seed=seed).curves[0]
+
+        assert ask(1) == ask(1)
+        assert ask(1).median_interval != ask(2).median_interval
+
+    def test_components_of_a_record_are_drawn_together(self, records):
+        """The interval is over records: the same shaking twice in each of them says nothing new."""
+        twice = [
+            Record(station=r.station, start=None, dt=r.dt, components=(r.components[0], Component("NS", r.components[0].acceleration, 0.0)))
+            for r in records
+        ]
+        one, two = (run_fragility(some, SHELF, "rock", im="pgv", steps=15, bootstrap=100).curves[0] for some in (records, twice))
+        assert (two.records, two.motions) == (20, 40)
+        assert two.median_interval == pytest.approx(one.median_interval, rel=ROUND_OFF)
+        assert two.beta_interval == pytest.approx(one.beta_interval, rel=ROUND_OFF)
+
+    @pytest.mark.parametrize(
+        ("change", "says"),
+        [
+            ({"records": 1}, "one record says nothing"),
+            ({"levels": [0.001, 0.002]}, "at no level, up to 0.2 kine: ask for higher"),
+            ({"levels": [90.0, 100.0]}, "from 9000 kine on: ask for lower"),
+            ({"method": "ida", "levels": [1.0]}, "two levels or more"),
+            ({"method": "cloud", "levels": [1.0, 2.0]}, "takes the records as they are"),
+            ({"method": "mean"}, "no method 'mean'"),
+            ({"solver": "jump"}, "no solver 'jump'"),
+            ({"solver": "slide", "limits": "slip=1cm", "perturb": 3}, "no versions"),
+            ({"limits": ()}, "no limit is given"),
+            ({"im": ()}, "no intensity measure"),
+            ({"confidence": 1.5}, r"must lie in \(0, 1\)"),
+        ],
+    )
+    def test_what_cannot_be_asked_is_a_sentence(self, change, says, records):
+        """One record, levels that say nothing, and words that mean nothing."""
+        asked = {"im": "pgv", "bootstrap": 2, **change}
+        some = records[: asked.pop("records", 20)]
+        solver = asked.pop("solver", "rock")
+        with pytest.raises(ParameterError, match=says):
+            run_fragility(some, 0.2 if solver == "slide" else SHELF, solver, **asked)
+
+    def test_a_record_without_shaking_is_named(self, records):
+        """No factor brings stillness to a level."""
+        still = Record(station="Q", start=None, dt=0.02, components=(Component("EW", np.zeros(100), 90.0),), source="still.csv")
+        with pytest.raises(ParameterError, match=r"still.csv, EW: there is no shaking"):
+            run_fragility([*records, still], SHELF, "rock")
+
+
+def passed_of(log_capacities, levels):
+    """Return runs, (m, n, v, 1), of motions and versions that happen from their own intensity on."""
+    return (log_capacities[:, None, :] <= np.log(levels)[:, None])[..., None]
+
+
+def one_curve(log_capacities, levels, *, method="stripes", measures=(PGV,), values=None):
+    """Return the fragility of invented runs of one body and one limit."""
+    count = len(log_capacities)
+    suite = suite_of(synthetic_suite(count, seconds=3.0), (), Preparation())
+    runs = Passed(
+        "shelf", (limit_state("overturn"),), passed_of(log_capacities, levels), np.tile(levels, (count, 1)), values or [np.ones(count)]
+    )
+    ((curve, _),) = estimate(runs, suite, Rules(method, measures, 0.95, 20, 0))
+    return curve
+
+
+class TestScatter:
+    @pytest.mark.parametrize("method", ["stripes", "ida"])
+    def test_the_law_of_total_variance(self, method):
+        """Motions of beta 0.4, versions whose medians differ by 0.3: both are found, and their squares add up to that of all runs."""
+        dice = np.random.default_rng(2)
+        motions, versions = dice.normal(0.0, 0.4, 60), dice.normal(0.0, 0.3, 40)
+        curve = one_curve(motions[:, None] + versions, np.geomspace(0.05, 20.0, 150), method=method)
+        assert curve.dispersion.beta_record_to_record == pytest.approx(motions.std(ddof=1), rel=0.1)
+        assert curve.dispersion.beta_parameter == pytest.approx(versions.std(ddof=1), rel=0.02)
+        assert curve.beta == pytest.approx(curve.dispersion.beta_sum, rel=0.05)
+
+    def test_versions_of_the_body_are_those_that_perturb_makes(self, records):
+        """The share of versions that fall at a factor of 1 is that of `perturb` with the shaking left alone."""
+        motion = motion_of(records[4], "EW")
+        (placed,) = bodies_of([SHELF], "rock", {})
+        factor = 1.4
+        ends = FOLLOWERS["rock"](placed, motion, np.array([factor]), version_draws(60, 7))
+        scaled = Motion(motion.acceleration * factor, motion.dt)
+        same = seisblock.perturb(SHELF, scaled, 60, spread=seisblock.Spread(amplitude=0.0, azimuth_deg=0.0), seed=7)
+        assert int(ends.overturned.sum()) == same.overturned
+        assert 0 < same.overturned < 60
+
+    def test_a_motion_that_stops_falling_is_not_monotone(self):
+        """It falls at one level and stands at the next: counted, and its first exceedance is what `ida` takes."""
+        passed = np.array([[False, True, False, True], [False, False, True, True], [False, False, False, False]])
+        found = capacities(passed, np.log([1.0, 2.0, 4.0, 8.0]))
+        assert found.monotone.tolist() == [False, True, True]
+        assert np.exp(found.log_factor) == pytest.approx([np.sqrt(2.0), np.sqrt(8.0), np.inf])
+
+    def test_a_better_measure_scatters_less(self):
+        """Capacities that depend on the shape of the motion: the slope that is left is that put in, as scipy's regression has it."""
+        dice = np.random.default_rng(1)
+        shape = dice.normal(0.0, 0.5, 40)
+        logs = 0.8 * shape + dice.normal(0.0, 0.2, 40)
+        found = efficiency_of_capacities(PGV, np.ones(40), logs[:, None], [("ln(pgv/pga)", shape), ("magnitude", np.full(40, np.nan))])
+        other = linregress(shape, logs)
+        (slope,) = found.sufficiency
+        assert (slope.slope_ratio, slope.probability) == pytest.approx((other.slope, other.pvalue), rel=1e-6)
+        better = efficiency_of_capacities(PGV, np.exp(-0.8 * shape), logs[:, None], [("ln(pgv/pga)", shape)])
+        assert better.beta < 0.5 * found.beta and better.sufficiency[0].probability > 0.05
+
+    def test_a_cloud_has_a_slope_too(self):
+        """A property that matters comes out of the ratio of the likelihoods as statsmodels has it."""
+        dice = np.random.default_rng(4)
+        x, z = dice.normal(0.0, 0.6, 120), dice.normal(0.0, 1.0, 120)
+        fell = (x + 0.5 * z > dice.normal(0.0, 0.5, 120)).astype(float)
+        found = efficiency_of_cloud(PGV, np.exp(x), fell, 1.0, [("magnitude", z)])
+        a, b, c = by_statsmodels(np.column_stack([np.ones(120), x, z - z.mean()]), fell, 1)
+        assert found.sufficiency[0].slope_ratio == pytest.approx(-c / b, rel=INDEPENDENT)
+        assert found.sufficiency[0].probability < 1e-4 and a == a
+
+    def test_what_is_lognormal_fits_and_what_is_not_does_not(self):
+        """Forty draws of a lognormal pass, two humps far apart do not: in stripes, first exceedances and clouds."""
+        levels = np.geomspace(0.02, 20.0, 60)
+        one, two = np.log(drawn(40)), np.log(np.concatenate([drawn(30, median=0.1, beta=0.1), drawn(10, median=3.0, beta=0.1)]))
+        for logs, fits in ((one, True), (two, False)):
+            counts = (np.exp(logs)[:, None] <= levels).sum(axis=0).astype(float)
+            dice = np.random.default_rng(0)
+            assert goodness_of_stripes(fit_fragility(levels, counts, 40), levels, counts, 40.0, 40, dice).fits is fits
+            curve = Lognormal(float(np.exp(logs.mean())), float(logs.std(ddof=1)))
+            assert goodness_of_capacities(curve, logs, np.log(20.0), dice).fits is fits
+        dice = np.random.default_rng(8)
+        x = np.exp(dice.uniform(-2.0, 2.0, 400))
+        for chance, fits in ((ndtr(np.log(x) / 0.8), True), (np.where(np.abs(np.log(x)) < 1.0, 0.5, x > 1.0), False)):
+            fell = (dice.uniform(size=400) < chance).astype(float)
+            assert goodness_of_cloud(fit_fragility(x, fell, 1), x, fell, 1.0, dice).fits is fits
