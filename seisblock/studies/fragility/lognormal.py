@@ -16,6 +16,9 @@ from seisblock.words import Said, said
 FALLS = said("it does not happen more often at higher levels: no fragility follows; look at more records, or at another measure")
 """Why counts that do not rise with the level have no curve."""
 
+FARTHEST = 100.0
+"""Logarithm of a median beyond which there is no curve."""
+
 
 @dataclass(frozen=True)
 class Lognormal:
@@ -86,7 +89,7 @@ def fit_fragility(levels: ArrayLike, exceeding: ArrayLike, runs: ArrayLike) -> L
     --------
     >>> found = fit_fragility([1.0, 2.0, 4.0, 8.0], [0, 3, 7, 10], 10)
     >>> round(found.median, 3), round(found.beta, 3)
-    (2.828, 0.661)
+    (2.828, 0.477)
     """
     x, y, n = (checks.numbers(name, given) for name, given in _named(levels, exceeding, runs))
     if x.ndim != 1 or x.size < 2 or y.shape != x.shape or n.size not in (1, x.size):
@@ -172,7 +175,7 @@ def curves(levels: FloatArray, exceeding: FloatArray, runs: FloatArray) -> tuple
     good = ~separated(x, y, n)
     if good.any():
         b, a = probits(np.column_stack([x, np.ones_like(x)]), y[good], n[good]).coefficients.T
-        medians[good], betas[good] = np.exp(-a / b), 1.0 / b
+        medians[good], betas[good] = _medians(-a / b), 1.0 / b
     return medians, betas
 
 
@@ -201,5 +204,10 @@ def curves_together(levels: FloatArray, exceeding: FloatArray, runs: FloatArray)
     medians, betas = np.full((samples, limits), np.nan), np.full(samples, np.nan)
     if good.any():
         found = probits(columns, y[good], n[good], constants=limits).coefficients
-        medians[good], betas[good] = np.exp(-found[:, 1:] / found[:, :1]), 1.0 / found[:, 0]
+        medians[good], betas[good] = _medians(-found[:, 1:] / found[:, :1]), 1.0 / found[:, 0]
     return medians, betas
+
+
+def _medians(logs: FloatArray) -> FloatArray:
+    """Return medians from their logarithms; where there is hardly a slope they lie beyond all numbers, and are none."""
+    return np.asarray(np.exp(np.where(np.abs(logs) < FARTHEST, logs, np.nan)))
