@@ -21,6 +21,7 @@ from .criteria.card import overturning_card
 from .errors import (
     BodyError,
     ComponentError,
+    HazardError,
     InputError,
     KindError,
     OutputError,
@@ -66,6 +67,10 @@ from .studies.fragility.answer import Fragility, FragilityStudy
 from .studies.fragility.lognormal import Lognormal, fit_fragility
 from .studies.fragility.run import run_fragility
 from .studies.gravestone_criterion import CriterionStudy, criterion_study
+from .studies.hazard.curve import Hazard, HazardCurve
+from .studies.hazard.given import GivenFragility, read_fragility
+from .studies.hazard.risk import Risk, find_risk
+from .studies.hazard.table import read_hazard
 from .studies.inverse.assumptions import Assumptions
 from .studies.inverse.estimate import ShakingEstimate, estimate_shaking
 from .studies.inverse.factors import ScaleFactors, jumped, scale_factors, slid
@@ -107,10 +112,15 @@ __all__ = [
     "FactorRange",
     "Fates",
     "find_margin",
+    "find_risk",
     "fit_fragility",
     "Fragility",
     "FragilityStudy",
     "from_slenderness",
+    "GivenFragility",
+    "Hazard",
+    "HazardCurve",
+    "HazardError",
     "highpass",
     "InputError",
     "Inset",
@@ -154,6 +164,8 @@ __all__ = [
     "read_all",
     "read_bodies",
     "read_cemetery",
+    "read_fragility",
+    "read_hazard",
     "readers",
     "Preparation",
     "Record",
@@ -170,6 +182,7 @@ __all__ = [
     "response_spectrum",
     "ResponseSpectrum",
     "results",
+    "Risk",
     "rock_directions",
     "rock_verdict",
     "RockAzimuth",

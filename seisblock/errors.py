@@ -65,6 +65,10 @@ class BodyError(InputError):
     """The description of a body is incomplete or contradicts itself."""
 
 
+class HazardError(InputError):
+    """A hazard curve is incomplete or contradicts itself."""
+
+
 class OutputError(SeisblockError, OSError):
     """An output file cannot be written."""
 

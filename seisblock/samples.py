@@ -28,7 +28,7 @@ class Sample:
     sha256 : str
         Digest of its bytes.
     kind : str
-        ``record``, or ``body`` and ``cemetery`` for tables that are no records.
+        ``record``, or ``body``, ``cemetery`` and ``hazard`` for what is no record.
     pga_gal : dict of str to float
         Largest absolute acceleration of each component, for K-NET after its mean is removed, gal; empty when the file is no record.
     """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -45,6 +46,9 @@ ACCELERATION_UNITS = {
     "m/s/s": 1.0,
     "g": STANDARD_GRAVITY,
 }
+
+
+VELOCITY_UNITS = {"m/s": 1.0, "cm/s": KINE, "kine": KINE, "mm/s": 1e-3, "in/s": 0.0254}
 
 
 class Size(NamedTuple):
@@ -131,6 +135,33 @@ def parse_length(text: str | float, *, what: str = "length") -> float:
     return value
 
 
+def parse_quantity(text: str | float, units: Mapping[str, float], *, what: str) -> tuple[float, bool]:
+    """Return a number in SI from a text with a unit or without one, and whether it had one.
+
+    Parameters
+    ----------
+    text : str or float
+    units : mapping of str to float
+        What a unit may be, and its value in SI.
+    what : str
+        What the number is, for the message.
+
+    Raises
+    ------
+    UnitError
+        If the unit is unknown.
+    ParameterError
+        If the text holds no number.
+
+    Examples
+    --------
+    >>> parse_quantity("60 cm/s", VELOCITY_UNITS, what="the median"), parse_quantity(0.6, VELOCITY_UNITS, what="the median")
+    ((0.6, True), (0.6, False))
+    """
+    bare = not isinstance(text, str) or _is_bare(text)
+    return _parse(text.strip() if isinstance(text, str) else text, {"": 1.0, **units}, "", what), not bare
+
+
 def parse_mass(text: str | float, *, what: str = "mass") -> float:
     """Return a mass in kilograms from a number (kg) or a text such as ``1.3t``."""
     return _parse(text, MASS_UNITS, "kg", what)
@@ -181,7 +212,7 @@ def _is_bare(text: str) -> bool:
     return match is not None and not match[2]
 
 
-def _parse(text: str | float, table: dict[str, float], default: str, what: str) -> float:
+def _parse(text: str | float, table: Mapping[str, float], default: str, what: str) -> float:
     """Read a number with an optional unit from `table`."""
     if not isinstance(text, str):
         value, unit = checks.finite(what, text), ""
@@ -193,7 +224,11 @@ def _parse(text: str | float, table: dict[str, float], default: str, what: str) 
     factor = table.get(unit or default)
     if factor is None:
         raise UnitError(
-            "{what} {text!r} has the unknown unit {unit!r}: use one of {known}", what=what, text=text, unit=unit, known=list(table)
+            "{what} {text!r} has the unknown unit {unit!r}: use one of {known}",
+            what=what,
+            text=text,
+            unit=unit,
+            known=[name for name in table if name],
         )
     if not math.isfinite(value):
         raise ParameterError("{what} must be finite, not {text!r}", what=what, text=text)

@@ -11,7 +11,14 @@ from seisblock.cli.help import Context, rows_of
 from seisblock.cli.meant import OneOf, asking_for_options
 from seisblock.words import LANGUAGES, noted, tell
 
-SECTIONS = (noted("Record options"), noted("Body options"), noted("Solver options"), noted("Output options"), noted("Other options"))
+SECTIONS = (
+    noted("Record options"),
+    noted("Site options"),
+    noted("Body options"),
+    noted("Solver options"),
+    noted("Output options"),
+    noted("Other options"),
+)
 """Headings of ``--help``, in this order; an option names the one it belongs to."""
 
 

@@ -38,6 +38,7 @@ RESTS_ON: dict[str, tuple[str, ...]] = {
     "gravestones as blocks": ("Furukawa2009", "Housner1963"),
     "intensity of a velocity": ("Midorikawa1999",),
     "fragility": ("Baker2015", "Vamvatsikos2002", "LucoCornell2007", "DimitrakopoulosParaskeva2015", "Lilliefors1967", "SuWei1991"),
+    "risk": ("Cornell2002",),
 }
 """What each question rests on: the only place where an answer finds its papers."""
 
@@ -67,6 +68,7 @@ CITED: dict[str, tuple[str, ...]] = {
     "respond": papers("all modes", "two-layer body"),
     "batch": papers("all modes", "two-layer body"),
     "body": papers("a scan's arms"),
+    "risk": papers("risk"),
     "fragility": papers("fragility", "all modes", "rocking", "sliding", "pile"),
     "criteria": papers("overturning criteria", "rocking", "all modes"),
     "spectrum": papers("rocking", "sliding", "all modes"),

@@ -250,5 +250,13 @@ LITERATURE = (
         "Journal of the American Statistical Association, 86(414), 420-426",
         doi="10.1080/01621459.1991.10475059",
     ),
+    Reference(
+        "Cornell2002",
+        "Cornell, C. A. and Jalayer, F. and Hamburger, R. O. and Foutch, D. A.",
+        2002,
+        "Probabilistic basis for 2000 SAC Federal Emergency Management Agency steel moment frame guidelines",
+        "Journal of Structural Engineering, ASCE, 128(4), 526-533",
+        doi="10.1061/(ASCE)0733-9445(2002)128:4(526)",
+    ),
 )
 """In the order in which the program came to rely on them."""

@@ -12,7 +12,9 @@ from seisblock.cli import COMMANDS, main
 from seisblock.cli.types import Count
 from seisblock.present.documents.units import unit_of
 
-UNIT = r"(?:N/m\^3|N/m|kg\sm\^2|kg/m\^3|kg|m/s\^[23]|m/s|m\^[23]|1/s\^2|1/s|1/m|rad/s|rad|deg(?:rees)?|Hz|gal|kine|Pa|J|N|m|s|1)"
+UNIT = (
+    r"(?:N/m\^3|N/m|kg\sm\^2|kg/m\^3|kg|m/s\^[23]|m/s|m\^[23]|1/s\^2|1/s|1/m|rad/s|rad|deg(?:rees)?|Hz|gal|kine|Pa|J|N|1/year|years|m|s|1)"
+)
 DIMENSION = re.compile(
     rf"(?:(?:,|\)|\bin|\bor|\band)\s|\(){UNIT}(?![\w^/])"  # "Height H, m or with a unit", "(n,) array, m/s^2"
     r"|\b0\sto\s1\b|\bbetween\s0\sand\s1\b|\[0,\s1|\bunits\b|in\s`unit`"

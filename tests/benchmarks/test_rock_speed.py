@@ -14,6 +14,8 @@ from seisblock.solvers.rock.solve import solve_rock
 from seisblock.solvers.rock.stride import ROCKING_TOGETHER
 from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, rocking_spectrum
+from tests.benchmarks.test_slide_speed import TIMES_FASTER_ALONE, best, share
+from tests.crosscheck.test_slide import G, pyslammer_motion
 
 SAMPLES = 10_000
 
@@ -90,3 +92,19 @@ def test_python_around_a_run_of_many(benchmark):
     found = benchmark(rocking_spectrum, default_sizes(100), default_slendernesses(100), still)
     assert not found.overturned.any()
     bound(benchmark, 5e-6 * 10_000)
+
+
+def test_a_single_answer_is_faster_than_pyslammer(benchmark):
+    """One `solve_rock` of 300 s, with its channels and outcome, takes a twentieth of pySLAMMER's rigid analysis of the same record."""
+    from pyslammer.ground_motion import GroundMotion
+    from pyslammer.rigid_analysis import RigidAnalysis
+
+    recorded, dt = pyslammer_motion("Loma_Prieta_1989_HSP-000")
+    a = np.concatenate([recorded, np.zeros(round(300.0 / dt) - recorded.size)])
+    motion, other, block = Motion.from_arrays(G * a, dt), GroundMotion(a, dt, "300 s"), from_slenderness(0.25, 2.14)
+    answer = benchmark(solve_rock, block, motion)
+    assert answer.outcome.impacts > 100 and not answer.outcome.overturned
+    ratio = best(lambda: RigidAnalysis(0.1, other), repeats=5) / best(lambda: solve_rock(block, motion), repeats=20)
+    benchmark.extra_info["times_faster"] = ratio
+    print(f"rock: a single answer {ratio:.0f} times faster than pySLAMMER's")
+    assert ratio > TIMES_FASTER_ALONE * share(benchmark)

@@ -214,7 +214,7 @@ def test_options_are_grouped(name):
 
     command = main.get_command(click.Context(main), name)
     groups = {getattr(parameter, "section", None) for parameter in command.params if isinstance(parameter, click.Option)}
-    assert groups <= {"Record", "Body", "Solver", "Output"}
+    assert groups <= {"Record", "Site", "Body", "Solver", "Output"}
 
 
 def test_plot_to_stdout_is_the_picture_and_nothing_else(tmp_path):

@@ -16,6 +16,8 @@ from seisblock import (
     SlidingBase,
     SpringBlock,
     TwoLayerBlock,
+    find_risk,
+    read_hazard,
     solve_jump,
     solve_respond,
     solve_rock,
@@ -37,6 +39,7 @@ from seisblock.present.figures import (
     infer,
     inputs,
     mode_map,
+    risk,
     slide_study,
     sliding_spectrum,
     spectrum,
@@ -49,7 +52,9 @@ from seisblock.records.process import scale
 from seisblock.studies.cemetery.judgement import Method, curve_of, judge_cemetery
 from seisblock.studies.cemetery.shaking import shakings_of
 from seisblock.studies.criteria_card import criteria_card
+from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.gravestone_criterion import CriterionStudy, GravestoneFit, Threshold
+from seisblock.studies.hazard.given import GivenFragility
 from seisblock.studies.inverse.assumptions import assumptions_for
 from seisblock.studies.inverse.estimate import estimate_shaking
 from seisblock.studies.inverse.factors import scale_factors, slid
@@ -163,6 +168,13 @@ def estimated():
 
 
 @functools.cache
+def risks():
+    hazard = read_hazard("synthetic_hazard.csv")
+    given = [GivenFragility("stone", limit, "pgv", "m/s", Lognormal(median, 0.4)) for limit, median in (("rock", 0.3), ("overturn", 0.7))]
+    return [(each, find_risk(each.curve, hazard)) for each in given], hazard
+
+
+@functools.cache
 def factors():
     base = SlidingBase(0.15)
     return [(record(), scale_factors(slid(base, motion(c)), 0.05, motion(c), limit=2.0, steps=20)) for c in BOTH]
@@ -246,6 +258,7 @@ OF_NO_RECORD = {
         stack_criterion.figure,
         lambda gal: stack_criterion.figure(*criterion(), reinforced=False, gal=gal),
     ),
+    "risk": (risk.figure, lambda gal: risk.figure(*risks(), gal=gal)),
     "field test": (field_test.figure, lambda _: field_test.figure()),
     "response spectrum": (
         inputs.response_spectrum_figure,

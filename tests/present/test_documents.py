@@ -59,6 +59,7 @@ EVERY = (
     "10,20,30,40,50,60,80,160 --perturb 4 --bootstrap 20 --compare 50,0.4",
     "fragility synthetic_jma elcentro_1940_ns.csv synthetic_knet.EW --mu 0.1 --solver slide --steps 16 --method ida --bootstrap 20",
     "validate --paper Tsutsui",
+    "risk --median 60cm/s --beta 0.4 --hazard synthetic_hazard.csv --stood 1000",
     "cite jump",
     "cite",
     "samples",
@@ -77,6 +78,7 @@ PURE_NUMBERS = re.compile(
     | im | ((non_monotone|censored)_)?(records|motions) | exceeding | versions | without_curve  # of a fragility; the unit is its result's
     | beta_(interval|alone|record_to_record|parameter|sum) | perturb | bootstrap
     | (fallen|standing|stones_saved|overturned|moved|agreement|grid)
+    | years | value | weight(_after)? | levels | median | im_(from|to) | annual_rate(s|_after)? | beyond_levels_share  # units beside
     )$""",
     re.VERBOSE,
 )

@@ -28,6 +28,7 @@ KINDS: dict[str, tuple[str, ...]] = {
     "body": ("body:BODY",),
     "batch": ("batch:BATCH",),
     "fragility": ("fragility:FRAGILITY",),
+    "risk": ("risk:RISK",),
     "validate": ("validate:VALIDATE",),
     "cite": ("library:CITE",),
     "samples": ("library:SAMPLES",),

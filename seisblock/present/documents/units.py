@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 UNITS = {
+    "_years": "years",
     "_per_s2": "1/s^2",
     "_per_s": "1/s",
     "_rad_s": "rad/s",

@@ -15,6 +15,7 @@ VERSIONS = {
     "body": 1,
     "batch": 1,
     "fragility": 1,
+    "risk": 1,
     "validate": 1,
     "cite": 1,
     "samples": 1,

@@ -1,0 +1,136 @@
+"""The hazard of a site: how often an intensity is exceeded there in a year, a power law between the levels of a table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.errors import HazardError
+from seisblock.typing import ArrayLike, FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class HazardCurve:
+    """The annual frequency with which an intensity is exceeded.
+
+    Between two levels the frequency is a power of the intensity, a straight line on two logarithmic axes; beyond the first and the last
+    level it goes on with the slope found there ([Cornell2002]_ relation of hazard and intensity, piece by piece).
+
+    Parameters
+    ----------
+    levels : (n,) array
+        Positive intensities that rise, in units of SI.
+    rates : (n,) array, 1/year
+        Positive; they fall, or stay.
+    name : str
+        Of the branch of a logic tree; empty where there is one only.
+    weight : float, 1
+        Of the branch.
+
+    Raises
+    ------
+    HazardError
+        If there are fewer than two levels, a number is not positive, levels do not rise, or frequencies do.
+
+    Examples
+    --------
+    >>> HazardCurve([0.1, 1.0], [1e-2, 1e-4]).rate([0.1, 0.5]).round(8).tolist()
+    [0.01, 0.0004]
+    """
+
+    levels: ArrayLike
+    rates: ArrayLike
+    name: str = ""
+    weight: float = 1.0
+
+    def __post_init__(self) -> None:
+        x = checks.numbers("the levels of a hazard curve", self.levels)
+        rate = checks.numbers("the frequencies of a hazard curve", self.rates)
+        if x.ndim != 1 or x.size < 2 or rate.shape != x.shape:
+            raise HazardError(
+                "a hazard curve needs two levels or more, each with its frequency; found {levels} and {rates}",
+                levels=x.size,
+                rates=rate.size,
+            )
+        for row in (x, rate):
+            if not (np.isfinite(row).all() and (row > 0.0).all()):
+                raise HazardError("the levels and frequencies of a hazard curve must be positive numbers")
+        back, up = np.flatnonzero(np.diff(x) <= 0.0), np.flatnonzero(np.diff(rate) > 0.0)
+        if back.size:
+            raise HazardError("the levels of a hazard curve must rise: {level:.4g} is there twice or out of order", level=x[back[0] + 1])
+        if up.size:
+            raise HazardError(
+                "stronger shaking cannot be more frequent than weaker, as it is in this hazard curve from {low:.4g} to {high:.4g}",
+                low=x[up[0]],
+                high=x[up[0] + 1],
+            )
+        if rate[-1] == rate[-2]:
+            raise HazardError("this hazard curve does not fall at its end: add a stronger level, or leave out the last ones")
+        object.__setattr__(self, "levels", x)
+        object.__setattr__(self, "rates", rate)
+        checks.positive("the weight of a branch", self.weight)
+
+    @property
+    def slopes(self) -> FloatArray:
+        """Powers k with which the frequency falls, rate ~ level^-k, (n + 1,): below the first level, between levels, beyond the last."""
+        inner = -np.diff(np.log(self.rates)) / np.diff(np.log(self.levels))
+        return np.concatenate([inner[:1], inner, inner[-1:]])
+
+    def rate(self, intensity: ArrayLike) -> FloatArray:
+        """Return the annual frequency, 1/year, with which some positive intensities are exceeded, of the shape in which they come."""
+        u = np.log(checks.numbers("the intensities", intensity))
+        logs = np.log(self.levels)
+        piece = np.searchsorted(logs, u)
+        anchor = np.maximum(piece - 1, 0)
+        return np.asarray(np.asarray(self.rates)[anchor] * np.exp(-self.slopes[piece] * (u - logs[anchor])))
+
+    def with_levels(self, levels: FloatArray) -> HazardCurve:
+        """Return the same curve with further levels between its own and beyond them."""
+        union = np.union1d(np.asarray(self.levels), levels)
+        own = np.isin(union, self.levels)
+        rates = self.rate(union)
+        rates[own] = self.rates
+        return HazardCurve(union, np.minimum.accumulate(rates), self.name, self.weight)
+
+
+@dataclass(frozen=True, eq=False)
+class Hazard:
+    """The hazard of a site in one measure of intensity: one curve, or the branches of a logic tree.
+
+    Parameters
+    ----------
+    im, unit : str
+        Measure of intensity (``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``p*pgv``) and the unit of its levels, SI.
+    branches : tuple of HazardCurve
+        Their weights have the sum 1.
+    notes : tuple of str
+        What was left out of the table.
+    table_unit : float
+        Factor from the unit of the table's levels to SI.
+
+    Raises
+    ------
+    HazardError
+        If there is no branch, or the weights have another sum.
+    """
+
+    im: str
+    unit: str
+    branches: tuple[HazardCurve, ...]
+    notes: tuple[str, ...] = ()
+    table_unit: float = 1.0
+
+    def __post_init__(self) -> None:
+        total = sum(branch.weight for branch in self.branches)
+        if not self.branches or abs(total - 1.0) > SUM_OF_WEIGHTS:
+            raise HazardError("the weights of the branches of a hazard have the sum {total:.4g}: it must be 1", total=total)
+
+    def rate(self, intensity: ArrayLike) -> FloatArray:
+        """Return the mean annual frequency, 1/year, with which some intensities are exceeded."""
+        return np.asarray(sum(branch.weight * branch.rate(intensity) for branch in self.branches))
+
+
+SUM_OF_WEIGHTS = 0.001
+"""How far from 1 the sum of printed weights may be."""

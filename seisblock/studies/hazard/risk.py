@@ -1,0 +1,241 @@
+r"""How often something happens at a site, and what it says about the hazard that something did not happen.
+
+With the fragility :math:`F(x) = \Phi(\ln(x/\theta)/\beta)` and the annual frequency :math:`\lambda(x)` of exceeding the intensity x, it
+happens with the frequency
+
+.. math:: \Lambda = \int_0^\infty F \, |d\lambda| = \int_0^\infty \lambda \, dF ,
+
+the mean of the hazard over the intensities at which it happens. On a piece on which :math:`\lambda = \lambda_a (x/x_a)^{-k}`, with
+:math:`u = \ln x`, :math:`\mu = \ln\theta` and :math:`z = (u - \mu)/\beta`, the integral of the second form is (derived here, by completing
+the square)
+
+.. math:: \int_{u_1}^{u_2} \lambda \, dF
+   = \lambda_a e^{-k(\mu - u_a) + k^2\beta^2/2} \left[ \Phi(z_2 + k\beta) - \Phi(z_1 + k\beta) \right] ,
+
+and :math:`\int F |d\lambda| = F_1\lambda_1 - F_2\lambda_2 + \int \lambda \, dF` there: no quadrature. One piece from zero to infinity is
+the closed form :math:`\lambda(\theta) \, e^{k^2\beta^2/2}` ([Cornell2002]_ relation of limit state and hazard). What stood for T years did
+so with the probability :math:`e^{-T\Lambda}`, if earthquakes come independently.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.studies.fragility.lognormal import Lognormal
+from seisblock.studies.hazard.curve import Hazard, HazardCurve
+from seisblock.typing import FloatArray
+from seisblock.words import said
+
+LARGE_OUTSIDE = 0.02
+"""Share of the frequency from beyond the ends of a hazard curve, from which on it is said."""
+
+
+@dataclass(frozen=True)
+class ProbabilityInYears:
+    """How probable it is that it happens at least once.
+
+    Parameters
+    ----------
+    years : float, years
+    value : float, 1
+        1 - exp(-rate x years).
+    """
+
+    years: float
+    value: float
+
+
+@dataclass(frozen=True)
+class RiskShare:
+    """What shaking between two intensities contributes.
+
+    Parameters
+    ----------
+    im_from, im_to : float or None
+        In the unit of the hazard; None for zero and for infinity.
+    annual_rate : float, 1/year
+    share : float, 1
+        Of the whole.
+    """
+
+    im_from: float | None
+    im_to: float | None
+    annual_rate: float
+    share: float
+
+
+@dataclass(frozen=True)
+class BranchRisk:
+    """What one branch of the hazard says.
+
+    Parameters
+    ----------
+    branch : str
+    weight : float, 1
+    annual_rate : float, 1/year
+    standing : float or None, 1
+        Probability that it did not happen in the years in which it did not; None where none were given.
+    weight_after : float or None, 1
+        The weight times that, of the sum over the branches.
+    """
+
+    branch: str
+    weight: float
+    annual_rate: float
+    standing: float | None
+    weight_after: float | None
+
+
+@dataclass(frozen=True)
+class Risk:
+    """How often it happens at a site.
+
+    Parameters
+    ----------
+    fragility : Lognormal
+    hazard : Hazard
+    annual_rate : float, 1/year
+        The mean over the branches.
+    return_period_years : float or None
+        Its inverse; None where it is zero within the range of numbers.
+    probability : ProbabilityInYears
+        Of the mean over the branches.
+    branches : tuple of BranchRisk
+    disaggregation : tuple of RiskShare
+        Between the levels of the hazard, of all branches together.
+    beyond_levels_share : float, 1
+        Share of the frequency from below the first and beyond the last level, where the curve goes on with its slope.
+    stood_years : float or None
+    annual_rate_after : float or None, 1/year
+        With the weights after it stood.
+    notes : tuple of str
+    """
+
+    fragility: Lognormal
+    hazard: Hazard
+    annual_rate: float
+    return_period_years: float | None
+    probability: ProbabilityInYears
+    branches: tuple[BranchRisk, ...]
+    disaggregation: tuple[RiskShare, ...]
+    beyond_levels_share: float
+    stood_years: float | None
+    annual_rate_after: float | None
+    notes: tuple[str, ...]
+
+
+def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stood_years: float | None = None) -> Risk:
+    """Return how often it happens at a site, and which levels and branches that comes from.
+
+    Parameters
+    ----------
+    fragility : Lognormal
+        In the unit of the hazard.
+    hazard : Hazard
+    years : float, years
+        For which the probability is told.
+    stood_years : float or None, years
+        In which it did not happen: the likelihood of each branch, and the weights that follow.
+
+    Raises
+    ------
+    ParameterError
+        If a number of years is not positive.
+
+    Examples
+    --------
+    >>> from seisblock import Hazard, HazardCurve, Lognormal
+    >>> hazard = Hazard("pgv", "m/s", (HazardCurve([0.1, 1.0], [1e-2, 1e-4]),))
+    >>> round(find_risk(Lognormal(0.5, 0.4), hazard).annual_rate, 7)  # 1e-4 x 0.5^-2 x exp(2^2 x 0.4^2 / 2)
+    0.0005509
+    """
+    checks.positive("the number of years", years)
+    if stood_years is not None:
+        checks.positive("the number of years in which it stood", stood_years)
+    union = np.unique(np.concatenate([np.asarray(branch.levels) for branch in hazard.branches]))
+    shares = [_contributions(branch.with_levels(union), fragility) for branch in hazard.branches]
+    weights = np.array([branch.weight for branch in hazard.branches])
+    weights /= weights.sum()
+    rates = np.array([row.sum() for row in shares])
+    total = float(weights @ rates)
+    outside = float(weights @ [_contributions(branch, fragility)[[0, -1]].sum() for branch in hazard.branches])
+    standing = None if stood_years is None else np.exp(-rates * stood_years)
+    after = None if stood_years is None else _updated(weights, -rates * stood_years)
+    return Risk(
+        fragility=fragility,
+        hazard=hazard,
+        annual_rate=total,
+        return_period_years=1.0 / total if total > 1.0 / checks.LARGEST else None,
+        probability=ProbabilityInYears(float(years), -math.expm1(-total * years)),
+        branches=tuple(
+            BranchRisk(
+                branch.name,
+                float(weights[i]),
+                float(rates[i]),
+                None if standing is None else float(standing[i]),
+                None if after is None else float(after[i]),
+            )
+            for i, branch in enumerate(hazard.branches)
+        ),
+        disaggregation=_disaggregated(union, weights @ np.array(shares), total),
+        beyond_levels_share=outside / total if total > 0.0 else 0.0,
+        stood_years=None if stood_years is None else float(stood_years),
+        annual_rate_after=None if after is None else float(after @ rates),
+        notes=(*hazard.notes, *_doubts(outside, total)),
+    )
+
+
+def _contributions(curve: HazardCurve, fragility: Lognormal) -> FloatArray:
+    """Return the frequency, 1/year, with which it happens below the first level, between levels and beyond the last, (n + 1,)."""
+    from scipy.special import ndtr
+
+    u, mu, beta = np.log(np.asarray(curve.levels)), math.log(fragility.median), fragility.beta
+    k, anchor = curve.slopes, np.maximum(np.arange(u.size + 1) - 1, 0)
+    z = np.concatenate([[-np.inf], (u - mu) / beta, [np.inf]])
+    logs = np.log(np.asarray(curve.rates))[anchor] - k * (mu - u[anchor]) + 0.5 * (k * beta) ** 2
+    within = np.exp(logs + _log_between(z[:-1] + k * beta, z[1:] + k * beta))
+    edge = np.concatenate([[0.0], ndtr(z[1:-1]) * np.asarray(curve.rates), [0.0]])
+    return np.asarray(np.maximum(within - np.diff(edge), 0.0))
+
+
+def _log_between(low: FloatArray, high: FloatArray) -> FloatArray:
+    """Return ln(Phi(high) - Phi(low)), exact in both tails."""
+    from scipy.special import log_ndtr
+
+    right = low + high > 0.0  # there the differences are those of the tails on the other side
+    a, b = np.where(right, -high, low), np.where(right, -low, high)
+    top = log_ndtr(b)
+    with np.errstate(divide="ignore"):
+        return np.asarray(top + np.log1p(-np.exp(log_ndtr(a) - top)))
+
+
+def _updated(weights: FloatArray, log_likelihood: FloatArray) -> FloatArray:
+    """Return the weights of branches after what each made so likely."""
+    grown = weights * np.exp(log_likelihood - log_likelihood.max())
+    return np.asarray(grown / grown.sum())
+
+
+def _disaggregated(levels: FloatArray, rates: FloatArray, total: float) -> tuple[RiskShare, ...]:
+    """Return what each stretch of intensities contributes."""
+    ends = [None, *(float(level) for level in levels), None]
+    return tuple(
+        RiskShare(low, high, float(rate), float(rate) / total if total > 0.0 else 0.0)
+        for low, high, rate in zip(ends[:-1], ends[1:], rates, strict=True)
+    )
+
+
+def _doubts(outside: float, total: float) -> tuple[str, ...]:
+    """Return what is to be said of what lies beyond the table."""
+    if outside <= LARGE_OUTSIDE * total:
+        return ()
+    return (
+        said(
+            "{share:.0%} of the frequency comes from beyond the levels of the hazard, where its curve is continued with its slope: "
+            "more levels would tell",
+            share=outside / total,
+        ),
+    )

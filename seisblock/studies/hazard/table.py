@@ -1,0 +1,212 @@
+"""Reading a hazard from a table: levels of an intensity, and how often, or how probably, each is exceeded."""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from seisblock import checks
+from seisblock.bodies.sheet import cells_of, number_of, plain, row_of, rows_of, separator_of, sheet_text
+from seisblock.errors import BodyError, HazardError, InputError
+from seisblock.samples import find_sample, list_samples
+from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
+from seisblock.studies.hazard.curve import Hazard, HazardCurve
+from seisblock.units import ACCELERATION_UNITS, LENGTH_UNITS, VELOCITY_UNITS
+from seisblock.words import said
+
+UNITS_OF: Mapping[str, Mapping[str, float]] = {
+    "m/s^2": ACCELERATION_UNITS,
+    "m/s": VELOCITY_UNITS,
+    "m": LENGTH_UNITS,
+    "1": {},
+}
+"""What values of a measure may be written in, by its unit here."""
+
+_MEASURE = re.compile(
+    r"(pga|pgv|pgd|arias|p\*?pgv|sa[\s_(=]*\d*\.?\d+\s*s?\)?)(?:[\s_]*[(\[]\s*(\S.*?)\s*[)\]]|_(\w[\w/^]*))?\s*\Z", re.IGNORECASE
+)
+_PERIOD = re.compile(r"\d*\.?\d+")
+_RATES = frozenset(
+    {"annualrate", "annualfrequency", "rate", "frequency", "lambda", "annualrateofexceedance", "年超過頻度", "年超過率", "頻度"}
+)
+_ANNUAL = frozenset({"annualprobability", "annualpoe", "probability", "poe", "年超過確率"})
+_IN_YEARS = re.compile(r"(?:poe|probability)(?:in)?(\d+)(?:years?|yr|y)|(\d+)年超過確率")
+_OTHERS = {"branch": "branch", "枝": "branch", "分枝": "branch", "weight": "weight", "重み": "weight"}
+
+TOLD_AS = "pgv_m_s, pga_g, pga_gal, pgd_cm, sa(0.5)_g, arias_m_s, p*pgv"
+"""Headings of levels, for messages."""
+
+
+class _Row(NamedTuple):
+    """One level of one branch, SI and 1/year."""
+
+    branch: str
+    level: float
+    rate: float
+    weight: float | None
+
+
+class _Columns(NamedTuple):
+    """What the columns of a table mean."""
+
+    names: list[str]
+    measure: IntensityMeasure
+    factor: float
+    years: float | None  # of a probability; None of a frequency
+    notes: tuple[str, ...]
+
+
+def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
+    """Return the hazard of a site from a CSV file, or the bundled one, which is synthetic, by its name.
+
+    The header names a column of levels with its unit (``pgv_m_s``, ``pga (g)``, ``sa(0.5)_gal``), and one of how often each is exceeded:
+    annual frequencies (``annual_rate``), annual probabilities (``annual_poe``), or probabilities in some years (``poe_50_years``,
+    50年超過確率); where there are several curves, ``branch`` and ``weight``. Lines that begin with # are comments.
+
+    Parameters
+    ----------
+    path : str or Path
+    im : str or None
+        Which measure, where the table has levels of several.
+
+    Raises
+    ------
+    HazardError
+        If the file cannot be read, a column is missing, a unit is unknown, a number is wrong, or a curve rises or has one level.
+
+    Examples
+    --------
+    >>> hazard = read_hazard("synthetic_hazard.csv")
+    >>> hazard.im, hazard.unit, [branch.name for branch in hazard.branches]
+    ('pgv', 'm/s', ['often', 'rare'])
+    """
+    try:
+        text = sheet_text(_path(path), str(path))
+    except BodyError as error:
+        raise HazardError("{text}", text=error.said) from None
+    try:
+        return _hazard(text, None if im is None else intensity_measure(im))
+    except InputError as error:
+        raise HazardError("{source}: {text}", source=Path(path).name, text=error.said) from None
+
+
+def _path(name: str | Path) -> Path:
+    """Return the file that a name means: a path, else a bundled hazard."""
+    path = Path(checks.path(name))
+    known = [sample.name for sample in list_samples() if sample.kind == "hazard"]
+    bundled = find_sample(str(name)) if not path.exists() and path.parent == Path() else None
+    return bundled if bundled is not None and bundled.name in known else path
+
+
+def _hazard(text: str, wanted: IntensityMeasure | None) -> Hazard:
+    """Return the hazard of a table's text."""
+    rows = rows_of(text)
+    if len(rows) < 2:
+        raise HazardError("there is no hazard in it: give a header, and a line for each level")
+    separator = separator_of(rows[0][1])
+    columns = _columns(cells_of(rows[0][1], separator), wanted)
+    found: dict[str, list[_Row]] = {}
+    for line, cells in rows[1:]:
+        try:
+            row = _row(row_of(columns.names, cells_of(cells, separator)), columns)
+        except InputError as error:
+            raise HazardError("line {line}: {text}", line=line, text=error.said) from None
+        found.setdefault(row.branch, []).append(row)
+    branches, notes = _branches(found)
+    return Hazard(columns.measure.name, columns.measure.unit, branches, (*columns.notes, *notes), columns.factor)
+
+
+def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
+    """Return the measure that a heading names, and what its unit is worth, SI; None where it names none.
+
+    Raises
+    ------
+    HazardError
+        If it names a measure without its unit, or with one that is unknown.
+
+    Examples
+    --------
+    >>> measure_of("sa(0.5)_g")
+    (IntensityMeasure(kind='sa', period_s=0.5), 9.80665)
+    """
+    match = _MEASURE.match(unicodedata.normalize("NFKC", heading).strip())
+    if match is None:
+        return None
+    name, unit = re.sub(r"\s", "", match[1]).lower(), (match[2] or match[3] or "").lower()
+    period = _PERIOD.search(name)
+    measure = intensity_measure(f"sa={period[0]}" if period else name.replace("ppgv", "p*pgv"))
+    units = UNITS_OF[measure.unit]
+    spelled = {**units, **{key.replace("/", "_").replace("^", ""): value for key, value in units.items()}} or {"": 1.0, "1": 1.0}
+    if unit not in spelled:
+        known = [*units]
+        if not unit:
+            raise HazardError("the column {heading!r} has no unit: name it for example {known}", heading=heading[:40], known=TOLD_AS)
+        raise HazardError(
+            "the column {heading!r} has the unknown unit {unit!r}: use one of {known}", heading=heading[:40], unit=unit, known=known
+        )
+    return measure, spelled[unit]
+
+
+def _columns(cells: Sequence[str], wanted: IntensityMeasure | None) -> _Columns:
+    """Return what the columns of a table mean."""
+    names, passed, measures, rates = [], [], {}, {}
+    for cell in cells:
+        told, key = measure_of(cell), plain(cell)
+        years = _IN_YEARS.fullmatch(key)
+        if told is not None and wanted in (None, told[0]):
+            measures[cell] = told
+            names.append("level")
+        elif key in _RATES or key in _ANNUAL or years:
+            rates[cell] = None if key in _RATES else float(next(filter(None, years.groups()))) if years else 1.0
+            names.append("rate")
+        else:
+            names.append(_OTHERS.get(key, ""))
+            passed += [] if names[-1] or not cell else [cell]
+    if len(measures) != 1:
+        text = "expected one column of levels, such as {known}; found {found}"
+        raise HazardError(text, known=TOLD_AS, found=list(measures) or list(cells))
+    if len(rates) != 1:
+        text = "expected one column annual_rate, or annual_poe, or poe_50_years; found {found}"
+        raise HazardError(text, found=list(rates) or list(cells))
+    if names.count("branch") > 1 or names.count("weight") > 1:
+        raise HazardError("two columns mean the same: leave one branch and one weight")
+    notes = (said("{columns} of the hazard were passed over", columns=passed),) if passed else ()
+    ((measure, factor),) = measures.values()
+    return _Columns(names, measure, factor, next(iter(rates.values())), notes)
+
+
+def _row(cells: Mapping[str, str], columns: _Columns) -> _Row:
+    """Return one row of a table."""
+    level = checks.positive("the level", number_of(cells.get("level", ""), "level")) * columns.factor
+    given = number_of(cells.get("rate", ""), "rate")
+    if columns.years is None:
+        rate = checks.not_negative("the annual frequency", given)
+    else:
+        probability = checks.fraction("the probability of being exceeded", given)
+        rate = -math.log1p(-probability) / columns.years if probability < 1.0 else math.inf
+    weight = number_of(cells["weight"], "weight") if cells.get("weight") else None
+    return _Row(cells.get("branch", ""), level, rate, weight)
+
+
+def _branches(found: Mapping[str, Sequence[_Row]]) -> tuple[tuple[HazardCurve, ...], list[str]]:
+    """Return the curves of a table, and what was left out of it."""
+    curves, left = [], 0
+    for name, rows in found.items():
+        kept = sorted((row for row in rows if 0.0 < row.rate < math.inf), key=lambda row: row.level)
+        left += len(rows) - len(kept)
+        weights = {row.weight for row in rows if row.weight is not None}
+        if len(weights) > 1:
+            raise HazardError("the branch {name!r} has several weights: {weights}", name=name, weights=sorted(weights))
+        weight = weights.pop() if weights else 1.0 if len(found) == 1 else None
+        if weight is None:
+            raise HazardError("the branch {name!r} has no weight: add a column weight, the same in all lines of a branch", name=name)
+        try:
+            curves.append(HazardCurve([row.level for row in kept], [row.rate for row in kept], name, weight))
+        except InputError as error:
+            raise (HazardError("the branch {name!r}: {text}", name=name, text=error.said) if name else error) from None
+    text = said("{count} levels of the hazard that are never, or surely, exceeded were left out", count=left)
+    return tuple(curves), [text] if left else []

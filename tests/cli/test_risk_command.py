@@ -1,0 +1,87 @@
+"""``seisblock risk``: its document, its files and its refusals."""
+
+import csv
+import json
+import math
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock import find_risk, read_hazard
+from seisblock.cli import main
+from seisblock.studies.fragility.lognormal import Lognormal
+
+LINE = ("--median", "60cm/s", "--beta", "0.4", "--hazard", "synthetic_hazard.csv")
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Return a function that runs the command in an empty directory."""
+    monkeypatch.chdir(tmp_path)
+    return lambda *words: CliRunner().invoke(main, ["risk", *map(str, words)])
+
+
+def test_document(run):
+    """The keys that others rely on, with what the library finds."""
+    document = json.loads(run(*LINE, "--years", 30, "--json").stdout)
+    assert document["schema"] == "seisblock/risk/1" and document["record"] is None
+    (result,) = document["results"]
+    found = find_risk(Lognormal(0.6, 0.4), read_hazard("synthetic_hazard.csv"), years=30.0)
+    assert result["annual_rate"] == found.annual_rate
+    assert result["return_period_years"] == pytest.approx(1.0 / found.annual_rate)
+    assert result["probability"] == {"years": 30.0, "value": pytest.approx(1.0 - math.exp(-30.0 * found.annual_rate))}
+    assert result["fragility"] == {"median": 0.6, "beta": 0.4}
+    assert result["branches"][0]["standing"] is None
+
+
+def test_a_power_law(run, tmp_path):
+    """k0 median^-k exp(k² beta²/2), from files as a user has them, in g."""
+    (tmp_path / "h.csv").write_text("pga_g,annual_rate\n0.05,0.04\n0.1,0.01\n0.2,0.0025\n0.4,0.000625\n")
+    document = json.loads(run("--median", "0.3g", "--beta", 0.5, "--im", "pga", "--hazard", "h.csv", "--json").stdout)
+    assert document["results"][0]["annual_rate"] == pytest.approx(1e-4 * 0.3**-2 * math.exp(0.5 * (2 * 0.5) ** 2), rel=1e-9)
+
+
+def test_first_line_is_the_answer(run):
+    """How often, and how probably in the years asked for."""
+    first = run(*LINE, "--years", 30, "--quiet").stdout.splitlines()[0]
+    assert first == "once in 552 years on average; 5 % in 30 years."
+
+
+def test_files(run, tmp_path):
+    """The figure, and the levels that it comes from; their shares have the sum one."""
+    assert run(*LINE, "--plot", "risk.svg", "--csv", "risk.csv").exit_code == 0
+    assert (tmp_path / "risk.svg").read_text(encoding="utf-8").startswith("<?xml")
+    rows = list(csv.DictReader((tmp_path / "risk.csv").open(encoding="utf-8")))
+    assert sum(float(row["share"]) for row in rows) == pytest.approx(1.0)
+    assert rows[0]["im_from"] == "" and rows[-1]["im_to"] == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (LINE[:2] + LINE[4:], "give --fragility FILE, or --median and --beta"),
+        ((*LINE, "--fragility", "f.json"), "give --fragility FILE, or --median and --beta"),
+        ((*LINE, "--years", "0"), "must be positive"),
+        ((*LINE, "--stood", "-5"), "must be positive"),
+        ((*LINE, "--im", "pga"), "one column of levels"),
+        ((*LINE, "--im", "sa"), "needs its period"),
+        (("--median", "0.6", "--beta", "0", *LINE[4:]), "beta, the dispersion of a fragility, must be positive"),
+        (("--median", "0.6", "--beta", "nan", *LINE[4:]), "beta, the dispersion of a fragility, must be positive"),
+        ((*LINE[:4], "--hazard", "."), "cannot read"),
+        ((*LINE, "--csv", "synthetic_hazard.csv", "--plot", "synthetic_hazard.csv"), "synthetic_hazard.csv"),
+    ],
+    ids=str,
+)
+def test_what_is_wrong_is_one_sentence(run, words, told):
+    """An exit code, a sentence, no traceback."""
+    done = run(*words)
+    assert done.exit_code in (2, 3) and told in done.stderr and "Traceback" not in done.output
+
+
+def test_no_output_falls_on_the_hazard(run, tmp_path):
+    """Neither the table nor the figure is written over the file that is read."""
+    before = "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.001\n"
+    (tmp_path / "h.csv").write_text(before)
+    done = run(*LINE[:4], "--hazard", "h.csv", "--csv", "h.csv")
+    assert done.exit_code == 3 and "is a file that is read" in done.stderr
+    assert (tmp_path / "h.csv").read_text() == before

@@ -1,0 +1,227 @@
+"""How often it happens at a site: against quadrature, the closed form and tables as people keep them."""
+
+import dataclasses
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.stats import norm
+
+from seisblock import Hazard, HazardCurve, find_risk, read_hazard
+from seisblock.errors import HazardError, ParameterError, UnitError
+from seisblock.samples import sample_path
+from seisblock.studies.fragility.lognormal import Lognormal
+from seisblock.studies.hazard.given import fragility_in, matching, read_fragility
+from tests import make_hazard
+
+LEVELS = np.geomspace(0.05, 3.0, 9)
+BENT = HazardCurve(LEVELS, 0.02 * (LEVELS / 0.05) ** -1.1 * np.exp(-LEVELS / 0.6))
+
+
+def site(*curves):
+    """Return a hazard in PGV."""
+    return Hazard("pgv", "m/s", curves or (BENT,))
+
+
+def quadrature(fragility, curve, low, high):
+    """Return the integral of the fragility over the hazard between two intensities, with a slope taken from two rates beside each other."""
+
+    def integrand(u):
+        step = 1e-6
+        fall = (float(curve.rate(math.exp(u - step))) - float(curve.rate(math.exp(u + step)))) / (2 * step)
+        return norm.cdf((u - math.log(fragility.median)) / fragility.beta) * fall
+
+    return quad(integrand, math.log(low), math.log(high), epsabs=0.0, epsrel=1e-9, limit=200)[0]
+
+
+@given(
+    median=st.floats(0.01, 20.0),
+    beta=st.floats(0.05, 1.2),
+    power=st.floats(0.3, 6.0),
+    rate=st.floats(1e-6, 10.0),
+)
+def test_a_power_law_has_the_closed_form(median, beta, power, rate):
+    """rate(median) exp(k² beta²/2), wherever the levels of the table lie."""
+    levels = np.array([0.03, 0.1, 0.11, 1.0, 4.0])
+    found = find_risk(Lognormal(median, beta), site(HazardCurve(levels, rate * levels**-power)))
+    assert found.annual_rate == pytest.approx(rate * median**-power * math.exp(0.5 * (power * beta) ** 2), rel=1e-9)
+
+
+def test_each_stretch_of_a_bent_curve_is_its_integral():
+    """Between two levels what quadrature finds there; the shares have the sum one, and the chance in 50 years follows."""
+    fragility = Lognormal(0.6, 0.45)
+    found = find_risk(fragility, site())
+    for each in found.disaggregation[1:-1]:
+        assert each.annual_rate == pytest.approx(quadrature(fragility, BENT, each.im_from, each.im_to), rel=1e-6)
+    assert found.disaggregation[0].annual_rate == pytest.approx(quadrature(fragility, BENT, 1e-4, LEVELS[0]), rel=1e-6)
+    assert found.disaggregation[-1].annual_rate == pytest.approx(quadrature(fragility, BENT, LEVELS[-1], 1e4), rel=1e-6)
+    assert sum(each.share for each in found.disaggregation) == pytest.approx(1.0)
+    assert found.return_period_years == pytest.approx(1.0 / found.annual_rate)
+    assert found.probability.value == pytest.approx(1.0 - (1.0 - found.annual_rate / 1e4) ** (50.0 * 1e4), rel=1e-4)
+
+
+def test_a_sharp_fragility_is_the_hazard_at_its_median():
+    """With beta to zero it happens whenever the median is exceeded."""
+    assert find_risk(Lognormal(0.7, 1e-4), site()).annual_rate == pytest.approx(float(BENT.rate(0.7)), rel=1e-5)
+
+
+def test_what_is_far_away_has_no_rounding():
+    """A fragility 40 standard deviations above the table neither overflows nor turns negative."""
+    found = find_risk(Lognormal(1e4, 0.1), site())
+    assert 0.0 < found.annual_rate < 1e-20 and found.beyond_levels_share > 0.999
+    assert all(each.annual_rate >= 0.0 for each in found.disaggregation)
+    assert "beyond the levels" in found.notes[0]
+
+
+def test_branches_and_what_stood():
+    """The mean of the branches; P(standing) = exp(-T rate) weighs them anew (Bayes)."""
+    half = dataclasses.replace(BENT, rates=np.asarray(BENT.rates) / 2, name="half", weight=0.3)
+    whole = dataclasses.replace(BENT, name="whole", weight=0.7)
+    alone = find_risk(Lognormal(0.4, 0.3), site()).annual_rate
+    found = find_risk(Lognormal(0.4, 0.3), site(whole, half), stood_years=2000.0)
+    assert found.annual_rate == pytest.approx(0.85 * alone)
+    likelihood = np.exp(-2000.0 * alone * np.array([1.0, 0.5]))
+    after = likelihood * [0.7, 0.3] / (likelihood @ [0.7, 0.3])
+    assert [each.standing for each in found.branches] == pytest.approx(likelihood)
+    assert [each.weight_after for each in found.branches] == pytest.approx(after)
+    assert found.annual_rate_after == pytest.approx(after @ [alone, alone / 2])
+
+
+def test_branches_with_other_levels_are_cut_alike():
+    """Stretches of the union of the levels; the sum is that of each alone."""
+    other = HazardCurve([0.02, 0.9, 5.0], [0.1, 1e-3, 1e-6], "other", 0.5)
+    found = find_risk(Lognormal(0.5, 0.5), site(dataclasses.replace(BENT, weight=0.5), other))
+    each = [find_risk(Lognormal(0.5, 0.5), site(dataclasses.replace(curve, weight=1.0))).annual_rate for curve in (BENT, other)]
+    assert found.annual_rate == pytest.approx(np.mean(each), rel=1e-12)
+    assert len(found.disaggregation) == np.union1d(LEVELS, other.levels).size + 1
+
+
+TABLES = {
+    "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.001\n": ("pgv", [0.2, 0.6], [0.01, 0.001]),
+    "PGV (cm/s);Rate\n60;0.001\n20;0.01\n": ("pgv", [0.2, 0.6], [0.01, 0.001]),
+    "pga_g,annual_poe\n0.1,0.5\n0.4,0.01\n": ("pga", [0.980665, 3.92266], [math.log(2.0), -math.log(0.99)]),
+    "SA(0.5 s) [gal],POE_in_50_years\n100,0.5\n400,0.1\n800,0\n": ("sa=0.5", [1.0, 4.0], [math.log(2.0) / 50, -math.log(0.9) / 50]),
+    "sa_0.5_m_s2,年超過頻度\n1,0.5\n4,0.1\n": ("sa=0.5", [1.0, 4.0], [0.5, 0.1]),
+    "pgv_kine,30年超過確率\n20,1\n40,0.5\n60,0.25\n": ("pgv", [0.4, 0.6], [math.log(2.0) / 30, math.log(4 / 3) / 30]),
+    "p*pgv,rate\n0.2,0.01\n0.6,0.001\n": ("p*pgv", [0.2, 0.6], [0.01, 0.001]),
+}
+
+
+@pytest.mark.parametrize("text", TABLES)
+def test_tables_as_people_keep_them(text, tmp_path):
+    """Units in headings, rates or probabilities, Japanese headings, any order; levels never or surely exceeded are left out, and said."""
+    (tmp_path / "h.csv").write_text("# from somewhere\n" + text, encoding="utf-8")
+    found = read_hazard(tmp_path / "h.csv")
+    im, levels, rates = TABLES[text]
+    assert found.im == im
+    assert np.asarray(found.branches[0].levels) == pytest.approx(levels)
+    assert np.asarray(found.branches[0].rates) == pytest.approx(rates)
+    assert bool(found.notes) == (text.count("\n") > 3)
+
+
+WRONG = {
+    "pgv_m_s,annual_rate\n0.2,0.01\n": "two levels or more",
+    "pgv_m_s,annual_rate\n": "there is no hazard in it",
+    "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.02\n": "cannot be more frequent than weaker, as it is in this hazard curve from 0.2 to 0.6",
+    "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.01\n": "does not fall at its end",
+    "pgv_m_s,annual_rate\n0.2,0.01\n0.2,0.001\n": "0.2 is there twice",
+    "pgv,annual_rate\n0.2,0.01\n0.6,0.001\n": "'pgv' has no unit",
+    "pgv_furlong,annual_rate\n0.2,0.01\n0.6,0.001\n": "the unknown unit 'furlong'",
+    "pgv_g,annual_rate\n0.2,0.01\n0.6,0.001\n": "the unknown unit 'g'",
+    "depth,annual_rate\n0.2,0.01\n": "one column of levels",
+    "pgv_m_s,pga_g,annual_rate\n0.2,1,0.01\n": "one column of levels",
+    "pgv_m_s,x\n0.2,0.01\n": "one column annual_rate",
+    "pgv_m_s,annual_rate\n0.2,-0.01\n0.6,0.001\n": "line 2: the annual frequency must be zero or more",
+    "pgv_m_s,annual_poe\n0.2,1.5\n0.6,0.001\n": "line 2: the probability of being exceeded must lie in",
+    "pgv_m_s,annual_rate\n0.2,nan\n0.6,0.001\n": "line 2",
+    "pgv_m_s,annual_rate\n0.2,often\n0.6,0.001\n": "line 2: rate must be a number",
+    "pgv_m_s,annual_rate\n0,0.1\n0.6,0.001\n": "line 2: the level must be positive",
+    "branch,weight,pgv_m_s,annual_rate\na,0.5,0.2,0.01\na,0.5,0.6,0.001\n": "have the sum 0.5",
+    "branch,pgv_m_s,annual_rate\na,0.2,0.01\na,0.6,0.001\nb,0.2,0.01\nb,0.6,0.001\n": "the branch 'a' has no weight",
+    "branch,weight,pgv_m_s,annual_rate\na,0.5,0.2,0.01\na,0.6,0.6,0.001\n": "several weights",
+    "branch,weight,pgv_m_s,annual_rate\na,1,0.2,0.01\na,1,0.6,0.02\n": "the branch 'a': stronger shaking",
+}
+
+
+@pytest.mark.parametrize("text", WRONG)
+def test_a_wrong_table_is_one_sentence(text, tmp_path):
+    """What is wrong, and where; never a curve drawn through nothing."""
+    (tmp_path / "h.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(HazardError) as caught:
+        read_hazard(tmp_path / "h.csv")
+    assert WRONG[text] in str(caught.value) and str(caught.value).startswith("h.csv: ")
+
+
+def test_one_of_several_measures_is_asked_for(tmp_path):
+    """A table of two measures says which there are; asked for one, the other is named as passed over."""
+    (tmp_path / "h.csv").write_text("pgv_m_s,pga_g,annual_rate\n0.2,0.1,0.01\n0.6,0.4,0.001\n", encoding="utf-8")
+    found = read_hazard(tmp_path / "h.csv", im="pga")
+    assert found.im == "pga" and "pgv_m_s" in str(found.notes[0])
+
+
+def test_files_that_are_none(tmp_path):
+    """A folder, bytes, nothing."""
+    (tmp_path / "b.csv").write_bytes(b"\0\1\2")
+    for name in (".", "gone.csv", "b.csv"):
+        with pytest.raises(HazardError, match=r"b\.csv|gone|cannot read"):
+            read_hazard(tmp_path / name)
+
+
+def test_a_median_without_unit_beside_a_table_in_gal(tmp_path):
+    """A number that could be gal, g or m/s² is refused; with its unit, or where all is SI, it is taken."""
+    (tmp_path / "h.csv").write_text("pga_gal,annual_rate\n100,0.01\n400,0.001\n", encoding="utf-8")
+    gal = read_hazard(tmp_path / "h.csv")
+    with pytest.raises(UnitError, match="has no unit, and the hazard is not in SI"):
+        fragility_in(gal, "300", 0.4)
+    assert fragility_in(gal, "300gal", 0.4).curve == Lognormal(3.0, 0.4)
+    assert fragility_in(gal, "0.5 g", 0.4).curve.median == pytest.approx(4.903325)
+    assert fragility_in(site(), "0.6", 0.4).curve == fragility_in(site(), "60 kine", 0.4).curve
+    with pytest.raises(UnitError, match="unknown unit 'gal'"):
+        fragility_in(site(), "0.6gal", 0.4)
+    with pytest.raises(ParameterError, match="median of a fragility must be positive"):
+        fragility_in(site(), "-0.6", 0.4)
+
+
+def written(tmp_path, **changed):
+    """Write a document as `seisblock fragility --json` does, in so far as it is read."""
+    entry = {"body": "stone", "limit": "overturn", "im": "pgv", "unit": "m/s", "median": 0.5, "beta": 0.3} | changed
+    (tmp_path / "f.json").write_text(json.dumps({"schema": "seisblock/fragility/1", "results": [entry]}), encoding="utf-8")
+    return tmp_path / "f.json"
+
+
+def test_a_fragility_is_read_back(tmp_path):
+    """Its body, limit and curve; what is in another measure than the hazard is refused."""
+    (found,) = read_fragility(written(tmp_path))
+    assert (found.body, found.limit, found.curve) == ("stone", "overturn", Lognormal(0.5, 0.3))
+    assert matching((found,), site()) == (found,)
+    with pytest.raises(ParameterError, match=r"the fragility is in sa=0\.5 and the hazard in pgv"):
+        matching(read_fragility(written(tmp_path, im="sa=0.5", unit="m/s^2")), site())
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [{"median": "0.5"}, {"beta": -1.0}, {"unit": "cm/s"}, {"im": "pgx"}, {"median": None}],
+    ids=str,
+)
+def test_a_damaged_document_is_one_sentence(damage, tmp_path):
+    """Other types, other units, no curve."""
+    with pytest.raises(ParameterError, match=r"f\.json (is a damaged document|holds no curve)"):
+        read_fragility(written(tmp_path, **damage))
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"schema": "seisblock/rock/1"}', "[" * 100_000, "\0"], ids=len)
+def test_what_is_no_document_is_one_sentence(text, tmp_path):
+    """Empty, another command's, nested without end."""
+    (tmp_path / "f.json").write_text(text, encoding="utf-8")
+    with pytest.raises(ParameterError, match=r"f\.json is (no JSON document|not a document)"):
+        read_fragility(tmp_path / "f.json")
+
+
+def test_the_bundled_hazard_is_what_its_script_makes():
+    """Synthetic, and says so."""
+    assert make_hazard.make().encode() == sample_path(make_hazard.NAME).read_bytes()
+    assert "SYNTHETIC" in make_hazard.HEADER
