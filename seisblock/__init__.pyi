@@ -63,6 +63,9 @@ from .solvers.uplift.solve import solve_uplift
 from .studies.batch.run import run_batch
 from .studies.batch.table import BatchTable
 from .studies.cemetery.rate import Rate, overturning_rate, rate_curve
+from .studies.fit.experiment import Observed
+from .studies.fit.fit import BlockFit, fit_block
+from .studies.fit.table import Outcomes, read_outcomes
 from .studies.fragility.answer import Fragility, FragilityStudy
 from .studies.fragility.lognormal import Lognormal, fit_fragility
 from .studies.fragility.run import run_fragility
@@ -91,6 +94,7 @@ __all__ = [
     "AzimuthFate",
     "BatchTable",
     "Block",
+    "BlockFit",
     "bodies",
     "BodyError",
     "Cemetery",
@@ -116,6 +120,7 @@ __all__ = [
     "fit_fragility",
     "Fragility",
     "FragilityStudy",
+    "fit_block",
     "from_slenderness",
     "GivenFragility",
     "Hazard",
@@ -147,6 +152,8 @@ __all__ = [
     "ModeMap",
     "motion_of",
     "natural_modes",
+    "Observed",
+    "Outcomes",
     "OutputError",
     "overturning_card",
     "overturning_rate",
@@ -166,6 +173,7 @@ __all__ = [
     "read_cemetery",
     "read_fragility",
     "read_hazard",
+    "read_outcomes",
     "readers",
     "Preparation",
     "Record",

@@ -48,6 +48,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "batch": ("seisblock.cli.batch:batch", "Many records and many bodies: one table, on all cores or a cluster."),
     "fragility": ("seisblock.cli.fragility:fragility", "How likely an object falls, slides or rocks, against the shaking's intensity."),
     "risk": ("seisblock.cli.risk:risk", "How often it happens at a site: a fragility and the hazard there."),
+    "fit": ("seisblock.cli.fit:fit", "The block that explains which shakings made it fall, and how well it foretells others."),
     "report": ("seisblock.cli.report:report", "One page about a record and what it does to some bodies."),
     "validate": ("seisblock.cli.validate:validate", "What the papers print, and what this machine computes."),
     "cite": ("seisblock.cli.cite:cite", "The papers an answer relies on, as text or BibTeX."),

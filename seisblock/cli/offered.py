@@ -47,6 +47,11 @@ def cemeteries(ctx: click.Context, param: click.Parameter, incomplete: str) -> l
     return [*_items(_bundled(incomplete, "cemetery")), CompletionItem(incomplete, type="file")]
 
 
+def outcomes(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the bundled tables of outcomes, and files."""
+    return [*_items(_bundled(incomplete, "outcomes")), CompletionItem(incomplete, type="file")]
+
+
 def bodies(*kinds: str) -> Completion:
     """Return what offers the bundled bodies of some kinds (all of them when left out), and files."""
 

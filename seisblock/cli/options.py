@@ -176,6 +176,11 @@ def record_options(function: Function) -> Function:
     return _collected(function, _RECORD_OPTIONS, Source, "source")
 
 
+def preparing_options(function: Function) -> Function:
+    """Give a command the options that prepare records that it is told of otherwise; it receives one ``source``, of no record."""
+    return _collected(function, _RECORD_OPTIONS[1:], Source, "source", record=())
+
+
 def output_options(*, histories: bool = True, film: bool = True, accelerations: bool = True) -> Callable[[Function], Function]:
     """Return what gives a command the options that say where the answer goes; it receives one ``output``.
 
@@ -217,13 +222,13 @@ def gravity_option(function: Function) -> Function:
     )(function)
 
 
-def _collected(function: Function, declarations: tuple[Any, ...], kind: Any, name: str) -> Function:
-    """Gather a family of options into one argument."""
+def _collected(function: Function, declarations: tuple[Any, ...], kind: Any, name: str, **known: Any) -> Function:
+    """Gather a family of options, and what is known beside them, into one argument."""
     names = [field.name for field in fields(kind)]
 
     @functools.wraps(function)
     def gathered(*args: Any, **kwargs: Any) -> Any:
-        chosen = kind(**{key: kwargs.pop(key) for key in names if key in kwargs})
+        chosen = kind(**{key: kwargs.pop(key) for key in names if key in kwargs}, **known)
         with quietly(getattr(chosen, "quiet", None)):
             return function(*args, **{name: chosen}, **kwargs)
 

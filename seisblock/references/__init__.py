@@ -37,6 +37,7 @@ RESTS_ON: dict[str, tuple[str, ...]] = {
     "gravestones as fitted": ("Furukawa2009",),
     "gravestones as blocks": ("Furukawa2009", "Housner1963"),
     "intensity of a velocity": ("Midorikawa1999",),
+    "fit": ("AndrieuRoberts2009", "Cornuet2012", "Richtmyer1951", "Brier1950"),
     "fragility": ("Baker2015", "Vamvatsikos2002", "LucoCornell2007", "DimitrakopoulosParaskeva2015", "Lilliefors1967", "SuWei1991"),
     "risk": ("Cornell2002",),
 }
@@ -75,5 +76,6 @@ CITED: dict[str, tuple[str, ...]] = {
     "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),
     "infer": papers("gravestones as fitted", "gravestones as blocks", "intensity of a velocity", "sliding", "jump"),
     "stack": papers("pile"),
+    "fit": papers("rocking", "fit"),
 }
 """What the answers of each command rely on unless options ask for more; one answer's own list stands in its document."""

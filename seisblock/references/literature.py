@@ -258,5 +258,36 @@ LITERATURE = (
         "Journal of Structural Engineering, ASCE, 128(4), 526-533",
         doi="10.1061/(ASCE)0733-9445(2002)128:4(526)",
     ),
+    Reference(
+        "AndrieuRoberts2009",
+        "Andrieu, C. and Roberts, G. O.",
+        2009,
+        "The pseudo-marginal approach for efficient Monte Carlo computations",
+        "Annals of Statistics, 37(2), 697-725",
+        doi="10.1214/07-AOS574",
+    ),
+    Reference(
+        "Cornuet2012",
+        "Cornuet, J.-M. and Marin, J.-M. and Mira, A. and Robert, C. P.",
+        2012,
+        "Adaptive multiple importance sampling",
+        "Scandinavian Journal of Statistics, 39(4), 798-812",
+        doi="10.1111/j.1467-9469.2011.00756.x",
+    ),
+    Reference(
+        "Richtmyer1951",
+        "Richtmyer, R. D.",
+        1951,
+        "The evaluation of definite integrals, and a quasi-Monte-Carlo method based on the properties of algebraic numbers",
+        "Report LA-1342, Los Alamos Scientific Laboratory",
+        kind="techreport",
+    ),
+    Reference(
+        "Brier1950",
+        "Brier, G. W.",
+        1950,
+        "Verification of forecasts expressed in terms of probability",
+        "Monthly Weather Review, 78(1), 1-3",
+    ),
 )
 """In the order in which the program came to rely on them."""

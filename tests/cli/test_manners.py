@@ -187,7 +187,7 @@ def examples(name):
     return [line for line in lines if line]
 
 
-SECONDS = ("report", "stack", "validate")
+SECONDS = ("fit", "report", "stack", "validate")
 """Commands some of whose examples take seconds."""
 
 

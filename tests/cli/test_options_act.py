@@ -22,6 +22,7 @@ IN_GAL = {
     "criteria": (*SHORT, *BLOCK),
     "body": ("boulder.ply", "--inset", "1cm"),
     "overturn-rate": ("--cemetery", "aoyama.csv", "--pga", "300", "--frequency", "1"),
+    "fit": ("shaken_block.csv", *BLOCK, "--free", "alpha", "--scatter", "0.05", "--lapse", "0.02", "--runs", "1"),
     "infer": (*SHORT, "--slid", "5cm", "--mu", "0.3", "--limit", "1", "--steps", "5"),
 }
 """A short line of each command whose answer or figure holds an acceleration."""

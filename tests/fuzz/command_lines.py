@@ -94,6 +94,11 @@ FITTING: dict[str, Sequence[str]] = {
     "settle": ("1", "0", "1e9"),
     "limit": ("1.5",),
     "confidence": ("0.9", "1", "90"),
+    "outcomes": ("outcomes.csv", "outcomes.csv", "stones.csv", "small.csv", "empty.csv"),
+    "free": ("alpha", "p", "inset", "alpha,p", "none", "mu"),
+    "bounds": ("alpha=0.1:0.5", "p=2:8", "alpha=1", "inset=0:0.6"),
+    "scatter": ("0.05", "0"),
+    "folds": ("2", "3", "9"),
 }
 """By the name of the option; others are lengths, shares or whole numbers, by their kind."""
 
@@ -109,10 +114,11 @@ COMMONLY = {
     "infer": ["--slid", "5cm", "--mu", "0.2"],
     "overturn-rate": ["--cemetery", "aoyama.csv"],
     "report": ["-o", "out.html"],
+    "fit": ["--block", "gravestone", "--free", "alpha", "--runs", "1", "--component", "NS"],
 }
 """Words that most lines have, so that the dice come past the first question."""
 
-SLOW = {"validate", "report"}
+SLOW = {"validate", "report", "fit"}
 """Commands of a second and more: the dice meet them seldom."""
 
 
@@ -128,6 +134,8 @@ def write_files(folder: Path, knet: str) -> None:
     (folder / "cut.csv").write_text(table[: len(table) // 2])
     (folder / "empty.csv").write_text("")
     (folder / "stones.csv").write_text("height (cm),width (cm),fallen,count\n" + "".join(f"{40 + 4 * i},22,{i % 2},2\n" for i in range(12)))
+    shaken = (f"{name},{scale},{scale // 2}\n" for name in ("small.csv", "counts.knt", "nowhere.csv") for scale in range(4))
+    (folder / "outcomes.csv").write_text("record,scale,fell\n" + "".join(shaken))
     (folder / "body.toml").write_text(
         'kind = "block"\nname = "\x24x_{\x24 [bold]"\nwidth = "24cm"\nheight = 0.7\nmu = 0.4\nrestitution = 0.9\n'
     )

@@ -17,6 +17,7 @@ from seisblock import (
     SpringBlock,
     TwoLayerBlock,
     find_risk,
+    fit_block,
     read_hazard,
     solve_jump,
     solve_respond,
@@ -36,6 +37,7 @@ from seisblock.present.figures import (
     cemetery,
     criteria,
     field_test,
+    fit,
     infer,
     inputs,
     mode_map,
@@ -66,6 +68,7 @@ from seisblock.studies.standing.azimuths import respond_directions
 from seisblock.studies.standing.mode_map import mode_map as map_of_modes
 from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_region
 from seisblock.validation.furukawa_surveys import SURVEYS
+from tests.fit.conftest import shaken
 
 DT, SAMPLES = 0.01, 30_000
 
@@ -195,6 +198,12 @@ def criterion():
     return CriterionStudy(thresholds, levels, fit), {f: 0.9 * level for f, level in levels.items()}, scaled
 
 
+@functools.cache
+def fitted_block():
+    """Return the block that explains what one did under twelve pulses."""
+    return fit_block(shaken(12, 0), runs=1)
+
+
 def of_models():
     """Yield the figure of each model, of one direction and of two."""
     for model in FACES:
@@ -259,6 +268,7 @@ OF_NO_RECORD = {
         lambda gal: stack_criterion.figure(*criterion(), reinforced=False, gal=gal),
     ),
     "risk": (risk.figure, lambda gal: risk.figure(*risks(), gal=gal)),
+    "fit": (fit.fit_figure, lambda gal: fit.fit_figure(fitted_block(), "shaken.csv", gal=gal)),
     "field test": (field_test.figure, lambda _: field_test.figure()),
     "response spectrum": (
         inputs.response_spectrum_figure,

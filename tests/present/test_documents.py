@@ -58,6 +58,7 @@ EVERY = (
     "fragility synthetic_jma elcentro_1940_ns.csv --width 30cm --height 1.2 --solver rock --im pgv,pga --limit rock,overturn --levels "
     "10,20,30,40,50,60,80,160 --perturb 4 --bootstrap 20 --compare 50,0.4",
     "fragility synthetic_jma elcentro_1940_ns.csv synthetic_knet.EW --mu 0.1 --solver slide --steps 16 --method ida --bootstrap 20",
+    "fit shaken_block.csv --width 227mm --height 891mm --free alpha --scatter 0.05 --lapse 0.02 --runs 4",
     "validate --paper Tsutsui",
     "risk --median 60cm/s --beta 0.4 --hazard synthetic_hazard.csv --stood 1000",
     "cite jump",
@@ -79,6 +80,7 @@ PURE_NUMBERS = re.compile(
     | beta_(interval|alone|record_to_record|parameter|sum) | perturb | bootstrap
     | (fallen|standing|stones_saved|overturned|moved|agreement|grid)
     | years | value | weight(_after)? | levels | median | im_(from|to) | annual_rate(s|_after)? | beyond_levels_share  # units beside
+    | (.*accuracy|.*brier|log_score|coefficient|weight|scatter|low|high|folds|outcomes|effective_blocks)
     )$""",
     re.VERBOSE,
 )

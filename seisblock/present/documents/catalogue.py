@@ -29,6 +29,7 @@ KINDS: dict[str, tuple[str, ...]] = {
     "batch": ("batch:BATCH",),
     "fragility": ("fragility:FRAGILITY",),
     "risk": ("risk:RISK",),
+    "fit": ("fit:FIT",),
     "validate": ("validate:VALIDATE",),
     "cite": ("library:CITE",),
     "samples": ("library:SAMPLES",),

@@ -16,6 +16,7 @@ VERSIONS = {
     "batch": 1,
     "fragility": 1,
     "risk": 1,
+    "fit": 1,
     "validate": 1,
     "cite": 1,
     "samples": 1,

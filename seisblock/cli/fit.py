@@ -1,0 +1,188 @@
+"""``seisblock fit``: the block that explains what fell under which shaking."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import click
+
+from seisblock.cli import offered
+from seisblock.cli.bodies.options import block_options
+from seisblock.cli.command import Command, argument, option
+from seisblock.cli.emit import emit
+from seisblock.cli.options import Source, gravity_option, output_options, preparing_options
+from seisblock.cli.output import Output
+from seisblock.cli.types import Count
+from seisblock.errors import ParameterError
+from seisblock.words import noted, tell
+
+SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "block")
+"""Options that describe a body."""
+
+
+def _names(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...] | None:
+    """Accept the option repeated, and lists with commas; None where it is not there."""
+    names = tuple(part.strip() for text in value for part in text.split(",") if part.strip())
+    return () if names == ("none",) else names or None
+
+
+def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> dict[str, tuple[float, float]]:
+    """Accept ``NAME=LOW:HIGH``, repeated."""
+    found = {}
+    for text in value:
+        name, _, ends = text.partition("=")
+        try:
+            low, high = (float(end) for end in ends.split(":"))
+        except ValueError:
+            low = high = math.nan
+        if not (name.strip() and math.isfinite(low) and math.isfinite(high)):
+            raise click.BadParameter(tell("{text!r} is not NAME=LOW:HIGH, for example alpha=0.1:0.5", text=text), ctx, param)
+        found[name.strip()] = low, high
+    return found
+
+
+@click.command(
+    cls=Command,
+    examples=(
+        "seisblock fit shaken_block.csv --free alpha,p --plot fit.png",
+        "seisblock fit shaken_block.csv --width 26cm --height 90cm --free inset --scatter 0.05",
+    ),
+)
+@argument(
+    "outcomes",
+    metavar="OUTCOMES",
+    section="Record",
+    shell_complete=offered.outcomes,
+    help="Table (.csv): record, a file beside it; fell or moved, 0 or 1; where needed weight, component, scale. Bundled: shaken_block.csv.",
+)
+@preparing_options
+@option(
+    "--outcome",
+    type=click.Choice(["fell", "moved"]),
+    help="Which column counts, where there are both. [default: fell]",
+)
+@option(
+    "--free",
+    multiple=True,
+    callback=_names,
+    metavar="NAME[,NAME...]",
+    help="What is looked for: alpha, p, restitution, inset; or none. [default: what is not given: alpha and p, or a body's inset; and "
+    "the restitution]",
+)
+@block_options
+@option(
+    "--restitution",
+    type=float,
+    metavar="E",
+    section="Body",
+    help="Angular velocity after an impact over that before, a ratio, 0 to 1, where it is not looked for. [default: 1 - 1.5 sin^2(alpha)]",
+)
+@option(
+    "--bounds",
+    multiple=True,
+    callback=_bounds,
+    metavar="NAME=LOW:HIGH",
+    help="Bounds of alpha, rad, p, rad/s, restitution, inset or scatter, shares, of 1; may be repeated. "
+    "[default: alpha=0.03:1, p=1:25, restitution=0.3:0.99, inset=0:0.45, scatter=0.01:0.2]",
+)
+@option(
+    "--scatter",
+    type=float,
+    metavar="SHARE",
+    help="Half width of the changes from run to run, a share of size, slenderness, restitution and amplitude. [default: looked for]",
+)
+@option("--lapse", type=float, metavar="SHARE", help="Share of the outcomes that follow no model. [default: looked for]")
+@option("--vertical/--no-vertical", default=False, help="Let the vertical component act, too. [default: horizontal motion alone]")
+@option(
+    "--folds",
+    type=Count(noted("folds"), "SEISBLOCK_VALUES", least=2),
+    metavar="K",
+    help="Parts into which the records are dealt, each foretold by the others. [default: 5]",
+)
+@option("--confidence", type=float, default=0.9, show_default=True, help="Level of the intervals, 0 to 1.")
+@option(
+    "--runs",
+    type=Count(noted("versions"), "SEISBLOCK_RUNS"),
+    default=16,
+    show_default=True,
+    help="Versions of each block under each record: 1, 2, 4, 8, 16, 32 or 64.",
+)
+@option("--seed", type=int, default=0, show_default=True, help="Seed of what is drawn.")
+@gravity_option
+@output_options(histories=False, film=False)
+def fit(outcomes: str, source: Source, output: Output, **asked: Any) -> None:
+    """Find the block that explains under which records it fell and under which it stood.
+
+    Its slenderness alpha, frequency parameter p, restitution and worn edges, whichever are asked for, with their intervals; and how well
+    records are foretold by blocks that were found without them.
+    """
+    from seisblock.cli.progress import progress
+    from seisblock.present.documents.fit import document
+    from seisblock.present.text import fit as shown
+    from seisblock.studies.fit.fit import fit_block
+
+    observed = _read(outcomes, source, asked.pop("outcome"))
+    block, inset, restitution = _body(asked)
+    told = {key: asked[key] for key in ("free", "bounds", "scatter", "lapse", "vertical", "folds", "runs", "seed", "gravity")}
+    with progress("records followed") as advance:
+        found = fit_block(
+            observed,
+            kind=observed.kind,
+            block=block,
+            inset=inset,
+            restitution=restitution,
+            level=asked["confidence"],
+            progress=advance,
+            **told,
+        )
+    answer = document(found, observed, block, outcomes, vertical=told["vertical"], gravity=told["gravity"])
+
+    def figure() -> Any:
+        from seisblock.present.figures.fit import fit_figure
+
+        return fit_figure(found, Path(outcomes).name, gal=output.gal)
+
+    def csv(path: Path) -> None:
+        from seisblock.present.files import write_table
+
+        write_table(path, *shown.columns(found, observed))
+
+    emit(answer, output, tables=lambda: shown.tables(found, observed, Path(outcomes).name), figure=figure, csv=csv)
+
+
+def _read(outcomes: str, source: Source, kind: str | None) -> Any:
+    """Return the outcomes of the table with their records."""
+    from seisblock.cli.inputs import preparation_of, refuse_windows
+    from seisblock.cli.progress import progress
+    from seisblock.readers.dispatch import Options
+    from seisblock.studies.fit.table import read_outcomes
+
+    refuse_windows(source)
+    if len(source.component) > 1:
+        raise ParameterError("one component is shaken, found {names}: name others in a column `component`", names=list(source.component))
+    with progress("reading {names}", names=[Path(outcomes).name]) as advance:
+        return read_outcomes(
+            outcomes,
+            kind=kind,
+            component=source.component[0] if source.component else None,
+            preparation=preparation_of(source, source.component),
+            reading=Options(source.format, source.units, source.dt, source.station, source.level),
+            strict=source.strict,
+            progress=advance,
+        )
+
+
+def _body(asked: dict[str, Any]) -> tuple[Any, Any, float | None]:
+    """Return the block that is described, if any, the inset where it is given, and the restitution that is given or that a file brings."""
+    from seisblock.cli.bodies.block import choose_block
+    from seisblock.cli.talk import say
+
+    if all(asked[key] is None for key in SIZES):
+        return None, asked["inset"], asked["restitution"]
+    looked_for = asked["free"] or ()
+    chosen = choose_block(asked)
+    say("body: {says}", says=chosen.says)
+    # what a body's file brings along does not stand in the way of what is looked for
+    return chosen.block, asked["inset"], asked["restitution"] if "restitution" in looked_for else chosen.restitution

@@ -1,0 +1,291 @@
+"""The block that explains which shakings made it fall: its parameters with their intervals, and how well it foretells the others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock import checks
+from seisblock.bodies.block import Block
+from seisblock.bodies.inset import Inset
+from seisblock.errors import ParameterError
+from seisblock.limits import check_budget
+from seisblock.records.given import Factor
+from seisblock.studies.fit.axes import ALPHA, FREE, INSET, RESTITUTION, Axis, Bounds, axes_for
+from seisblock.studies.fit.axes import P as FREQUENCY
+from seisblock.studies.fit.blocks import Family, fixed_values
+from seisblock.studies.fit.experiment import FELL, Experiment, Observed, check_folds, dealt, experiment_of, peaks_of
+from seisblock.studies.fit.held_out import HeldOut, foretold, foretold_without, scores
+from seisblock.studies.fit.likelihood import lapses, log_likelihood
+from seisblock.studies.fit.posterior import explore
+from seisblock.studies.fit.remarks import remarks_on
+from seisblock.studies.fit.runs import LEVELS
+from seisblock.studies.fit.summary import Correlation, Marginal, correlations, marginals
+from seisblock.typing import FloatArray, Progress
+from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
+
+LEVEL = 0.9
+"""Of the intervals, unless another is asked for."""
+
+RUNS = 16
+"""Versions of each block under each shaking."""
+
+FOLDS = 5
+"""Parts into which records are dealt, where there are as many."""
+
+SHOWN = 2000
+"""Blocks that stand for all that explain what was seen."""
+
+
+@dataclass(frozen=True, eq=False)
+class BlockFit:
+    """Which blocks explain what was seen.
+
+    Parameters
+    ----------
+    experiment : Experiment
+    axes : tuple of Axis
+        What was looked for, and between which bounds.
+    fixed : mapping of str to float or None
+        What was not: alpha in rad, p in rad/s, else shares; a restitution of None is that of angular momentum.
+    level : float, 1
+        Of the intervals.
+    marginals : tuple of Marginal
+        What is known of each parameter, of alpha and p as it turns where its edges are worn, and of the share of lapses.
+    correlations : tuple of Correlation
+        Of each two parameters.
+    block : Block
+        In the middle of those that explain what was seen.
+    restitution : float or None, 1
+        Of that block; None: that of angular momentum.
+    probability : (n,) array, 1
+        That each outcome happens, by all of them.
+    probability_held_out : (n,) array or None, 1
+        The same by the outcomes of other folds; None where there is one record only.
+    held_out : HeldOut or None
+    pga_m_s2, pgv_m_s : (n,) arrays, m/s^2 and m/s
+        Peaks of each shaking, the velocity's on the baseline of `measure`.
+    draws : mapping of str to (k,) arrays
+        Parameters of blocks that are equally good, for figures and further use; in rad, rad/s or shares.
+    blocks : int
+        How many blocks were looked at closely.
+    effective_blocks : float, 1
+        How many equally good ones they amount to.
+    runs : int
+        Versions of each under each shaking.
+    seed : int
+    warnings : tuple of str
+    """
+
+    experiment: Experiment
+    axes: tuple[Axis, ...]
+    fixed: dict[str, float | None]
+    level: float
+    marginals: tuple[Marginal, ...]
+    correlations: tuple[Correlation, ...]
+    block: Block
+    restitution: float | None
+    probability: FloatArray
+    probability_held_out: FloatArray | None
+    held_out: HeldOut | None
+    pga_m_s2: FloatArray
+    pgv_m_s: FloatArray
+    draws: dict[str, FloatArray]
+    blocks: int
+    effective_blocks: float
+    runs: int
+    seed: int
+    warnings: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> Marginal:
+        """Return what is known of a parameter."""
+        for each in self.marginals:
+            if each.name == name:
+                return each
+        raise ParameterError("nothing was looked for that is called {name!r}; what was: {known}", name=str(name)[:100], known=self.known)
+
+    @property
+    def known(self) -> list[str]:
+        """The names of what was looked for."""
+        return [each.name for each in self.marginals]
+
+
+def fit_block(
+    outcomes: Iterable[Observed],
+    *,
+    kind: str = FELL,
+    free: Sequence[str] | None = None,
+    block: Block | None = None,
+    restitution: float | None = None,
+    inset: float | Inset | None = None,
+    bounds: Bounds | None = None,
+    scatter: float | None = None,
+    lapse: float | None = None,
+    vertical: Factor = False,
+    gravity: float = STANDARD_GRAVITY,
+    folds: int | None = None,
+    level: float = LEVEL,
+    runs: int = RUNS,
+    seed: int = 0,
+    progress: Progress | None = None,
+) -> BlockFit:
+    """Return which blocks explain under which shakings one fell and under which it stood ([Housner1963]_ block; likelihood derived here).
+
+    A planar block that rocks about two edges, alike every time but for small changes of size, slenderness, restitution, amplitude and
+    azimuth of as yet unknown width; an outcome in so many follows no model. See :mod:`seisblock.studies.fit.likelihood`.
+
+    Parameters
+    ----------
+    outcomes : sequence of Observed
+    kind : "fell" or "moved"
+        What happened or not; a block has moved when it rocked. That tells of alpha and the inset alone.
+    free : sequence of str
+        What is looked for, of ``alpha``, ``p``, ``restitution`` and ``inset``. Left out: what is not given, alpha and p without a block,
+        the inset with one, and the restitution. alpha and p are those of sharp edges; without an inset, of the block as it turns.
+    block : Block
+        The drawing; needed unless alpha and p are both looked for.
+    restitution : float, 1
+        Of every impact, [0, 1]; left out and not looked for, what angular momentum leaves.
+    inset : float or Inset
+        How far the edges are worn, per side, a share of the width or with its length; the block's own when left out.
+    bounds : mapping of str to (float, float)
+        Between which a parameter is looked for; alpha in rad, p in rad/s, else shares. Everything between is equally likely before (p: its
+        logarithm).
+    scatter : float, 1
+        Half width of the changes, a share, and 100 times as many degrees; looked for, between 0.01 and 0.2, when left out.
+    lapse : float, 1
+        Share of outcomes that follow no model; looked for, 0.1 in the mean before, when left out.
+    vertical : bool or float
+        Whether the vertical component acts, or a factor on it.
+    gravity : float, m/s^2
+    folds : int
+        Parts into which the records are dealt, each of which is foretold by the others; 5, or as many as there are records, when left out.
+    level : float, 1
+        Of the intervals, between 0 and 1.
+    runs : int
+        Versions of each block under each shaking: 1, 2, 4 ... 64.
+    seed : int
+    progress : callable
+        Told the number of shakings followed and the number in all, as far as that can be known.
+
+    Returns
+    -------
+    BlockFit
+
+    Raises
+    ------
+    KindError, ParameterError
+        If there is no outcome, a parameter is unknown, neither looked for nor given, or a number is out of range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock import Motion
+    >>> time = np.linspace(0.0, 1.0, 101)
+    >>> pulses = [Motion.from_arrays(peak * np.sin(2.0 * np.pi * time), 0.01) for peak in (2.0, 3.0, 4.0, 5.0, 6.0, 7.0)]
+    >>> seen = [Observed(pulse, fell) for pulse, fell in zip(pulses, [False, False, False, True, True, True])]
+    >>> found = fit_block(seen, block=Block(0.24, 0.8), free=["inset"], folds=3)
+    >>> found["inset"].interval[0] < 0.2, found.held_out.folds
+    (True, 3)
+    """
+    experiment = experiment_of(outcomes, kind)
+    given = None if block is None else checks.instance(block, Block)
+    if inset is not None and given is not None:
+        given = given.worn(inset)
+    share = _share(given, inset)
+    family = _family(free, given, share, restitution, inset is not None, bounds or {}, scatter, vertical, gravity)
+    checks.within("the level of the intervals", level, "(0, 1)")
+    if lapse is not None:
+        checks.within("the share of lapses", lapse, "[0, 1)")
+    _check_runs(runs)
+    parts = min(FOLDS, experiment.records) if folds is None else check_folds(folds, experiment)
+    guessed = lapses(lapse)
+    deal = dealt(experiment.records, parts, checks.seed(seed))
+    sampled, effective = explore(experiment, family, guessed, deal[experiment.record], runs=runs, seed=seed, progress=progress)
+    weights = np.exp(sampled.log_weights(log_likelihood(sampled.shares, *experiment.counted(), guessed)))
+    weights /= weights.sum()
+    of_blocks = weights.sum(axis=0)
+    pga, pgv = peaks_of(experiment)
+    held, without = None, None
+    if parts > 1:
+        without, fewest = foretold_without(experiment, sampled, guessed, deal)
+        held = scores(experiment, without, pgv, deal, fewest)
+    known = marginals(family, sampled.places, weights, guessed, level)
+    together = correlations(family, sampled.places, of_blocks)
+    middle = (of_blocks @ sampled.places)[None, :]
+    chosen = np.random.default_rng([seed, 2]).choice(len(of_blocks), SHOWN, p=of_blocks)
+    return BlockFit(
+        experiment,
+        family.axes,
+        dict(fixed_values(family)),
+        level,
+        known,
+        together,
+        family.block_at(middle),
+        float(family.values(middle)[RESTITUTION][0]) if RESTITUTION in family.names else restitution,
+        foretold(experiment, sampled, guessed),
+        without,
+        held,
+        pga,
+        pgv,
+        family.values(sampled.places[chosen]),
+        len(sampled.places),
+        effective,
+        runs,
+        seed,
+        tuple(remarks_on(experiment, known, together, held, effective)),
+    )
+
+
+def _share(block: Block | None, inset: float | Inset | None) -> float:
+    """Return how far edges are worn, a share of the width per side."""
+    if block is not None:
+        return block.inset / block.width
+    worn = inset if isinstance(inset, Inset) else Inset(share=0.0 if inset is None else inset)
+    if worn.length_m:
+        raise ParameterError("an inset of a length needs a `block` with a width; give a share of the width, such as 0.1")
+    worn.of(1.0)
+    return worn.share
+
+
+def _family(
+    free: Sequence[str] | None,
+    block: Block | None,
+    inset: float,
+    restitution: float | None,
+    worn: bool,
+    bounds: Bounds,
+    scatter: float | None,
+    vertical: Factor,
+    gravity: float,
+) -> Family:
+    """Return the blocks among which one is looked for, or refuse what cannot be."""
+    if free is None:
+        unknown = {ALPHA: block is None, FREQUENCY: block is None, RESTITUTION: restitution is None, INSET: block is not None and not worn}
+        free = [name for name in FREE if unknown[name]]
+    names = [free] if isinstance(free, str) else list(free)
+    axes = axes_for(names, bounds, scatter=scatter, block=block)
+    if not axes:
+        raise ParameterError("there is nothing to look for: name one of {known} as `free`", known=list(FREE))
+    if block is None and not {ALPHA, FREQUENCY} <= set(names):
+        missing = [name for name in (ALPHA, FREQUENCY) if name not in names]
+        raise ParameterError("{missing} must be looked for (`free`) or given: give the `width` and `height` of a block", missing=missing)
+    for name, is_given in ((RESTITUTION, restitution is not None), (INSET, worn)):
+        if name in names and is_given:
+            raise ParameterError("the {name} is looked for (`free`) and given at once: leave one out", name=name)
+    if restitution is not None:
+        checks.fraction("the restitution, a ratio of angular velocities,", restitution)
+    if scatter is not None:
+        checks.within("the scatter, a share,", scatter, "[0, 1)")
+    return Family(axes, block, restitution, inset, scatter or 0.0, vertical, checks.gravity(gravity))
+
+
+def _check_runs(runs: int) -> None:
+    """Refuse a number of versions that shares are not kept of."""
+    count = checks.whole("the number of runs", runs, least=1)
+    if count > LEVELS or count & (count - 1):
+        raise ParameterError("the number of runs must be one of 1, 2, 4, 8, 16, 32, 64; found {found}", found=count)
+    check_budget(noted("versions"), count, "SEISBLOCK_RUNS")

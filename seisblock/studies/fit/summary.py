@@ -1,0 +1,135 @@
+"""What weighted blocks say of each parameter: its middle, its interval, and how much more is known of it than before."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+
+from seisblock.studies.fit.axes import ALPHA, INSET, LAPSE, RESTITUTION, SCATTER, P
+from seisblock.studies.fit.blocks import Family
+from seisblock.studies.fit.likelihood import LAPSE_STEPS, Lapses
+from seisblock.typing import FloatArray
+from seisblock.words import noted
+
+TURNING_ALPHA, TURNING_P = "turning_alpha", "turning_p"
+"""alpha and p as the block turns, its edges worn, where alpha and p themselves are of sharp edges."""
+
+WORDS = {
+    ALPHA: noted("alpha"),
+    P: noted("p"),
+    RESTITUTION: noted("restitution"),
+    INSET: noted("inset"),
+    TURNING_ALPHA: noted("alpha as it turns"),
+    TURNING_P: noted("p as it turns"),
+    SCATTER: noted("scatter"),
+    LAPSE: noted("lapses"),
+}
+"""Parameters as sentences call them."""
+
+BEFORE = 20_000
+"""Blocks that stand for what was thought before."""
+
+TOLD = 0.5
+"""An interval that is less narrow than this, of what it was before, was hardly told by the outcomes."""
+
+BOUND_TOGETHER = 0.9
+"""Parameters that are correlated by more than this cannot be told apart."""
+
+
+@dataclass(frozen=True)
+class Marginal:
+    """What is known of one parameter.
+
+    Parameters
+    ----------
+    name : str
+    median : float
+        alpha in rad, p in rad/s, else shares of 1.
+    interval, before : (float, float)
+        Interval of the level asked for, and that before anything was seen, in the same unit.
+    narrowed : float, 1
+        Ratio of the former's width to the latter's: near 1 the outcomes tell nothing.
+    """
+
+    name: str
+    median: float
+    interval: tuple[float, float]
+    before: tuple[float, float]
+    narrowed: float
+
+    @property
+    def identified(self) -> bool:
+        """Whether the outcomes tell much of it."""
+        return self.narrowed < TOLD
+
+
+@dataclass(frozen=True)
+class Correlation:
+    """How two parameters go together among the blocks that explain what was seen.
+
+    Parameters
+    ----------
+    first, second : str
+    coefficient : float, 1
+        -1 to 1.
+    """
+
+    first: str
+    second: str
+    coefficient: float
+
+
+def quantiles(values: FloatArray, weights: FloatArray, shares: FloatArray) -> FloatArray:
+    """Return the values below which some shares of the weights lie; (n,), (n,) and (k,) arrays."""
+    order = np.argsort(values)
+    below = np.cumsum(weights[order])
+    middles = (below - 0.5 * weights[order]) / below[-1]
+    return np.interp(shares, middles, values[order])
+
+
+def _marginal(name: str, values: FloatArray, weights: FloatArray, before: FloatArray, level: float, *, logarithmic: bool) -> Marginal:
+    """Return what weighted values say, beside equally likely ones before."""
+    tail = 0.5 * (1.0 - level)
+    ends = np.array([tail, 0.5, 1.0 - tail])
+    low, middle, high = (float(value) for value in quantiles(values, weights, ends))
+    first, _, last = (float(value) for value in quantiles(before, np.ones(before.size), ends))
+    widths = [np.log(b / a) if logarithmic else b - a for a, b in ((low, high), (first, last))]
+    return Marginal(name, middle, (low, high), (first, last), float(widths[0] / widths[1]))
+
+
+def marginals(family: Family, places: FloatArray, weights: FloatArray, lapse: Lapses, level: float) -> tuple[Marginal, ...]:
+    """Return what is known of each parameter that is looked for.
+
+    Parameters
+    ----------
+    family : Family
+    places : (n, d) array, 1
+    weights : (l, n) array, 1
+        Of each lambda and each block.
+    lapse : Lapses
+    level : float, 1
+        Of the intervals.
+    """
+    of_blocks, of_lapses = weights.sum(axis=0), weights.sum(axis=1)
+    even = np.random.default_rng(0).random((BEFORE, len(family.axes)))
+    now, then = family.values(places), family.values(even)
+    found = [_marginal(a.name, now[a.name], of_blocks, then[a.name], level, logarithmic=a.logarithmic) for a in family.axes]
+    if family.is_worn:
+        pairs = zip((TURNING_ALPHA, TURNING_P), family.turning(places), family.turning(even), strict=True)
+        found += [_marginal(name, a, of_blocks, b, level, logarithmic=name == TURNING_P) for name, a, b in pairs]
+    if lapse.values.size == LAPSE_STEPS:
+        found.append(_marginal(LAPSE, lapse.values, of_lapses, lapse.values, level, logarithmic=False))
+    return tuple(found)
+
+
+def correlations(family: Family, places: FloatArray, weights: FloatArray) -> tuple[Correlation, ...]:
+    """Return how each two of the parameters go together; `weights` of the blocks, (n,), sum up to 1."""
+    apart = places - weights @ places
+    spread = apart.T @ (weights[:, None] * apart)
+    widths = np.sqrt(np.diag(spread))
+    pairs = itertools.combinations(range(len(family.axes)), 2)
+    return tuple(
+        Correlation(family.names[i], family.names[j], float(np.clip(spread[i, j] / (widths[i] * widths[j]), -1.0, 1.0))) for i, j in pairs
+    )
