@@ -27,14 +27,14 @@ LIMITS = {
     "SEISBLOCK_PILE_POINTS": 25,
     "SEISBLOCK_CHANGES_MIB": 256,
     "SEISBLOCK_TRANSFORM_MIB": 768,
-    "SEISBLOCK_TRIANGLES": 5_000_000,
+    "SEISBLOCK_TRIANGLES": 3_000_000,
     "SEISBLOCK_CORNERS": 10_000,
 }
 """The environment variables that lift a limit, and the limits without them: MiB read and unpacked, members of archives, archives within
 archives, samples of all components; MiB of the curves of one answer; versions of one body and factors on one motion; values of one option;
 combinations of one study; stones of a cemetery, bodies of a list, stones of a pile, each pair of which is looked at, and points along a
 side of its joints; MiB of the changes of mode of one answer, 0.1 to 0.4 kB each; MiB of a record and of the transform of so many samples
-that they cannot be transformed in parts; triangles of a scan, each of some 0.4 kB, and corners of the base of a scanned body."""
+that they cannot be transformed in parts; triangles of a scan, each of 0.5 to 0.9 kB, and corners of the base of a scanned body."""
 
 
 def limit(variable: str) -> int:

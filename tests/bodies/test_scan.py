@@ -194,6 +194,20 @@ def test_worn_edges_of_a_regular_polygon(sides):
     assert depth_within(left, (0.0, 0.0)) == pytest.approx(math.cos(math.pi / sides) - 0.1, rel=1e-9)
 
 
+def test_a_hull_keeps_what_stands_out():
+    """Of random points all corners; of a round base as many as a millionth of its size asks for, not one for each of its vertices."""
+    dice = np.random.default_rng(3)
+    towards = np.stack([np.cos(np.arange(0.0, 6.3, 0.01)), np.sin(np.arange(0.0, 6.3, 0.01))])
+    for points in (dice.normal(size=(20_000, 2)), dice.uniform(size=(300, 2))):
+        assert (hull(points) @ towards).max(axis=0) == pytest.approx((points @ towards).max(axis=0), abs=1e-6 * np.ptp(points))
+    turn = np.linspace(0.0, 2.0 * np.pi, 30_000, endpoint=False)
+    ring = np.column_stack([np.cos(turn), np.sin(turn)])
+    corners = hull(ring)
+    assert 500 < len(corners) < 5000
+    assert (corners @ towards).max(axis=0) == pytest.approx(np.ones(towards.shape[1]), abs=1e-5)
+    assert len(hull([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])) < 3
+
+
 def test_worn_edges_may_swallow_a_side():
     """A short side between two long ones is gone when they meet before it; beyond the deepest point nothing is left."""
     roof = hull([(-2.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.9, 1.1), (-2.0, 1.1)])
@@ -339,11 +353,14 @@ def test_a_file_that_is_no_mesh_is_refused_in_words(name, data, told_so, tmp_pat
 
 
 def test_what_may_be_read_has_a_limit(tmp_path, monkeypatch):
-    """Bytes and triangles, each with the variable that lifts it."""
-    path = write_stl(tmp_path / "box.stl", *BOX)
+    """Bytes and triangles, each with the variable that lifts it; counted before a triangle is made."""
     monkeypatch.setenv("SEISBLOCK_TRIANGLES", "10")
-    with pytest.raises(BodyError, match=r"16 triangles, and 10 are allowed: .* SEISBLOCK_TRIANGLES"):
-        read_mesh(path)
+    for write in (write_ply, write_obj, write_stl):
+        path = write(tmp_path / f"box.{write.__name__[-3:]}", *BOX)
+        with monkeypatch.context() as patch:
+            patch.setattr("seisblock.bodies.scan.mesh._triangles", None)
+            with pytest.raises(BodyError, match=r"16 triangles, and 10 are allowed: .* SEISBLOCK_TRIANGLES"):
+                read_mesh(path)
     monkeypatch.setenv("SEISBLOCK_READ_MIB", "1")
     path.write_bytes(path.read_bytes() + bytes(2**21))
     with pytest.raises(BodyError, match="SEISBLOCK_READ_MIB"):

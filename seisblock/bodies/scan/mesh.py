@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import io
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,9 @@ SUFFIXES = (".stl", ".ply", ".obj")
 
 UPWARD = {"x": (1, 2, 0, 1), "y": (2, 0, 1, 1), "z": (0, 1, 2, 1), "-x": (2, 1, 0, -1), "-y": (0, 2, 1, -1), "-z": (1, 0, 2, -1)}
 """For each axis of a file that may point upwards: which of its axes become x, y and z, and the sign of z; none mirrors the body."""
+
+HEAD = 2**14
+"""Bytes in which a file says what it holds."""
 
 _MIXER = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
 """Odd numbers that spread the bits of three coordinates over one."""
@@ -78,11 +82,13 @@ def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
     if up not in UPWARD:
         raise BodyError("{up!r} is no axis of a mesh: which one points upwards is one of {known}", up=str(up)[:40], known=list(UPWARD))
     data = _bytes_of(name)
-    vertices, faces = _triangles(io.BytesIO(data), str(name))
-    check_budget(noted("triangles"), len(faces), "SEISBLOCK_TRIANGLES", where=str(name), error=BodyError)
+    suffix = Path(name).suffix.lower()
+    check_budget(noted("triangles"), _announced(data, suffix), "SEISBLOCK_TRIANGLES", where=str(name), error=BodyError)
+    vertices, faces = _triangles(io.BytesIO(data), suffix, str(name))
     if faces.size == 0:
         raise BodyError("{name} holds no triangles: expected a surface, as a scanner's program exports it", name=str(name))
-    if not np.isfinite(vertices[faces]).all():
+    whole = np.isfinite(vertices[:, 0]) & np.isfinite(vertices[:, 1]) & np.isfinite(vertices[:, 2])
+    if not whole[faces].all():
         raise BodyError("{name} has vertices that are no finite numbers: export it again, without holes filled by nothing", name=str(name))
     vertices, faces = _shared(vertices * LENGTH_UNITS[unit], faces)
     first, second, third, sign = UPWARD[up]
@@ -110,14 +116,24 @@ def _bytes_of(name: str | Path) -> bytes:
     return data
 
 
-def _triangles(stream: io.BytesIO, name: str) -> tuple[FloatArray, IntArray]:
+def _announced(data: bytes, suffix: str) -> int:
+    """Return how many triangles a file says that it holds, or has room for, before any of them is made."""
+    if suffix == ".obj":
+        return data.count(b"\nf ") + data.startswith(b"f ")
+    if suffix == ".ply":
+        told = re.search(rb"element\s+face\s+(\d{1,18})\b", data[:HEAD])
+        return int(told[1]) if told else 0
+    return data.count(b"endfacet") if data[:5] == b"solid" and b"facet" in data[:HEAD] else (len(data) - 84) // 50
+
+
+def _triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatArray, IntArray]:
     """Return vertices and faces as a file has them; no other file is opened that it may name."""
     try:
         import trimesh
     except ImportError as error:
         raise BodyError("scans are read with trimesh: pip install 'seisblock[scan]'") from error
     try:
-        loaded: Any = trimesh.load_mesh(stream, file_type=Path(name).suffix[1:].lower(), process=False)
+        loaded: Any = trimesh.load_mesh(stream, file_type=suffix[1:], process=False)
         faces = np.asarray(loaded.faces, dtype=np.int64).reshape(-1, 3)
         vertices = np.asarray(loaded.vertices, dtype=np.float64).reshape(-1, 3)
         inside = faces.size == 0 or (faces.min() >= 0 and faces.max() < len(vertices))

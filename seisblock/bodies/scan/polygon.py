@@ -6,20 +6,22 @@ import math
 
 import numpy as np
 
-from seisblock.typing import ArrayLike, FloatArray
+from seisblock.typing import ArrayLike, FloatArray, IntArray
 
-DIRECTIONS = 1440
-"""A hull keeps the corners that reach furthest in one of so many directions: others change its reach by less than 3e-6 of its size."""
-
-AT_A_TIME = 2**15
+AT_A_TIME = 2**13
 """Points that are looked at at a time."""
 
-TINY = 1e-9
-"""Share of a polygon's size below which two of its corners are one."""
+MANY, COARSE = 5000, 64
+"""Of more points than the first, those that lie inside the hull of the furthest in so many directions are left out at once."""
+
+FLAT = 1e-6
+"""Share of a polygon's size by which a corner of it stands out from the line between its neighbours at least."""
 
 
 def hull(points: ArrayLike) -> FloatArray:
-    """Return the corners of the convex hull of some points, (n, 2), m, counter-clockwise; fewer than three where it has no inside.
+    """Return the corners of the convex hull of some points, (n, 2), m, counter-clockwise; two points where it has no inside.
+
+    Corners that stand out by less than a millionth of its size are left out.
 
     Parameters
     ----------
@@ -28,21 +30,58 @@ def hull(points: ArrayLike) -> FloatArray:
     Examples
     --------
     >>> hull([(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0), (1.0, 0.5)]).tolist()
-    [[2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [0.0, 0.0]]
+    [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]
     """
+    from scipy.spatial import ConvexHull, QhullError
+
     given = np.atleast_2d(np.asarray(points, dtype=np.float64))
-    # between the directions in which sides look that someone drew: no point within a side is taken for a corner
-    turn = 2.0 * math.pi / DIRECTIONS * (np.arange(DIRECTIONS) + 0.382) - 0.5 * math.pi
+    if len(given) > MANY:
+        coarse = given[_furthest(given, COARSE)]
+        given = np.concatenate([coarse, _outside(given, coarse)])
+    try:
+        corners = given[ConvexHull(given).vertices]
+    except QhullError:  # all on a line, or too few
+        return given[:2]
+    return _without_flat(corners)
+
+
+def _without_flat(corners: FloatArray) -> FloatArray:
+    """Return a polygon without the corners that hardly stand out from the line between their neighbours."""
+    least = FLAT * float(np.ptp(corners, axis=0).max())
+    while len(corners) > 3:
+        before, after = np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0)
+        chord, arm = after - before, corners - before
+        height = np.abs(chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0]) / np.linalg.norm(chord, axis=1)
+        flat = height < least
+        # of two neighbours one at a time: those with an even number first
+        even = flat & (np.arange(len(corners)) % 2 == 0)
+        flat = even if even.any() else flat
+        if not flat.any() or len(corners) - int(flat.sum()) < 3:
+            break
+        corners = corners[~flat]
+    return corners
+
+
+def _furthest(points: FloatArray, directions: int) -> IntArray:
+    """Return which points reach furthest in directions all around, counter-clockwise, each once."""
+    turn = 2.0 * math.pi / directions * np.arange(directions)
     towards = np.stack([np.cos(turn), np.sin(turn)])
-    best, chosen = np.full(DIRECTIONS, -np.inf), np.zeros(DIRECTIONS, dtype=np.int64)
-    for begin in range(0, len(given), AT_A_TIME):
-        reach = given[begin : begin + AT_A_TIME] @ towards
-        at = reach.argmax(axis=0)
-        found = reach[at, np.arange(DIRECTIONS)]
+    best, chosen = np.full(directions, -np.inf), np.zeros(directions, dtype=np.int64)
+    for begin in range(0, len(points), AT_A_TIME):
+        far = points[begin : begin + AT_A_TIME] @ towards
+        at = far.argmax(axis=0)
+        found = far[at, np.arange(directions)]
         chosen, best = np.where(found > best, begin + at, chosen), np.maximum(found, best)
-    corners = given[chosen]
-    far = np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1) > TINY * np.ptp(given, axis=0).max()
-    return corners[far]
+    return chosen[chosen != np.roll(chosen, 1)]
+
+
+def _outside(points: FloatArray, corners: FloatArray) -> FloatArray:
+    """Return the points outside a polygon of some of them: no other but its own is a corner of their hull."""
+    along = np.roll(corners, -1, axis=0) - corners
+    outwards = np.stack([along[:, 1], -along[:, 0]])
+    limits = np.einsum("ij,ji->i", corners, outwards)
+    kept = [(piece @ outwards >= limits).any(axis=1) for piece in np.array_split(points, -(-len(points) // AT_A_TIME))]
+    return points[np.concatenate(kept)]
 
 
 def reach(polygon: FloatArray, towards: ArrayLike) -> float:
@@ -72,7 +111,7 @@ def shrunk(polygon: FloatArray, by: float) -> FloatArray:
     Examples
     --------
     >>> shrunk(hull([(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)]), 0.25).round(9).tolist()
-    [[1.75, 0.25], [1.75, 0.75], [0.25, 0.75], [0.25, 0.25]]
+    [[0.25, 0.25], [1.75, 0.25], [1.75, 0.75], [0.25, 0.75]]
     """
     left = polygon
     if by == 0.0:

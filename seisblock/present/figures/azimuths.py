@@ -54,23 +54,26 @@ def _drawn(responses: Sequence[Response[Any]], directions: Sequence[Directions],
         if slides:
             path = made.add_subplot(rows, columns, across * row + 2, projection="polar")
             far = [100.0 * each.max_displacement_m for each in found]
-            _bars(path, found, far, falls=False)
+            _bars(path, found, far)
             rose(path, called + tell("furthest from start (cm)"), max(*far, 0.1))
     handles = [Patch(facecolor=ROCKED, edgecolor="0.4", linewidth=0.5, label=tell("stands"))]
+    half = all(map(_half, directions))
     if any(each.overturned for found in directions for each in found):
-        handles.append(Patch(facecolor=FELL, edgecolor="0.4", linewidth=0.5, label=tell("falls")))
+        handles.append(Patch(facecolor=FELL, edgecolor="0.4", linewidth=0.5, label=tell("falls to this side") if half else tell("falls")))
     canvas.legend_outside(made, handles, loc="outside lower center", ncols=2)
     return made
 
 
-def _bars(panel: Any, found: Directions, values: Sequence[float], *, falls: bool = True) -> None:
+def _bars(panel: Any, found: Directions, values: Sequence[float]) -> None:
     """Draw a bar for each direction; where half of the circle stands for all of it to both sides, or to that to which the body falls."""
-    half = max(each.azimuth_deg for each in found) < 180.0
-    width = np.radians((180.0 if half else 360.0) / len(found))
+    both = ("+x", "-x") if _half(found) else ("+x",)
+    width = np.radians((180.0 if len(both) == 2 else 360.0) / len(found))
     for each, value in zip(found, values, strict=True):
-        sides = ("+x", "-x") if half else ("+x",)
-        if half and falls and each.overturned:
-            sides = (each.overturned_towards,)
-        for towards in sides:
+        for towards in (each.overturned_towards,) if len(both) == 2 and each.overturned else both:
             turn = np.radians(each.azimuth_deg + (180.0 if towards == "-x" else 0.0))
             panel.bar(turn, value, width=0.9 * width, color=FELL if each.overturned else ROCKED, edgecolor="0.4", linewidth=0.4)
+
+
+def _half(found: Directions) -> bool:
+    """Return whether directions are those of half the circle."""
+    return max(each.azimuth_deg for each in found) < 180.0

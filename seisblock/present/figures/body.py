@@ -65,7 +65,6 @@ def rose(panel: Any, title: str, largest: float) -> None:
     panel.grid(True, color="0.88", linewidth=0.6)
     panel.spines["polar"].set_color("0.7")
     panel.tick_params(labelsize=canvas.TICKS - 1)
-    panel.set_axisbelow(True)
     for label in panel.get_yticklabels():
         label.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
     canvas.panel_title(panel, title)

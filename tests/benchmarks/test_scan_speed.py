@@ -1,0 +1,40 @@
+"""A scan of a million triangles: how long a body is in the making."""
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.scan.enclosed import enclosed_by
+from seisblock.bodies.scan.mesh import Mesh, read_mesh
+from seisblock.bodies.scan.polygon import hull
+from seisblock.bodies.scan.resting import resting
+from tests.bodies.meshes import frustum, write_stl
+
+SIDES = 250_000
+
+
+@pytest.fixture(scope="module")
+def scanned(tmp_path_factory):
+    """Return the file of a frustum of a million triangles, rough to a tenth of a millimetre."""
+    vertices, faces = frustum(SIDES, 0.3, 0.25, 0.9)
+    return write_stl(
+        tmp_path_factory.mktemp("scan") / "scan.stl", vertices + 1e-4 * np.random.default_rng(1).uniform(size=vertices.shape), faces
+    )
+
+
+def test_a_million_triangles_are_read(benchmark, scanned):
+    """From the file to shared vertices."""
+    mesh = benchmark.pedantic(read_mesh, (scanned,), rounds=1, warmup_rounds=0)
+    assert len(mesh.faces) > 0.9e6
+
+
+def test_a_million_triangles_become_a_body(benchmark):
+    """Closed or not, volume, inertia, resting plane and base."""
+    mesh = Mesh(*frustum(SIDES, 0.3, 0.25, 0.9))
+
+    def body():
+        found = enclosed_by(mesh)
+        return found, resting(mesh.vertices, found.centre, tolerance=1e-3, source="a scan"), hull(mesh.vertices[:, :2])
+
+    found, on, outline = benchmark.pedantic(body, rounds=1, warmup_rounds=0)
+    assert found.volume == pytest.approx(np.pi * 0.9 * (0.3**2 + 0.3 * 0.25 + 0.25**2) / 3.0, rel=1e-6)
+    assert on.touching == SIDES + 1 and 1000 < len(outline) < 10_000
