@@ -13,13 +13,17 @@ from seisblock.bodies.toml import read_table
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import preparation_of, refuse_windows, tell_doubts
 from seisblock.cli.options import Source
-from seisblock.cli.output import Output
+from seisblock.cli.output import STDOUT, Output
 from seisblock.cli.progress import progress
-from seisblock.errors import ParameterError
+from seisblock.cli.talk import say
+from seisblock.errors import OutputError, ParameterError
 from seisblock.present.documents.fragility import document
-from seisblock.present.files import write_table
+from seisblock.present.exports.openquake import nrml
+from seisblock.present.exports.pelicun import pelicun_metadata, pelicun_rows
+from seisblock.present.files import refuse_collisions, write_table, write_text
 from seisblock.present.text import fragility as shown
 from seisblock.readers.dispatch import Options
+from seisblock.studies.fragility.answer import FragilityStudy
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.run import bodies_of, run_fragility
@@ -43,6 +47,7 @@ def run(
 ) -> None:
     """Run the study, and say what it comes to."""
     refuse_windows(source)
+    _check_exports(output, asked)
     measure = intensity_measure(measures[0])
     size, _ = measure.shown()
     other = None if compare is None else _curve(compare, size)
@@ -79,6 +84,8 @@ def run(
     stand = bodies_of(listed, solver, options)
     chosen = {**asked, "im": [intensity_measure(name).name for name in measures], "perturb": asked["perturb"] or 0}
 
+    _export(study, asked)
+
     def figure() -> Any:
         from seisblock.present.figures.fragility import figure as drawn
 
@@ -111,6 +118,30 @@ def _one(asked: Mapping[str, Any], solver: str) -> ListedBody:
         raise ParameterError(text, missing=missing)
     name = said("block {width:g} x {height:g} m", width=told["width"], height=told["height"])
     return ListedBody(name, told, None, said("the block"))
+
+
+def _check_exports(output: Output, asked: Mapping[str, Any]) -> None:
+    """Refuse, before anything is read, files for other programs that cannot be written."""
+    rows, model = asked["pelicun"], asked["nrml"]
+    for path, suffix in ((rows, ".csv"), (model, ".xml")):
+        if path is not None and path.suffix.lower() != suffix:
+            raise OutputError("{path}: the name must end in {suffix}", path=path, suffix=suffix)
+    beside = None if rows is None else rows.with_suffix(".json")
+    own = (None if path == STDOUT else path for path in (output.csv, output.plot))
+    refuse_collisions(rows, beside, model, *own)
+
+
+def _export(study: FragilityStudy, asked: Mapping[str, Any]) -> None:
+    """Write the files for other programs."""
+    if asked["pelicun"] is not None:
+        rows: Path = asked["pelicun"]
+        write_table(rows, *pelicun_rows(study))
+        write_text(rows.with_suffix(".json"), pelicun_metadata(study))
+        say("wrote {path}", path=rows)
+        say("wrote {path}", path=rows.with_suffix(".json"))
+    if asked["nrml"] is not None:
+        write_text(asked["nrml"], nrml(study, shape=asked["nrml_shape"]))
+        say("wrote {path}", path=asked["nrml"])
 
 
 def _curve(text: str, size: float) -> Lognormal:

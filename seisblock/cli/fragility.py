@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
@@ -87,6 +88,28 @@ METHODS = ("stripes", "ida", "cloud")
     "--compare",
     metavar="MEDIAN,BETA",
     help="A curve to compare with: its median, in the unit of --levels, and beta, 1.",
+)
+@option(
+    "--pelicun",
+    type=click.Path(path_type=Path),
+    section="Output",
+    metavar="FILE.csv",
+    help="Write rows for pelicun (fragility.csv of its DLML), and FILE.json beside them that says what they are.",
+)
+@option(
+    "--nrml",
+    type=click.Path(path_type=Path),
+    section="Output",
+    metavar="FILE.xml",
+    help="Write a fragility model for OpenQuake, NRML 0.5.",
+)
+@option(
+    "--nrml-shape",
+    type=click.Choice(["logncdf", "discrete"]),
+    default="logncdf",
+    show_default=True,
+    section="Output",
+    help="--nrml: the lognormal curve, or the shares at the levels, made to rise.",
 )
 @gravity_option
 @output_options(histories=False, film=False)

@@ -1,0 +1,102 @@
+"""A fragility as pelicun and its library of models, DLML, hold it: a row of parameters, and what it means beside it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+from seisblock import __version__
+from seisblock.errors import OutputError
+from seisblock.present.exports.names import plain_names
+from seisblock.studies.fragility.answer import Fragility, FragilityStudy
+from seisblock.studies.fragility.intensity import PGA, PGD, PGV, SA, IntensityMeasure
+from seisblock.units import STANDARD_GRAVITY
+
+_DEMANDS = {
+    PGA: ("Peak Floor Acceleration", "g", STANDARD_GRAVITY),
+    PGV: ("Peak Floor Velocity", "mps", 1.0),
+    PGD: ("Peak Floor Displacement", "m", 1.0),
+    SA: ("Spectral Acceleration", "g", STANDARD_GRAVITY),
+}
+"""What pelicun calls a measure at the object's feet, the unit told, and that unit in SI."""
+
+ALONG_ONE_DIRECTION = 1
+"""The demand of one direction counts, as the object was shaken; the library's own shelves take the larger of both (0)."""
+
+
+def demand_of(measure: IntensityMeasure) -> tuple[str, str, float]:
+    """Return what pelicun calls a measure, its unit, and that unit in SI.
+
+    Raises
+    ------
+    OutputError
+        If pelicun has none such.
+    """
+    if measure.kind not in _DEMANDS:
+        raise OutputError("pelicun knows no demand {im}: take pga, pgv, pgd or sa", im=measure.name)
+    name, unit, size = _DEMANDS[measure.kind]
+    return (name if measure.period_s is None else f"{name}|{measure.period_s:g}"), unit, size
+
+
+def pelicun_rows(study: FragilityStudy) -> tuple[list[str], list[list[Any]]]:
+    """Return the header and the rows of a ``fragility.csv``: a body each, its limit states in their order.
+
+    Parameters
+    ----------
+    study : FragilityStudy
+
+    Raises
+    ------
+    OutputError
+        If pelicun has no such demand.
+    """
+    demand, unit, size = demand_of(study.measure)
+    bodies = _bodies(study)
+    states = max(len(curves) for curves in bodies.values())
+    header = ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"]
+    for state in range(1, states + 1):
+        header += [f"LS{state}-{key}" for key in ("Family", "Theta_0", "Theta_1", "DamageStateWeights")]
+    rows = []
+    for name, curves in bodies.items():
+        row: list[Any] = [name, 0, demand, unit, 0, ALONG_ONE_DIRECTION]
+        for curve in curves:
+            row += ["lognormal", (curve.median or 0.0) / size, curve.beta, ""]
+        rows.append(row + [""] * (len(header) - len(row)))
+    return header, rows
+
+
+def pelicun_metadata(study: FragilityStudy) -> str:
+    """Return the ``fragility.json`` that stands beside the rows: what each body and each of its states is, in English.
+
+    Parameters
+    ----------
+    study : FragilityStudy
+    """
+    name = f"seisblock {__version__}, {study.solver}, {study.method}"
+    told: dict[str, Any] = {
+        "_GeneralInformation": {
+            "ShortName": "seisblock",
+            "Description": f"Fragilities of free-standing objects computed by {name}.",
+            "Version": __version__,
+        }
+    }
+    for plain, curves in _bodies(study).items():
+        first = curves[0]
+        told[plain] = {
+            "Description": first.body,
+            "Comments": f"{first.records} records, {first.motions} motions; {name}; intensity at the object's feet, along one direction.",
+            "SuggestedComponentBlockSize": "1 EA",
+            "RoundUpToIntegerQuantity": "True",
+            "LimitStates": {
+                f"LS{number}": {f"DS{number}": {"Description": curve.limit, "RepairAction": ""}} for number, curve in enumerate(curves, 1)
+            },
+        }
+    return json.dumps(told, indent=2, ensure_ascii=False) + "\n"
+
+
+def _bodies(study: FragilityStudy) -> dict[str, Sequence[Fragility]]:
+    """Return the curves of each body that has any, under the names of the file."""
+    fitted = [curve for curve in study.curves if curve.curve is not None]
+    plain = plain_names(dict.fromkeys(curve.body for curve in fitted))
+    return {name: [curve for curve in fitted if curve.body == body] for body, name in plain.items()}

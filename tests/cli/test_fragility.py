@@ -1,0 +1,102 @@
+"""``seisblock fragility``: what it asks for, what it prints, and what it writes."""
+
+import csv
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from tests.motions import synthetic_suite
+
+SHELF = ("--width", "30cm", "--height", "1.2", "--solver", "rock", "--im", "pgv", "--dt", "0.02", "--bootstrap", "20")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with twelve records, and a file that is none."""
+    made = tmp_path_factory.mktemp("suite")
+    for record in synthetic_suite(12, seconds=15.0):
+        lines = "\n".join(repr(float(value)) for value in record.components[0].acceleration)
+        (made / f"{record.station}.csv").write_text(f"EW (m/s2)\n{lines}\n")
+    return made
+
+
+def run(*words):
+    """Run the command."""
+    return CliRunner().invoke(main, ["fragility", *map(str, words)])
+
+
+def document(*words):
+    """Return the JSON document."""
+    answer = run(*words, "--json", "--quiet")
+    assert answer.exit_code == 0, answer.stderr
+    return json.loads(answer.stdout)
+
+
+def test_the_median_comes_first(folder):
+    """The verdict, the table, and what it rests on; levels and the curve to compare with in kine."""
+    answer = run(folder, *SHELF, "--levels", "10:150:10", "--compare", "40,0.4")
+    assert answer.exit_code == 0, answer.stderr
+    first = answer.stdout.splitlines()[0]
+    assert first.startswith("block 0.3 x 1.2 m, overturns: median PGV ") and "kine, beta 0." in first
+    assert "12 records, 12 motions" in answer.stdout
+    assert "times the median compared with, 40.0 kine" in answer.stdout
+    told = document(folder, *SHELF, "--levels", "10:150:10", "--compare", "40,0.4")
+    assert [level["im"] for level in told["results"][0]["levels"]] == pytest.approx([0.1 * n for n in range(1, 16)])
+    assert told["parameters"]["compare"] == {"median": 0.4, "beta": 0.4, "unit": "m/s"}
+    assert told["results"][0]["unit"] == "m/s" and told["results"][0]["records"] == 12
+
+
+def test_a_body_by_its_name_is_the_body_of_a_list(folder):
+    """--block, --bodies and a table give one curve."""
+    listed = document(folder, "--bodies", "gravestone", *SHELF[4:], "--levels", "5:200:15")["results"]
+    named = document(folder, "--block", "gravestone", *SHELF[4:], "--levels", "5:200:15")["results"]
+    assert listed == named
+
+
+def test_files_are_written(folder, tmp_path):
+    """Counts and curves as a table, the figure, rows for pelicun with what they are, and a model for OpenQuake."""
+    names = {
+        option: tmp_path / name for option, name in (("--csv", "a.csv"), ("--plot", "b.png"), ("--pelicun", "c.csv"), ("--nrml", "d.xml"))
+    }
+    answer = run(folder, *SHELF, "--levels", "10:150:10", *(each for pair in names.items() for each in pair))
+    assert answer.exit_code == 0, answer.stderr
+    with names["--csv"].open() as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) == 15 and float(rows[-1]["level"]) == 1.5
+    assert float(rows[0]["share"]) == float(rows[0]["exceeding"]) / 12
+    assert all(path.stat().st_size > 0 for path in names.values())
+    assert set(json.loads((tmp_path / "c.json").read_text())) == {"_GeneralInformation", "block_0_3_x_1_2_m"}
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (SHELF, "no RECORD is given"),
+        (("FOLDER/S00.csv", *SHELF), "one record says nothing of how records differ"),
+        (("FOLDER", "--solver", "rock"), "which body? --width, --height missing"),
+        (("FOLDER", *SHELF, "--bodies", "gravestone"), "not both"),
+        (("FOLDER", *SHELF, "--mu", "0.3"), "rock has no option --mu"),
+        (("FOLDER", *SHELF, "--levels", "1,2"), "at no level, up to 2 kine: ask for higher levels"),
+        (("FOLDER", *SHELF, "--levels", "900,1000"), "from 900 kine on: ask for lower levels"),
+        (("FOLDER", *SHELF, "--method", "cloud", "--levels", "1,2"), "leave --levels out"),
+        (("FOLDER", *SHELF, "--limit", "slip=5cm"), "knows no answer to the limit 'slip=0.05m'"),
+        (("FOLDER", *SHELF, "--pelicun", "a.txt"), "must end in .csv"),
+        (("FOLDER", *SHELF, "--pelicun", "a.csv", "--csv", "a.csv"), "are one file"),
+        (("FOLDER", "--width", "1", "--height", "2", "--dt", "0.02"), "how rough is it under the body?"),
+    ],
+)
+def test_what_cannot_be_asked_is_a_sentence(words, says, folder):
+    """Before anything is computed, or when the runs say nothing: one sentence, and what to change."""
+    answer = run(*(word.replace("FOLDER", str(folder)) for word in words))
+    assert answer.exit_code in (2, 3)
+    assert says in " ".join(answer.stderr.split()), answer.stderr
+
+
+def test_a_file_that_cannot_be_read_is_left_out_and_told(folder, tmp_path):
+    """The others answer; with --strict it is refused."""
+    (tmp_path / "list.txt").write_text("\n".join([*(str(path) for path in sorted(folder.glob("S0*.csv"))), "gone.csv"]))
+    answer = run(f"@{tmp_path / 'list.txt'}", *SHELF, "--levels", "10:150:20")
+    assert answer.exit_code == 0 and "left out: " in answer.stderr and "gone.csv" in answer.stderr
+    assert run(f"@{tmp_path / 'list.txt'}", *SHELF, "--strict").exit_code == 3
