@@ -55,7 +55,7 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
         if compare is not None:
             x = np.geomspace(*axis.get_xlim(), POINTS)
             axis.plot(x, compare.probability(x * size), color=INPUT, linewidth=1.0, linestyle=(0, (4, 2)), label=tell("compared with"))
-        panel_title(axis, bodies[index])
+        panel_title(axis, tell(bodies[index]))
         label(axis, x=name if index + columns >= len(bodies) else "", y=tell("probability") if index % columns == 0 else "")
         axis.set_ylim(-0.02, 1.02)
         _ticks(axis)

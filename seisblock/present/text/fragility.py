@@ -80,10 +80,10 @@ def _curves(study: FragilityStudy, *, gal: bool) -> Any:
     bodies = list(dict.fromkeys(curve.body for curve in study.curves))
     several = len(bodies) > 1
     name = f"{study.measure.label} ({unit})" if unit else study.measure.label
-    heads = [*([tell("body")] if several else []), tell("limit"), name, "beta", tell("not monotone"), tell("fits")]
+    heads = [*([tell("body")] if several else []), tell("limit"), name, tell("beta"), tell("not monotone"), tell("fits")]
     rows = [
         [
-            *([curve.body] if several else []),
+            *([tell(curve.body)] if several else []),
             limit_name(curve.limit),
             _with_range(curve.median, curve.median_interval, lambda value: number(value / size, 3)),
             _with_range(curve.beta, curve.beta_interval, lambda value: f"{value:.2f}"),
@@ -96,7 +96,7 @@ def _curves(study: FragilityStudy, *, gal: bool) -> Any:
         "median and beta with {level:g%} intervals over records; not monotone: motions that do it, and at a higher level do not",
         level=study.confidence,
     )
-    return table("" if several else bodies[0], heads, rows, caption=caption)
+    return table("" if several else tell(bodies[0]), heads, rows, caption=caption)
 
 
 def _with_range(value: float | None, interval: Interval | None, told: Callable[[float], str]) -> str:
@@ -168,7 +168,7 @@ def _measures(curve: Fragility, *, several: bool, gal: bool) -> Any:
             [label, number(each.median / size, 3), f"{each.beta:.2f}", *(left.get(key, NOTHING) for key in ("ln(pgv/pga)", "magnitude"))]
         )
     title = tell("{curve}: measures of intensity", curve=_named(curve, several=several))
-    return table(title, [tell("measure"), tell("median"), "beta", "ln(PGV/PGA)", tell("magnitude")], rows)
+    return table(title, [tell("measure"), tell("median"), tell("beta"), "ln(PGV/PGA)", tell("magnitude")], rows)
 
 
 def columns(study: FragilityStudy) -> tuple[list[str], list[Sequence[Any]]]:
