@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
-from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, acceleration_unit, label, legend, panel_title
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, acceleration_unit, label, legend, panel_title, round_ticks
 from seisblock.present.text.fit import NAMES
 from seisblock.studies.fit.axes import Axis
 from seisblock.studies.fit.experiment import FELL, MOVED
@@ -121,7 +121,6 @@ def _outcomes(panel: Axes, found: BlockFit, *, gal: bool) -> None:
     panel.set_yscale("log")
     panel.set_xscale("log")
     for ruler in (panel.xaxis, panel.yaxis):
-        ruler.set_major_formatter(lambda value, _: f"{value:g}")
-        ruler.set_minor_formatter(lambda value, _: "")
+        round_ticks(ruler)
     label(panel, x=tell("PGV over PGA (s)"), y=tell("PGA ({unit})", unit=name))
     legend(panel, ncols=3)

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure, panel_title
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure, panel_title, round_ticks
 from seisblock.present.text.fragility import limit_name
 from seisblock.studies.fragility.answer import Fragility, FragilityStudy
 from seisblock.studies.fragility.estimate import CLOUD
@@ -20,7 +20,6 @@ LOOKS = ((ACCENT, "-", "o"), (SECOND, (0, (5, 1.5)), "s"), ("0.15", (0, (1.5, 1.
 """Colour, line and mark of the limits, in their order; different in grey."""
 
 POINTS = 241
-MOST_TICKS = 7
 FEWEST_TOGETHER = 8
 """Motions as they are, of which nothing can be drawn but yes and no, are counted in groups of as many at least."""
 
@@ -58,7 +57,7 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
         panel_title(axis, tell(bodies[index]))
         label(axis, x=name if index + columns >= len(bodies) else "", y=tell("probability") if index % columns == 0 else "")
         axis.set_ylim(-0.02, 1.02)
-        _ticks(axis)
+        round_ticks(axis.xaxis)
         legend(axis, bbox_to_anchor=(1.0, 0.03), ncols=1)
     return made
 
@@ -92,14 +91,3 @@ def _shares(curve: Fragility) -> tuple[list[float], list[float]]:
     some = [[curve.levels[i] for i in group] for group in groups if group.size]
     middle = [float(np.exp(np.mean([math.log(each.im) for each in group]))) for group in some]
     return middle, [sum(each.exceeding for each in group) / sum(each.runs for each in group) for group in some]
-
-
-def _ticks(axis: Axes) -> None:
-    """Name round intensities along the axis: 1, 2 and 5 of each decade, or the decades alone where there are many."""
-    low, high = axis.get_xlim()
-    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    within = [[n * 10.0**d for d in decades for n in some if low <= n * 10.0**d <= high] for some in ((1, 2, 5), (1,))]
-    chosen = within[0] if len(within[0]) <= MOST_TICKS else within[1]
-    axis.set_xticks(chosen, [f"{each:g}" for each in chosen])
-    axis.minorticks_off()
-    axis.set_xlim(low, high)

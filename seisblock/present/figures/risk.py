@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure, round_ticks
 from seisblock.present.text.risk import name_of
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.hazard.curve import Hazard
@@ -49,6 +49,7 @@ def figure(found: Sequence[tuple[GivenFragility, Risk]], hazard: Hazard, *, gal:
     label(below, x=f"{measure.label} ({unit})" if unit else measure.label, y=tell("rate per decade (1/year)"))
     middle.set_ylim(-0.02, 1.02)
     below.set_ylim(bottom=0.0)
+    round_ticks(below.xaxis)
     for axis in (above, middle):
         legend(axis)
     return made
