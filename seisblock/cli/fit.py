@@ -73,6 +73,13 @@ def _bounds(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) 
 )
 @block_options
 @option(
+    "--azimuth",
+    type=float,
+    metavar="DEG",
+    section="Body",
+    help="Of a scanned --block: azimuth along which it was shaken, degrees clockwise from north.",
+)
+@option(
     "--restitution",
     type=float,
     metavar="E",
@@ -185,4 +192,5 @@ def _body(asked: dict[str, Any]) -> tuple[Any, Any, float | None]:
     chosen = choose_block(asked)
     say("body: {says}", says=chosen.says)
     # what a body's file brings along does not stand in the way of what is looked for
-    return chosen.block, asked["inset"], asked["restitution"] if "restitution" in looked_for else chosen.restitution
+    block = chosen.block if asked["azimuth"] is None else chosen.towards(asked["azimuth"])
+    return block, asked["inset"], asked["restitution"] if "restitution" in looked_for else chosen.restitution

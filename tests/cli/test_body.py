@@ -158,3 +158,25 @@ def test_what_a_scan_cannot_be_asked():
         done = run(*words)
         assert done.exit_code == 3 and "scan" in done.stderr, words
     assert sample_path("boulder.ply").exists()
+
+
+FIT = ("fit", "shaken_block.csv", "--free", "inset", "--runs", "1", "--folds", "2", "--scatter", "0.05", "--lapse", "0.02")
+
+
+@pytest.mark.slow
+def test_a_fit_begins_with_the_block_of_the_azimuth_that_was_shaken(stone):
+    """The arms towards that azimuth."""
+    block = document(*FIT, "--block", stone, "--azimuth", "40")["parameters"]["block"]
+    expected = load_scan(stone).towards(40.0)
+    assert block["width_m"] == expected.width and block["centroid_offset_m"] == expected.centroid_offset
+    assert block["centroid_inertia_kg_m2"] == pytest.approx(expected.gyration_squared * expected.mass, rel=1e-12)
+
+
+def test_a_fit_is_told_along_which_azimuth_a_scan_was_shaken(stone):
+    """Without an azimuth a scan is refused, with one a block is."""
+    for words, told in (
+        ((stone,), "another block in each direction"),
+        (("gravestone", "--azimuth", "3"), "the same block in each direction"),
+    ):
+        done = run(*FIT, "--block", *words)
+        assert done.exit_code == 3 and told in " ".join(done.stderr.split())

@@ -28,6 +28,12 @@ class BodyChoice:
             raise BodyError("{name} is a scan, which is another block in each direction: say towards which azimuth", name=self.body.name)
         return self.body
 
+    def towards(self, azimuth: float) -> Block:
+        """Return the block that a scan is towards an azimuth, degrees clockwise from north."""
+        if not isinstance(self.body, ScannedBody):
+            raise BodyError("{name} is the same block in each direction: leave the azimuth out", name=said(self.body.name))
+        return self.body.towards(azimuth)
+
     def along(self, motion: Motion) -> Block:
         """Return the block that follows a motion: of a scan that towards its azimuth."""
         return self.body.along(motion) if isinstance(self.body, ScannedBody) else self.body
