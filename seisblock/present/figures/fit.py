@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, acceleration_unit, label, legend, panel_title, round_ticks
@@ -122,7 +121,6 @@ def _outcomes(panel: Axes, found: BlockFit, *, gal: bool) -> None:
     panel.set_yscale("log")
     panel.set_xscale("log")
     for ruler in (panel.xaxis, panel.yaxis):
-        ruler.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         round_ticks(ruler)
     label(panel, x=tell("PGV over PGA (s)"), y=tell("PGA ({unit})", unit=name))
     legend(panel, ncols=3)
