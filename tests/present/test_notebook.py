@@ -71,8 +71,11 @@ VALUES = {
     "Motion": lambda motion: motion,
     "ResponseSpectrum": lambda motion: seisblock.response_spectrum(motion.horizontal, motion.dt),
     "RockingSpectrum": lambda motion: seisblock.rocking_spectrum([0.5, 1.0], [0.2, 0.3], motion),
+    "FragilityStudy": lambda motion: seisblock.run_fragility(
+        [motion.record, seisblock.read("elcentro_1940_ns.csv")], seisblock.Block(0.3, 1.2), "rock", im="pgv", steps=8, bootstrap=10
+    ),
 }
-"""A record, and what is made of it without a body."""
+"""A record, and what is made of it without a run that could be followed."""
 
 
 @pytest.mark.parametrize("kind", VALUES)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure, panel_title, round_ticks
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, Sheet, label, legend, new_figure, panel_title, round_ticks
 from seisblock.present.text.fragility import limit_name
 from seisblock.studies.fragility.answer import Fragility, FragilityStudy
 from seisblock.studies.fragility.estimate import CLOUD
@@ -24,7 +24,7 @@ FEWEST_TOGETHER = 8
 """Motions as they are, of which nothing can be drawn but yes and no, are counted in groups of as many at least."""
 
 
-def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None = None) -> Figure:
+def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None = None, columns: int | None = None) -> Sheet:
     """Return the figure: a panel for each body, with the share of the runs at each level, the curve, and the band of its interval.
 
     Parameters
@@ -34,9 +34,11 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
         Unit of the intensities: gal, kine and cm, else SI.
     compare : Lognormal or None
         A curve to draw beside.
+    columns : int or None
+        Panels side by side; as many as suit their number when left out, one where the figure is as narrow as a column of text.
     """
     bodies = list(dict.fromkeys(curve.body for curve in study.curves))
-    columns = 1 if len(bodies) < 3 else 2 if len(bodies) < 7 else 3
+    columns = columns or (1 if len(bodies) < 3 else 2 if len(bodies) < 7 else 3)
     rows = math.ceil(len(bodies) / columns)
     first = study.curves[0]
     title = tell("{records} records, {motions} motions", records=first.records, motions=first.motions)
@@ -59,6 +61,8 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
         axis.set_ylim(-0.02, 1.02)
         round_ticks(axis.xaxis)
         legend(axis, bbox_to_anchor=(1.0, 0.03), ncols=1)
+    if columns > 1:
+        made.stacked = partial(figure, study, gal=gal, compare=compare, columns=1)
     return made
 
 
