@@ -83,7 +83,7 @@ SPOILT = {"empty": lambda data: b"", "half": lambda data: data[: len(data) // 2]
     [pytest.param("empty", ONE, marks=pytest.mark.slow), ("half", SCRIPT), pytest.param("last byte", ONE, marks=pytest.mark.slow)],
     ids=SPOILT,
 )
-@pytest.mark.parametrize("suffix", ["nbc", "nbi"])
+@pytest.mark.parametrize("suffix", ["nbc", pytest.param("nbi", marks=pytest.mark.slow)])
 def test_a_damaged_kernel_is_compiled_afresh(folder, suffix, spoil, script):
     """Files that lost their bytes, as after a power cut: the answer stands, one line says so, and the next run finds them whole."""
     for path in folder.rglob(f"*.{suffix}"):

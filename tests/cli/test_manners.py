@@ -187,7 +187,7 @@ def examples(name):
     return [line for line in lines if line]
 
 
-SECONDS = ("fit", "report", "stack", "validate")
+SECONDS = ("fit", "measure", "report", "spectrum", "stack", "uplift", "validate")
 """Commands some of whose examples take seconds."""
 
 

@@ -137,6 +137,7 @@ def test_silence_is_kept(said):
     assert said[1][QUIET] == ""
 
 
+@pytest.mark.slow
 def test_a_single_long_motion_says_how_far_it_is(tmp_path):
     """While the engine follows it, the line says which share of it is behind."""
     text = on_a_terminal(LONG_MOTION, [], tmp_path)

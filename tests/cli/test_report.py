@@ -91,6 +91,7 @@ def test_what_was_done_to_the_record_stands_above_the_verdicts(square, page_of_s
     assert 'class="processed"' not in page_of_square
 
 
+@pytest.mark.slow
 def test_provenance_is_true_from_python(square, page_of_square, pages, monkeypatch):
     """F4: how the process was started has no say: the page names the command it is told, or that there was none, twice the same."""
     monkeypatch.setattr("sys.argv", ["/home/somebody/notebook.py", "--secret"])

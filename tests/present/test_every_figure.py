@@ -19,6 +19,7 @@ from seisblock.present.figures.size import fitted
 from seisblock.units import Size
 from seisblock.words import speaking
 from tests.language.test_commands import MINUS_NOTHING
+from tests.lengths import all_but_slow
 from tests.present.long_record import EVERY, OF_THE_RECORD, drawing_functions
 
 COLUMN, PAGE = 0.085, 0.18
@@ -68,7 +69,7 @@ def letters(name, *, gal):
         return [text.get_text() for text in EVERY[name][1](False).findobj(Text)]
 
 
-@pytest.mark.parametrize("lang", ["en", "ja"])
+@pytest.mark.parametrize("lang", all_but_slow(["en", "ja"], {"en"}))
 @pytest.mark.parametrize("name", EVERY)
 def test_no_text_lies_on_another_or_leaves_the_canvas(name, lang):
     """F3: every text that is drawn stands by itself, within the figure; and no zero has a sign."""

@@ -108,7 +108,7 @@ def interrupted(script, words, cwd):
         return process.returncode, said.strip(), float(out.split()[-1]) - at
 
 
-@pytest.mark.parametrize("named", all_but_slow(COMMANDS, {"a pile on 25 x 25 points", "versions of a stone"}))
+@pytest.mark.parametrize("named", all_but_slow(COMMANDS, {"a pile on 25 x 25 points"}))
 def test_a_command_ends_at_once(named, tmp_path):
     """In the middle of a run that would take minutes: exit 130, one line, no traceback, in half a second."""
     code, said, took = interrupted(COMMAND, [*COMMANDS[named], "--quiet"], tmp_path)

@@ -91,6 +91,7 @@ def test_blocks_on_records_are_held_as_often_as_is_claimed(fallen):
         assert share_held(fallen, edges) >= 0.82
 
 
+@pytest.mark.slow
 def test_without_the_bias_sharp_blocks_are_missed(fallen):
     """What was wrong: with eq. (9) taken at its word every miss lies above the interval."""
     bare = Assumptions(bias=0.0, common_error=0.3, stone_error=0.1, frequency_error=0.0)
