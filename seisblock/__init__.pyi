@@ -41,6 +41,7 @@ from .records.motion import Motion, motion_of
 from .records.preparation import Preparation
 from .records.process import crop, demean, highpass, rotate, scale, scale_to_pga, towards
 from .records.record import Component, Record
+from .records.synthetic.suite import synthetic_suite
 from .results import Channel, Event, Phase, Response, Status
 from .samples import Sample, list_samples, sample_path
 from .solvers.jump.solve import JumpOutcome, solve_jump
@@ -234,6 +235,7 @@ __all__ = [
     "Stone",
     "studies",
     "Survey",
+    "synthetic_suite",
     "towards",
     "TwoLayerBlock",
     "UnitError",

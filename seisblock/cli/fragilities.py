@@ -20,9 +20,11 @@ from seisblock.errors import OutputError, ParameterError
 from seisblock.present.documents.fragility import document
 from seisblock.present.exports.openquake import nrml
 from seisblock.present.exports.pelicun import pelicun_metadata, pelicun_rows
-from seisblock.present.files import refuse_collisions, write_table, write_text
+from seisblock.present.files import refuse_collisions, write_records, write_table, write_text
 from seisblock.present.text import fragility as shown
 from seisblock.readers.dispatch import Options
+from seisblock.records import Record
+from seisblock.records.synthetic.suite import DEFAULT_SUITE, named_suite
 from seisblock.studies.fragility.answer import FragilityStudy
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -55,12 +57,8 @@ def run(
     listed = list(read_bodies(bodies)) if bodies else [_one(asked, solver)]
     if bodies and any(asked[key] is not None for key in (*SIZES, "block")):
         raise ParameterError("give --bodies, or the sizes of one body, not both")
-    if not source.record:
-        raise ParameterError("no RECORD is given: name ten and more, a folder, or a list (@records.txt)")
     components = tuple(name for name in source.component if name.lower() != "all")
-    reading = Options(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
-    with progress("reading the records"):
-        records, left_out = read_suite(source.record, reading, strict=source.strict)
+    records, left_out, suite = _records(source, asked)
     tell_doubts(records, strict=source.strict)
     with progress("fragility") as advance:
         study = run_fragility(
@@ -82,7 +80,7 @@ def run(
             **options,
         )
     stand = bodies_of(listed, solver, options)
-    chosen = {**asked, "im": [intensity_measure(name).name for name in measures], "perturb": asked["perturb"] or 0}
+    chosen = {**asked, "suite": suite, "im": [intensity_measure(name).name for name in measures], "perturb": asked["perturb"] or 0}
 
     _export(study, asked)
 
@@ -98,6 +96,29 @@ def run(
         csv=lambda path: write_table(path, *shown.columns(study)),
         figure=figure,
     )
+
+
+def _records(source: Source, asked: Mapping[str, Any]) -> tuple[list[Record], tuple[str, ...], str | None]:
+    """Return the records, a sentence for each file that could not be read, and the synthetic suite that they are, if they are one."""
+    if source.record:
+        for name, given in (("--suite", asked["suite"]), ("--suite-out", asked["suite_out"])):
+            if given is not None:
+                raise ParameterError("give either RECORD or {name}, not both", name=name)
+        reading = Options(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
+        with progress("reading the records"):
+            records, left_out = read_suite(source.record, reading, strict=source.strict)
+        return records, left_out, None
+    suite: str = asked["suite"] or DEFAULT_SUITE
+    with progress("making synthetic records"):
+        made = list(named_suite(suite, seed=asked["seed"]))
+    if asked["suite"] is None:
+        say("no RECORD given: using {suite}", suite=suite)
+    say("{count} synthetic records, no recordings: of one source, path and site, they differ less than records do", count=len(made))
+    if asked["suite_out"] is not None:
+        with progress("writing the records"):
+            write_records(asked["suite_out"], made)
+        say("wrote {path}", path=asked["suite_out"])
+    return made, (), suite
 
 
 def _one(asked: Mapping[str, Any], solver: str) -> ListedBody:

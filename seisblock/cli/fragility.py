@@ -24,9 +24,23 @@ METHODS = ("stripes", "ida", "cloud")
     examples=(
         "seisblock fragility synthetic_jma.csv elcentro_1940_ns.csv --width 30cm --height 1.2m --solver rock --im pgv",
         "seisblock fragility synthetic_jma.csv elcentro_1940_ns.csv --bodies gravestone --solver rock --im pga,pgv --plot fragility.png",
+        "seisblock fragility --suite synthetic:M6.5:R15:20 --suite-out records --block gravestone --solver rock --im pgv",
     ),
 )
 @record_options
+@option(
+    "--suite",
+    metavar="synthetic:M7:R20:40",
+    section="Record",
+    help="Instead of RECORD: synthetic records, here 40 of magnitude 7 at 20 km, on rock. [default: these, where no RECORD is given]",
+)
+@option(
+    "--suite-out",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="FOLDER",
+    section="Output",
+    help="Write the synthetic records to this folder, as CSV in m/s^2 with all their digits.",
+)
 @block_options
 @option(
     "--bodies",
@@ -83,7 +97,7 @@ METHODS = ("stripes", "ida", "cloud")
     show_default=True,
     help="Samples of the records behind the intervals.",
 )
-@option("--seed", type=int, default=0, show_default=True, help="Seed of versions and samples.")
+@option("--seed", type=int, default=0, show_default=True, help="Seed of versions, samples and synthetic records.")
 @option(
     "--compare",
     metavar="MEDIAN,BETA",

@@ -16,11 +16,15 @@ import numpy as np
 
 from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import refuse_collision, wrote
+from seisblock.records import Record
 from seisblock.results import Response
 from seisblock.words import said
 
 FIGURES, FILMS = (".png", ".svg", ".pdf"), (".gif", ".mp4", ".html")
 """What a figure and an animation may be."""
+
+TIME_DECIMALS = 9
+"""Of the times of samples, s: what is beyond is round-off."""
 
 BLOCK = 2**14
 """Rows of a time history that are made at a time."""
@@ -145,6 +149,29 @@ def write_text(path: Path | str, text: str) -> None:
     """Write a text file in UTF-8, whole or not at all."""
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
+
+
+def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
+    """Write records as CSV with all their digits, one file each, into a folder that is made if need be; return the files.
+
+    Raises
+    ------
+    OutputError
+        If the folder cannot be made, or a file not be written.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise OutputError("cannot write into {directory}: it is a file; give a directory", directory=folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError("cannot make the directory {directory}: {reason}", directory=folder, reason=reason(error)) from error
+    written = []
+    for record in records:
+        path = folder / f"{record.source}.csv"
+        columns = [np.round(record.time, TIME_DECIMALS).tolist(), *(c.acceleration.tolist() for c in record.components)]
+        write_table(path, ["time (s)", *(f"{code} (m/s2)" for code in record.codes)], zip(*columns, strict=True))
+        written.append(path)
+    return written
 
 
 def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:

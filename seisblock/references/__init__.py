@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from seisblock.references.literature import LITERATURE, Reference
+from seisblock.references.ground_motion import GROUND_MOTION
+from seisblock.references.literature import LITERATURE
+from seisblock.references.reference import Reference
 
-REFERENCES = {reference.key: reference for reference in LITERATURE}
+REFERENCES = {reference.key: reference for reference in (*LITERATURE, *GROUND_MOTION)}
 """Every reference by its key."""
 
 SOFTWARE = Reference(
@@ -40,6 +42,15 @@ RESTS_ON: dict[str, tuple[str, ...]] = {
     "fit": ("AndrieuRoberts2009", "Cornuet2012", "Richtmyer1951", "Brier1950"),
     "fragility": ("Baker2015", "Vamvatsikos2002", "LucoCornell2007", "DimitrakopoulosParaskeva2015", "Lilliefors1967", "SuWei1991"),
     "risk": ("Cornell2002",),
+    "synthetic records": (
+        "Boore2003",
+        "Campbell2003",
+        "BooreJoyner1997",
+        "AtkinsonSilva2000",
+        "HanksKanamori1979",
+        "SaragoniHart1974",
+        "NewmarkHall1982",
+    ),
 }
 """What each question rests on: the only place where an answer finds its papers."""
 
@@ -70,7 +81,7 @@ CITED: dict[str, tuple[str, ...]] = {
     "batch": papers("all modes", "two-layer body"),
     "body": papers("a scan's arms"),
     "risk": papers("risk"),
-    "fragility": papers("fragility", "all modes", "rocking", "sliding", "pile"),
+    "fragility": papers("fragility", "all modes", "rocking", "sliding", "pile", "synthetic records"),
     "criteria": papers("overturning criteria", "rocking", "all modes"),
     "spectrum": papers("rocking", "sliding", "all modes"),
     "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),

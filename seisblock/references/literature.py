@@ -2,34 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-
-@dataclass(frozen=True)
-class Reference:
-    """One published source."""
-
-    key: str
-    authors: str
-    year: int
-    title: str
-    where: str
-    kind: str = "article"
-    doi: str = ""
-
-    def text(self) -> str:
-        """Return the reference as one line of a bibliography."""
-        tail = f" doi:{self.doi}" if self.doi else ""
-        authors = self.authors.replace(" and others", " et al.").replace(" and ", "; ")
-        return f"{authors} ({self.year}). {self.title}. {self.where}.{tail}"
-
-    def bibtex(self) -> str:
-        """Return the reference as a BibTeX entry."""
-        container = {"article": "journal", "book": "publisher", "techreport": "institution"}.get(self.kind, "howpublished")
-        fields = {"author": self.authors, "year": str(self.year), "title": self.title, container: self.where, "doi": self.doi}
-        body = ",\n".join(f"  {name} = {{{value}}}" for name, value in fields.items() if value)
-        return f"@{self.kind}{{{self.key},\n{body}\n}}"
-
+from seisblock.references.reference import Reference
 
 LITERATURE = (
     Reference(

@@ -75,6 +75,8 @@ class FragilityParameters(Struct, frozen=True, kw_only=True):
         Smallest and largest factor on a record.
     compare : CurveEntry or None
         The curve that these are compared with.
+    suite : str or None
+        Magnitude, distance and count of synthetic records, ``synthetic:M7:R20:40``; null where records were given.
     """
 
     solver: str
@@ -91,6 +93,7 @@ class FragilityParameters(Struct, frozen=True, kw_only=True):
     least_scale: float
     largest_scale: float
     compare: CurveEntry | None
+    suite: str | None = None
 
 
 FRAGILITY_RESULT = entry_type("FragilityResult", Fragility)
@@ -112,7 +115,7 @@ def document(
     study : FragilityStudy
     bodies : sequence of Placed
     asked : mapping
-        ``im``, ``perturb``, ``bootstrap``, ``seed``, ``vertical``, ``gravity``.
+        ``im``, ``perturb``, ``bootstrap``, ``seed``, ``vertical``, ``gravity``, ``suite``.
     compare : Lognormal or None
     notes : sequence of str
         Warnings beside the study's own.
@@ -132,9 +135,10 @@ def document(
         least_scale=study.factors[0],
         largest_scale=study.factors[1],
         compare=None if compare is None else CurveEntry(median=compare.median, beta=compare.beta, unit=study.measure.unit),
+        suite=asked.get("suite"),
     )
     found = ((None, entry_of(FRAGILITY_RESULT, curve)) for curve in study.curves)
-    citations = papers("fragility", RESTS_ON[study.solver])
+    citations = papers("fragility", RESTS_ON[study.solver], *(["synthetic records"] if asked.get("suite") else []))
     return FRAGILITY.document(parameters, found, records=study.records, citations=citations, warnings=[*notes, *study.notes])
 
 

@@ -10,7 +10,7 @@ from msgspec import Meta, Struct
 
 from seisblock.present.documents.entry import entry_of, entry_type
 from seisblock.present.documents.kind import Document, Kind, Result
-from seisblock.references.literature import Reference
+from seisblock.references.reference import Reference
 from seisblock.samples import Sample, sample_directory
 from seisblock.units import GAL
 

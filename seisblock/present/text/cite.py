@@ -8,7 +8,7 @@ from typing import Any
 from rich.padding import Padding
 
 from seisblock.present.text.tables import line
-from seisblock.references.literature import Reference
+from seisblock.references.reference import Reference
 
 
 def listing(references: Sequence[Reference]) -> Iterator[Any]:
