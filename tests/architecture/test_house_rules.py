@@ -136,7 +136,7 @@ def test_every_key_exists():
 
 def test_every_reference_stands_once_and_is_used():
     """The bibliography says nothing twice, and holds nothing that the program does not rely on."""
-    bibliography = (PACKAGE / "references" / "literature.py").read_text(encoding="utf-8")
+    bibliography = "".join(path.read_text(encoding="utf-8") for path in sources("references"))
     assert len(re.findall(r"^    Reference\(", bibliography, re.MULTILINE)) == len(REFERENCES)
     text = "".join(path.read_text(encoding="utf-8") for path in sources() if path.parent.name != "references")
     assert set(REFERENCES) <= set(CITATION.findall(text))
