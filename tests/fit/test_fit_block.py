@@ -34,6 +34,7 @@ def test_the_truth_lies_in_its_interval(slender):
     assert slender.block.frequency_parameter() == pytest.approx(4.0)
 
 
+@pytest.mark.slow
 def test_four_parameters_at_once():
     """Slenderness, size, restitution and scatter, from sixty outcomes: each in its interval of 98 %."""
     found = fit_block(shaken(60, 11), runs=8, level=0.98)
@@ -65,6 +66,7 @@ def test_the_same_seed_gives_the_same_fit(experiment, slender):
     assert other["alpha"].median == pytest.approx(slender["alpha"].median, abs=0.3 * np.diff(slender["alpha"].interval)[0])
 
 
+@pytest.mark.slow
 def test_a_weight_is_so_many_outcomes(experiment):
     """Each twice over, or with a weight of two, is the same evidence; with a weight of zero it is none."""
     twice = fit_block([*experiment, *experiment], free=["alpha"], **KNOWN, folds=4)
@@ -106,6 +108,7 @@ def test_what_moved_tells_how_slender_it_is():
     assert any("rocked tells how slender" in text for text in found.warnings)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_told_apart_is_said():
     """A wider base and more worn edges are the same block."""
     found = fit_block(shaken(30, 2), free=["alpha", "inset"], **KNOWN)
@@ -114,6 +117,7 @@ def test_what_cannot_be_told_apart_is_said():
     assert any("cannot be told apart" in text for text in found.warnings)
 
 
+@pytest.mark.slow
 def test_outcomes_by_chance_are_recognised():
     """Coins: no block explains them, the lapses grow, and nothing is foretold better than by the share."""
     dice = np.random.default_rng(0)
