@@ -6,6 +6,7 @@ import pytest
 
 from seisblock.bodies.block import Block, resized
 from seisblock.bodies.library import block_of, load_block
+from seisblock.bodies.pile.toml import load_pile
 from seisblock.cli.bodies.block import choose_block
 from seisblock.errors import BodyError, InputError
 from seisblock.present.documents.bodies import block_entry
@@ -17,6 +18,30 @@ def test_bundled_gravestone():
     assert block.width == pytest.approx(0.2424)
     assert block.height / block.width == pytest.approx(2.6)
     assert block.total_mass == pytest.approx(2650 * 0.2424**2 * 0.2424 * 2.6)
+
+
+@pytest.mark.parametrize(
+    ("name", "inches"), [("bookcase", (12.625, 71.0)), ("filing_cabinet", (15.0, 52.0)), ("lateral_filing_cabinet", (18.6, 52.5))]
+)
+def test_bodies_of_rooms_have_the_sizes_of_fema_p_58(name, inches):
+    """Components E.20.22.105a, 114a and 124a, as their descriptions print them."""
+    block = load_block(name)
+    assert (block.width, block.height) == pytest.approx([0.0254 * size for size in inches])
+
+
+@pytest.mark.parametrize("name", ["server_rack", "refrigerator", "display_case"])
+def test_bodies_on_feet_turn_about_them(name):
+    """Their feet stand within their sides, which makes them slenderer than their drawing."""
+    block = load_block(name)
+    assert 0.0 < block.inset < 0.1 * block.width
+    assert 2.5 < block.height / (block.width - 2.0 * block.inset) < 5.0
+
+
+def test_a_statue_stands_on_its_pedestal():
+    """Two stones, one on the other, which other commands take as one block."""
+    pile = load_pile("statue")
+    assert [stone.name for stone in pile.stones] == ["pedestal", "figure"]
+    assert load_block("statue").height == pytest.approx(1.9)
 
 
 @pytest.mark.parametrize("side", ["short", "long"])
