@@ -88,6 +88,9 @@ def offered(*words):
     return [item.value for item in found if item.type == "plain"]
 
 
+OF_ROOMS = ("bookcase", "filing_cabinet", "lateral_filing_cabinet", "server_rack", "refrigerator", "display_case")
+
+
 @pytest.mark.parametrize(
     ("words", "names"),
     [
@@ -95,10 +98,10 @@ def offered(*words):
         (("rock", "--component", ""), ["NS", "EW", "UD", "all", "all-azimuths"]),
         (("slide", "--component", "al"), ["all", "all-azimuths"]),
         (("measure", "--component", "NS,u"), ["NS,UD"]),
-        (("rock", "--block", ""), ["chozusha", "gravestone", "wagata", "lantern", "boulder"]),
+        (("rock", "--block", ""), ["chozusha", "gravestone", "wagata", "lantern", *OF_ROOMS, "statue", "boulder"]),
         (("jump", "--block", ""), ["chozusha"]),
         (("body", "bo"), ["boulder.ply"]),
-        (("stack", "--stones", ""), ["wagata", "lantern"]),
+        (("stack", "--stones", ""), ["wagata", "lantern", "statue"]),
         (("stack", "--without", "mi"), ["mizubachi"]),
         (("stack", "--stones", "lantern", "--fix", "hi"), ["hibukuro"]),
         (("stack", "--stones", "nosuch", "--fix", ""), []),
