@@ -78,6 +78,11 @@ def as_options(text: str, ctx: click.Context) -> str:
     return PARAMETER.sub(lambda found: names.get(found[1], found[1]), text)
 
 
+def _tell_of_interruption() -> None:
+    """Say on stderr that the run was interrupted."""
+    click.echo(f"\nseisblock: {tell('interrupted; no half-written file is left')}", err=True)
+
+
 class SeisblockGroup(click.Group):
     """A group that loads commands lazily and turns errors into one sentence and an exit code."""
 
@@ -147,6 +152,14 @@ class SeisblockGroup(click.Group):
                     leave_at_once(end.code)
                 raise
 
+    def make_context(self, *args: Any, **extra: Any) -> click.Context:
+        """Take the line apart; Ctrl-C meanwhile ends as it does later, where click would say that it aborted."""
+        try:
+            return super().make_context(*args, **extra)
+        except KeyboardInterrupt:
+            _tell_of_interruption()
+            raise click.exceptions.Exit(INTERRUPTED) from None
+
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""
         _jit.announce, _jit.at_work = say, progress
@@ -161,7 +174,7 @@ class SeisblockGroup(click.Group):
             click.secho(f"seisblock: {on_a_screen(plain_text(told))}", fg="red", err=True)
             ctx.exit(error.exit_code)
         except KeyboardInterrupt:
-            click.echo(f"\nseisblock: {tell('interrupted; no half-written file is left')}", err=True)
+            _tell_of_interruption()
             ctx.exit(INTERRUPTED)
         except BrokenPipeError:
             # the reader went away (| head): nothing to say, and nothing may be flushed at exit

@@ -67,7 +67,7 @@ def run(
     with progress("finding the records"):
         files = expand(names, plan.reading)
         keys = list(dict.fromkeys(recording.key for recording in recordings(files, plan.reading)))
-    checked_target(out)  # once more: now it is known what was read
+    _check_files(out)  # once more: now it is known what was read
     tally, columns, reasons = Tally(plan.model), columns_of(plan.model, runs=plan.runs), dict[str, str]()
     if resume and out.exists() and not journal_path(out).exists():
         for rows in _whole(out, columns, plan, [path for path, _ in keys]):
@@ -160,12 +160,18 @@ def _check_target(out: Path, *, resume: bool, force: bool) -> None:
         raise OutputError("{path}: a batch writes .csv or .parquet", path=out)
     if out.suffix.lower() == PARQUET:
         check_parquet()
-    checked_target(out)
     journal = journal_path(out)
+    _check_files(out)
     if not (resume or force) and out.exists():
         raise OutputError("{path} is there already: --force makes it anew, or give another name", path=out)
     if not (resume or force) and journal.exists():
         raise OutputError("{path} was interrupted: --resume goes on, --force begins anew", path=out)
+
+
+def _check_files(out: Path) -> None:
+    """Refuse a table, or a journal beside it, that may not be written there."""
+    checked_target(out)
+    checked_target(journal_path(out))
 
 
 def _journal(path: Path, plan: Plan, *, resume: bool, force: bool) -> Journal:

@@ -16,6 +16,7 @@ import numpy as np
 
 from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import refuse_collision, wrote
+from seisblock.present.leftovers import PREFIX, held, sweep
 from seisblock.records import Record
 from seisblock.results import Response
 from seisblock.words import said
@@ -52,13 +53,15 @@ def replacing(path: Path | str) -> Iterator[Path]:
                     stream.write(temporary.read_bytes())
             return
         # named before it is made: an interruption at any instant finds it here
-        temporary = real.parent / f".seisblock-{secrets.token_hex(6)}{target.suffix[-20:]}"
+        temporary = real.parent / f"{PREFIX}{secrets.token_hex(6)}{target.suffix[-20:]}"
         try:
             temporary.touch(mode=0o600, exist_ok=False)
-            yield temporary
-            mode = real.stat().st_mode & 0o777 if real.exists() else 0o666 & ~_umask()
-            temporary.chmod(mode)
-            temporary.replace(real)
+            with held(temporary):
+                sweep(real.parent)
+                yield temporary
+                mode = real.stat().st_mode & 0o777 if real.exists() else 0o666 & ~_umask()
+                temporary.chmod(mode)
+                temporary.replace(real)
         finally:
             temporary.unlink(missing_ok=True)
     except (SeisblockError, BrokenPipeError):

@@ -118,6 +118,15 @@ def _first_look(name: str, index: int, written: str) -> Column | str:
     unit_text = split_unit(written)[1]
     plain = bare_name(written)
     unit, seconds = normal_unit(unit_text), time_unit(unit_text)
+    inner = normal_unit(split_unit(split_unit(written)[0])[1])
+    if unit and inner and inner != unit:
+        raise UnitError(
+            "{name}: column {written!r} states two units, {inner} and {unit}: keep one of them",
+            name=name,
+            written=written,
+            inner=inner,
+            unit=unit,
+        )
     if plain.isdecimal() and direction_of(plain) is None:
         raise RecordFormatError(
             "{name}: column {written!r} is named by a number that is no azimuth: expected 0 to 360 degrees, or {understood}",

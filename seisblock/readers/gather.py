@@ -148,6 +148,7 @@ def _listed(path: Path, options: Options, within: tuple[str, ...]) -> Iterator[s
         raise RecordNotFoundError("{name}: this list of records names itself: take it off the list", name=path)
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
+        reading(path)
     except (OSError, UnicodeDecodeError) as error:
         why = reason(error) if isinstance(error, OSError) else str(error)
         raise RecordNotFoundError("{name}: the list of records cannot be read: {reason}", name=path, reason=why) from error

@@ -1,15 +1,17 @@
-"""What the samples of a record say against it: offset, size, flat peaks, held values, spikes, jumps, directions."""
+"""What the samples of a record say against it: offset, size, flat peaks, held values, spikes, jumps, dead and copied rows, directions."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 
 from seisblock.records.doubts import Doubt
 from seisblock.records.jumps import spikes_and_jumps
 from seisblock.records.record import Component, Record
+from seisblock.records.whereabouts import doubts_of_header
 from seisblock.typing import FloatArray, IntArray
 from seisblock.units import GAL
 from seisblock.words import said
@@ -37,7 +39,7 @@ _NAMED = 5
 
 
 def examined(record: Record) -> Record:
-    """Return a record with the doubts that its samples raise, after those it has.
+    """Return a record with the doubts that its samples and its header raise, after those it has.
 
     Parameters
     ----------
@@ -45,7 +47,8 @@ def examined(record: Record) -> Record:
         As read, before anything is done to it.
     """
     found = [doubt for component in record.components for doubt in _of_component(component, record.dt)]
-    return replace(record, doubts=tuple(dict.fromkeys((*record.doubts, *found, *_of_directions(record)))))
+    found += [*_of_rows(record), *_of_directions(record), *doubts_of_header(record)]
+    return replace(record, doubts=tuple(dict.fromkeys((*record.doubts, *found))))
 
 
 def _of_component(component: Component, dt: float) -> Iterator[Doubt]:
@@ -140,6 +143,17 @@ def _of_flat_stretches(code: str, a: FloatArray, dt: float, peak: float, starts:
 def _shaken(around: FloatArray, peak: float) -> bool:
     """Return whether some samples beside a stretch are those of shaking."""
     return around.size >= _AROUND // 2 and float(np.median(np.abs(np.diff(around)))) > 0.002 * peak
+
+
+def _of_rows(record: Record) -> Iterator[Doubt]:
+    """Yield the doubts about rows beside each other: one that is still while others shake, one that is a copy of another."""
+    shaken = [c for c in record.components if c.acceleration.any()]
+    for still in (c.code for c in record.components if shaken and c not in shaken):
+        yield Doubt("held", said("{component}: every sample is 0 while others shake: a channel that was dead", component=still), still)
+    for one, other in combinations(shaken, 2):
+        if np.array_equal(one.acceleration, other.acceleration):
+            text = said("{one} and {other} hold the same samples: one is a copy of the other", one=one.code, other=other.code)
+            yield Doubt("directions", text)
 
 
 def _of_directions(record: Record) -> Iterator[Doubt]:

@@ -7,10 +7,13 @@ import re
 import numpy as np
 import pytest
 
-from seisblock.errors import RecordError, RecordFormatError
+from seisblock.errors import RecordError, RecordFormatError, UnitError
 from seisblock.readers import read
-from tests.fuzz.formats import FORMATS, MM
+from tests.fuzz.formats import FORMATS, MM, ROWS, WRITERS
 from tests.readers.files import JMA_HEADER, KNET_CSV, knet
+
+COUNTS = [int(x * 1577) + 900 for x in ROWS[0]]
+"""One row as a K-NET file holds it."""
 
 
 def doubts(tmp_path, data, **options):
@@ -129,3 +132,97 @@ def test_a_jma_time_beyond_the_calendar(tmp_path):
     path.write_bytes((header + "1,2,3\r\n4,5,6\r\n").encode("cp932"))
     with pytest.raises(RecordFormatError, match="expected a time such as"):
         read(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "told"),
+    [
+        ("NIG0990410231756.NS", {}, "the name says NIG099, the header NIG019"),
+        ("NIG0190410231756.EW", {}, "the name says EW, the header NS"),
+        ("any.NS", {"Record Time": "2003/10/23 17:56:20"}, "one of the two is wrong"),
+        ("any.NS", {"Record Time": "2004/10/23 19:56:20"}, "one of the two is wrong"),
+        ("any.NS", {"Station Lat.": "97.3054"}, "the station lies at 97.3054 degrees"),
+        ("any.NS", {"Long.": "1388.70"}, "the epicentre lies at 1388.7 degrees"),
+    ],
+)
+def test_a_knet_header_against_its_name_and_itself(name, changes, told, tmp_path):
+    """Another component or station than the file is named for, another year than the earthquake's, a place beyond the pole."""
+    (tmp_path / name).write_text(knet(COUNTS, duration="6", **changes))
+    found = read(tmp_path / name).doubts
+    assert [doubt.kind for doubt in found] == ["header"] and told in found[0].message
+
+
+@pytest.mark.parametrize("name", ["NIG0190410231756.NS", "nig0190410231756.ns", "renamed.NS", "a copy of it.txt"])
+def test_a_knet_file_that_keeps_its_name_or_has_one_of_its_own(name, tmp_path):
+    """Capitals are none of the file's doing, and other names say nothing."""
+    (tmp_path / name).write_text(knet(COUNTS, duration="6"))
+    assert read(tmp_path / name).doubts == ()
+
+
+def knet_csv(change, tmp_path):
+    """Return doubts about a K-NET CSV after a change of its lines."""
+    return doubts(tmp_path, change(FORMATS["knet-csv"].data))
+
+
+def test_a_knet_csv_whose_clocks_differ(tmp_path):
+    """A minute in one time of the day is another, or no time at all; the seconds beside it go on."""
+    moved = knet_csv(lambda data: data.replace(b"17:47:28.50", b"17:48:28.50"), tmp_path)
+    assert moved[0] == {"clock"} and "1 line(s), first at 1.50 s" in moved[1]
+    assert knet_csv(lambda data: data.replace(b"17:47:28.50", b"17:4x:28.50"), tmp_path)[0] == {"clock"}
+
+
+def test_a_knet_csv_in_another_unit(tmp_path):
+    """It was read as gal whatever stood there."""
+    with pytest.raises(UnitError, match="'E-W\\(m/s2\\)' is in m/s2"):
+        knet_csv(lambda data: data.replace(b"E-W(gal)", b"E-W(m/s2)"), tmp_path)
+
+
+def test_a_jma_header_of_two_units(tmp_path):
+    """One gal is a cm/s/s."""
+    with pytest.raises(UnitError, match="states two units"):
+        doubts(tmp_path, FORMATS["jma"].data.replace(b"gal(cm/s/s)", b"gal(m/s/s)"))
+
+
+@pytest.mark.parametrize("column", ["NS (gal) [g]", "ns_gal (m/s2)"])
+def test_a_column_of_two_units(column, tmp_path):
+    """The last one was believed."""
+    with pytest.raises(UnitError, match="states two units, gal and"):
+        doubts(tmp_path, FORMATS["comma"].data.replace(b"NS (gal)", column.encode()))
+
+
+@pytest.mark.parametrize(("more", "what"), [("NPTS=  500, ", "NPTS"), ("DT=   .0200 SEC, ", "DT")])
+def test_an_at2_header_that_says_it_twice(more, what, tmp_path):
+    """The first one was believed."""
+    with pytest.raises(RecordFormatError, match="found several"):
+        doubts(tmp_path, FORMATS["at2"].data.replace(f"{what}=".encode(), f"{more}{what}=".encode()))
+
+
+@pytest.mark.parametrize(
+    ("comment", "kind"),
+    [
+        ("# dt = 0.005 s, npts = 600", "clock"),
+        ("# sampling rate: 200 Hz", "clock"),
+        ("# NPTS=6000, DT=0.01", "count"),
+        ("# number of samples: 599", "count"),
+        ("# unit: m/s^2", "header"),
+    ],
+)
+def test_comments_of_a_table_that_it_does_not_bear_out(comment, kind, tmp_path):
+    """Interval, count and unit above the numbers; with dt and npts the file is no AT2 for that."""
+    kinds, told = doubts(tmp_path, comment.encode() + b"\n" + FORMATS["comma"].data)
+    assert kinds == {kind} and "a comment" in told
+
+
+@pytest.mark.parametrize("comment", ["# npts = 600, dt = 0.01", "# sampling rate: 100 Hz; unit: gal", "# dt = 10 ms, 2 m/s2 at most"])
+def test_comments_of_a_table_that_agree_with_it(comment, tmp_path):
+    """Nothing is doubted."""
+    assert doubts(tmp_path, comment.encode() + b"\n" + FORMATS["comma"].data)[0] == set()
+
+
+def test_a_dead_and_a_copied_channel(tmp_path):
+    """Zeros while others shake; the samples of another component."""
+    ns, ew, _ = ROWS
+    dead = doubts(tmp_path, WRITERS["comma"]([ns, ew, 0.0 * ns]))
+    assert dead[0] == {"held"} and "UD: every sample is 0" in dead[1]
+    copied = doubts(tmp_path, WRITERS["comma"]([ns, ns, ew]))
+    assert copied[0] == {"directions"} and "NS and EW hold the same samples" in copied[1]

@@ -233,6 +233,13 @@ def test_a_command_whose_import_is_interrupted_says_so(number, code, said, monke
     assert said in done.stderr and "Traceback" not in done.stderr
 
 
+def test_an_interrupt_while_the_line_is_taken_apart_is_one(monkeypatch):
+    """Click's own end of it is "Aborted!" and exit 1."""
+    monkeypatch.setattr(main, "parse_args", lambda *_: signal.raise_signal(signal.SIGINT))
+    done = CliRunner().invoke(main, ["cite"])
+    assert done.exit_code == 130 and "interrupted; no half-written file is left" in done.stderr and "Abort" not in done.stderr
+
+
 def test_an_interrupt_before_the_command_begins_is_no_traceback(tmp_path):
     """Ctrl-C while the program itself is imported: exit 130 in silence."""
     script = (

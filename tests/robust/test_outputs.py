@@ -76,6 +76,28 @@ def test_no_output_falls_on_a_body_or_a_cemetery(folder):
     assert {name: (folder / name).read_bytes() for name in held} == held
 
 
+@pytest.mark.parametrize("command", ["batch", "fragility"])
+def test_no_output_falls_on_a_list_of_records(command, folder):
+    """R1: the file that names the records is read, too; under another name it is the same file."""
+    (folder / "again.csv").write_bytes((folder / "in.csv").read_bytes())
+    (folder / "list.txt").write_text("in.csv\nagain.csv\n")
+    os.link(folder / "list.txt", folder / "out.csv")
+    told = {"batch": ("--force", "--out"), "fragility": ("--csv",)}[command]
+    done = run(command, "@list.txt", "--bodies", "gravestone", "--solver", "rock", *told, "out.csv")
+    assert done.exit_code == 3 and "is a file that is read" in done.stderr
+    assert (folder / "list.txt").read_text() == "in.csv\nagain.csv\n"
+
+
+@pytest.mark.parametrize("link", [os.link, os.symlink])
+def test_no_journal_falls_on_a_record(link, folder):
+    """R1: what a batch keeps beside its table goes where an output may go."""
+    link("in.csv", "out.csv.journal")
+    before = (folder / "in.csv").read_bytes()
+    done = run("batch", "in.csv", "--bodies", "gravestone", "--solver", "rock", "--force", "--out", "out.csv")
+    assert done.exit_code == 3 and "is a file that is read" in done.stderr
+    assert (folder / "in.csv").read_bytes() == before
+
+
 def test_outputs_do_not_fall_on_each_other(folder):
     """R1: --csv and --plot of one name are refused before either is written."""
     done = run("slide", "in.csv", "--mu", "0.2", "--csv", "a.png", "--plot", "./a.png")
@@ -276,3 +298,25 @@ def test_a_page_that_leads_nowhere_is_refused_first(words, folder):
     """Pages take long to make."""
     done = run(words[0], *(["not_there.csv"] if words[0] == "report" else []), words[1], "nowhere/page.html")
     assert done.exit_code == 3 and "there is no directory nowhere" in done.stderr
+
+
+def test_what_a_killed_run_left_is_swept(tmp_path):
+    """SIGKILL in the middle of a write leaves a hidden file: the next output there takes it away, but none that a living run holds."""
+    fcntl = pytest.importorskip("fcntl")
+    script = (
+        "import os, signal, sys\nfrom seisblock.present.files import replacing\n"
+        "with replacing(sys.argv[1]) as path:\n    path.write_text('half')\n    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    killed = subprocess.run([sys.executable, "-c", script, str(tmp_path / "a.txt")], check=False)
+    assert killed.returncode == -signal.SIGKILL and len(list(tmp_path.glob(".seisblock-*"))) == 1
+    (young,) = tmp_path.glob(".seisblock-*")
+    write_text(tmp_path / "b.txt", "whole")
+    assert young.exists()  # it might be a moment old
+    living = tmp_path / ".seisblock-living.txt"
+    with living.open("w") as stream:
+        fcntl.flock(stream, fcntl.LOCK_EX)
+        for path in (young, living):
+            os.utime(path, (0, 0))
+        write_text(tmp_path / "b.txt", "whole")
+        assert not young.exists() and living.exists()
+    assert sorted(path.name for path in tmp_path.iterdir()) == [living.name, "b.txt"]

@@ -30,7 +30,7 @@ _NAME = re.compile(
 
 def is_at2(head: bytes) -> bool:
     """Return whether a file's first bytes are an AT2 header: text with NPTS and DT in its first lines, and no velocity or displacement."""
-    text = b"\n".join(head.splitlines()[:_HEADER_LINES]).decode("latin-1")
+    text = b"\n".join(line for line in head.splitlines()[:_HEADER_LINES] if not line.startswith(b"#")).decode("latin-1")
     if b"\x00" in head or re.search(r"(VELOCITY|DISPLACEMENT) TIME", text, re.IGNORECASE):
         return False
     return bool(_OLD.search(text) or (_COUNT.search(text) and _INTERVAL.search(text)))
@@ -103,6 +103,9 @@ def _clock(name: str, lines: Sequence[str]) -> tuple[int, int, float]:
         old = _OLD.match(line)
         count, interval = (old[1], old[2]) if old else ((_COUNT.search(line) or [""] * 2)[1], (_INTERVAL.search(line) or [""] * 2)[1])
         if count and interval:
+            told = [set(map(number, found.findall("\n".join(lines[: index + 1])))) for found in (_COUNT, _INTERVAL)]
+            if any(len(values) > 1 for values in told):
+                fail(name, index + 1, said("expected one NPTS and one DT, found several in the header: {text!r}", text=line.strip()[:80]))
             dt = number(interval)
             if not dt or dt < 0:
                 fail(name, index + 1, said("expected a sampling interval DT above 0, found {interval!r}", interval=interval))

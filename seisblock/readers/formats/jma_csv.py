@@ -130,7 +130,10 @@ def _rate(name: str, header: dict[str, tuple[int, str]]) -> float:
 def _unit(name: str, header: dict[str, tuple[int, str]]) -> str:
     """Return the unit the header states."""
     line, text = _value(name, header, "UNIT")
-    unit = normal_unit(text.split("(")[0]) or normal_unit(text.partition("(")[2].rstrip(") "))
+    stated = {normal_unit(part.rstrip(") ")) for part in text.split("(")} - {None}
+    if len(stated) > 1:
+        raise UnitError("{name}, line {line}: {text!r} states two units: expected gal(cm/s/s)", name=name, line=line, text=text)
+    unit = next(iter(stated), None)
     if unit is None:
         raise UnitError("{name}, line {line}: unknown unit {text!r}: expected gal(cm/s/s)", name=name, line=line, text=text)
     return unit

@@ -62,6 +62,7 @@ _LABELS = (
     MEMO,
 ) = range(17)
 _CHANNELS = {"1": "NS", "2": "EW", "3": "UD", "4": "NS", "5": "EW", "6": "UD"}
+_NAME = re.compile(r"(?:(?P<station>[A-Z]{3}[0-9]{3}|[A-Z]{4}[0-9]{2})[0-9]{10}|.+)\.(?P<code>NS|EW|UD)[12]?\Z", re.IGNORECASE)
 _ORACLE = 0.0011
 """The header's maximum has three decimals, gal."""
 
@@ -97,7 +98,7 @@ def read_knet(blob: Blob) -> Record:
     # one correctly rounded division: counts and factors are whole numbers
     acceleration = counts * float(scale[1]) / (float(scale[2]) * 100.0)
     metadata = _metadata(values, code, level, 100.0 * acceleration)
-    doubts += _check_maximum(code, values[MAXIMUM], 100.0 * acceleration)
+    doubts += _check_maximum(code, values[MAXIMUM], 100.0 * acceleration) + _check_name(blob.basename, code, values[STATION])
     return Record(
         (Component(code, acceleration),),
         1.0 / rate,
@@ -217,6 +218,19 @@ def _check_maximum(code: str, text: str, gal: FloatArray) -> tuple[Doubt, ...]:
         )
         return (Doubt("header", found, code),)
     return ()
+
+
+def _check_name(basename: str, code: str, station: str) -> tuple[Doubt, ...]:
+    """Doubt a file whose name, in the manner of NIED, tells another component or another station than its header."""
+    match = _NAME.match(basename)
+    if match is None:
+        return ()
+    told = [(match["station"], station), (match["code"], code)]
+    return tuple(
+        Doubt("header", said("{name}: the name says {named}, the header {told}", name=basename, named=named, told=own), code)
+        for named, own in told
+        if named and own and named.upper() != own.upper()
+    )
 
 
 def _metadata(values: Sequence[str], code: str, level: str, gal: FloatArray) -> dict[str, object]:

@@ -7,17 +7,21 @@ from collections.abc import Sequence
 from datetime import datetime, timedelta
 from itertools import pairwise
 
-from seisblock.errors import RecordFormatError
+import numpy as np
+
+from seisblock.errors import RecordFormatError, UnitError
 from seisblock.readers.cells import columns_of, fail, to_si
 from seisblock.readers.clock import even_dt
 from seisblock.readers.decimals import doubts_of_decimals, doubts_of_end
 from seisblock.readers.header import LARGEST_COUNT, number, time_in_japan
-from seisblock.readers.naming import TIME, code_of
+from seisblock.readers.naming import TIME, code_of, normal_unit, split_unit
 from seisblock.readers.source import Blob, decode
 from seisblock.records import Component, Doubt, Record
+from seisblock.typing import FloatArray
 from seisblock.words import said
 
 FORMAT = "KNET-CSV"
+_TIME_OF_DAY = re.compile(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(?:\.\d{1,6})?")
 _CHANNELS = {"1": ("NS", "borehole"), "2": ("EW", "borehole"), "3": ("UD", "borehole")}
 _CHANNELS |= {"4": ("NS", "surface"), "5": ("EW", "surface"), "6": ("UD", "surface")}
 
@@ -54,7 +58,7 @@ def read_knet_csv(blob: Blob) -> list[Record]:
             "{name}: its header says {rate:g} Hz, its times are {dt:g} s apart: the file is damaged", name=blob.name, rate=rate, dt=dt
         )
     start = _start(blob.name, lines[body], body + 1, float(columns[clock][0]))
-    doubts = _doubts(header, columns[clock].size, rate or 1.0 / dt)
+    doubts = _doubts(header, columns[clock].size, rate or 1.0 / dt) + _doubts_of_clock(lines[body:], columns[clock], dt)
     doubts += doubts_of_decimals(lines[body:], body + 1, ",") + doubts_of_end(lines[body:], ",")
     records = []
     for level, codes in sensors.items():
@@ -87,6 +91,26 @@ def _doubts(header: Sequence[str], samples: int, rate: float) -> tuple[Doubt, ..
     return ()
 
 
+def _doubts_of_clock(lines: Sequence[str], relative: FloatArray, dt: float) -> tuple[Doubt, ...]:
+    """Return what speaks against the times of the day, which the seconds beside them have to go with."""
+    told = [line.partition(",")[0].strip().replace("/", "-").replace(" ", "T") for line in lines if line.strip(" \t,")]
+    try:
+        if not all(map(_TIME_OF_DAY.fullmatch, told)):
+            raise ValueError
+        since = (np.array(told, dtype="datetime64[us]") - np.datetime64(told[0], "us")) / np.timedelta64(1, "s")
+    except ValueError:
+        return (Doubt("clock", said("the times of the day in the first column cannot all be read")),)
+    apart = np.flatnonzero(np.abs(since - (relative - relative[0])) > 0.5 * dt)
+    if not apart.size:
+        return ()
+    text = said(
+        "the time of the day and the seconds beside it differ in {count} line(s), first at {seconds:.2f} s",
+        count=apart.size,
+        seconds=float(relative[apart[0]]),
+    )
+    return (Doubt("clock", text),)
+
+
 def _sensors(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
     """Return, for each sensor (of K-NET one, without a level), which column holds which component."""
     sensors: dict[str, dict[str, int]] = {}
@@ -94,6 +118,14 @@ def _sensors(name: str, names: Sequence[str]) -> dict[str, dict[str, int]]:
         code, level = _CHANNELS.get(column.split("(")[0], (code_of(column), ""))
         if code == TIME:
             continue
+        unit = split_unit(column)[1]
+        if unit and normal_unit(unit) != "gal":
+            raise UnitError(
+                "{name}: column {column!r} is in {unit}, and a K-NET CSV is in gal: the file is damaged",
+                name=name,
+                column=column,
+                unit=unit,
+            )
         if code not in ("NS", "EW", "UD") or code in sensors.get(level, {}):
             raise RecordFormatError(
                 "{name}: column {column!r} is none of N-S, E-W, U-D (or 1 to 6), or stands twice: the file is damaged",

@@ -15,6 +15,7 @@ from seisblock.readers.cells import columns_of, turned_si
 from seisblock.readers.clock import even_dt
 from seisblock.readers.columns import Column, Columns, columns_of_header, means_something
 from seisblock.readers.decimals import doubts_of_decimals, doubts_of_end
+from seisblock.readers.formats.table_comments import doubts_of_comments
 from seisblock.readers.lines import lines_of, mapped
 from seisblock.readers.naming import TIME
 from seisblock.readers.source import Blob
@@ -109,6 +110,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
         )
     clocked = any(column.code == TIME for column in told.read)
     doubts = _doubts(lines, layout.body, clocked=clocked) + doubts_of_decimals(body, layout.body + 1, layout.separator)
+    doubts += doubts_of_comments(lines[: layout.body], told.read, rows[0].size, dt)
     if not any(doubt.kind == "cut" for doubt in doubts):
         doubts += doubts_of_end(body, layout.separator)
     return Record(tuple(components), dt, source=blob.name, format=FORMAT, history=told.remarks, metadata=metadata, doubts=doubts)
