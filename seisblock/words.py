@@ -19,6 +19,7 @@ from functools import cache
 from pathlib import Path
 from string import Formatter
 from typing import Any
+from unicodedata import category
 
 LANGUAGES = ("en", "ja")
 
@@ -183,7 +184,7 @@ def speaking(asked: str | None) -> Iterator[None]:
 
 
 def plain_text(text: str) -> str:
-    r"""Return a text from a file as one that a terminal prints and does not obey: control characters are spelt out.
+    r"""Return a text from a file as one that a terminal prints and does not obey: what is no letter, sign or blank is spelt out.
 
     Parameters
     ----------
@@ -193,8 +194,12 @@ def plain_text(text: str) -> str:
     --------
     >>> plain_text("K-NET\x1b[31m")
     'K-NET\\x1b[31m'
+    >>> plain_text("米子市\u3000博労町")
+    '米子市　博労町'
     """
-    return text if text.isprintable() else "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c == "\n" or category(c) == "Zs" else c.encode("unicode_escape").decode() for c in text)
 
 
 def on_a_screen(text: str) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seisblock import __version__
-from seisblock.words import language, tell
+from seisblock.words import language, plain_text, tell
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -36,7 +36,14 @@ def _templates() -> Environment:
     """Return the templates, ready to be filled in."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    made = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    made = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        finalize=lambda value: plain_text(value) if type(value) is str else value,
+    )
     made.globals |= {"tell": tell, "version": __version__, "subtitles": (), "foot": ""}
     made.policies["json.dumps_kwargs"] = {"ensure_ascii": False, "separators": (",", ":")}
     return made

@@ -12,7 +12,9 @@ from seisblock.cli import main
 from tests.lengths import all_but_slow
 from tests.readers.files import KNET_CSV
 
-NASTY = "\x1b[31mred\x07 [bold]loud[/bold] [/] $x_{\\frac$ <script>alert(1)</script> {0} {name} %s "
+NASTY = "\x1b[31mred\x07 \x9b1m\u202e [bold]loud[/bold] [/] $x_{\\frac$ <script>alert(1)</script> {0} {name} %s "
+COMMANDING = "\x1b\x07\x9b\u202e"
+"""What a terminal obeys: escapes, the bell, an escape of one byte, letters from right to left."""
 LONG = "long " * 4000
 COMMANDS = {
     "measure": [],
@@ -58,9 +60,9 @@ def test_tables_and_talk(command, language, record):
     done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--lang", language])
     assert done.exception is None, (done.exception, done.stderr)
     shown = done.stdout + done.stderr
-    assert "\x1b" not in shown and "\x07" not in shown
+    assert not set(COMMANDING) & set(shown)
     assert all(len(line) < 2000 for line in shown.splitlines())
-    assert "\\x1b[31mred\\x07 [bold]loud[/bold] [/] $x_{" in " ".join(shown.split())
+    assert "\\x1b[31mred\\x07 \\x9b1m\\u202e [bold]loud[/bold] [/] $x_{" in " ".join(shown.split())
     assert shown.count("long") < 400
 
 
@@ -69,7 +71,7 @@ def test_documents_hold_the_text_itself(command, record):
     """JSON escapes it, and gives it back."""
     done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--json", "--quiet"])
     assert done.exception is None, done.exception
-    assert "\x1b" not in done.stdout + done.stderr
+    assert not set(COMMANDING) & set(done.stdout + done.stderr)
     told = json.loads(done.stdout)
     told = told["record"][0] if isinstance(told["record"], list) else told["record"]
     assert told["source"] == record
@@ -82,10 +84,10 @@ DRAWING = ("measure", "slide", "rock", "jump", "uplift", "respond", "stack", "cr
 @pytest.mark.parametrize("command", all_but_slow(DRAWING, {"slide", "rock", "respond", "criteria"}))
 def test_figures(command, record, tmp_path):
     """A dollar begins no formula: the figure is drawn, and its title is the text."""
-    done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--plot", "out.svg", "--quiet"])
+    done = CliRunner().invoke(main, [command, record, *COMMANDS[command], "--plot", "out.svg", "--title", NASTY, "--quiet"])
     assert done.exception is None, done.exception
     assert (tmp_path / "out.svg").stat().st_size > 1000
-    assert "\x1b" not in done.stderr
+    assert not set(COMMANDING) & set(done.stderr) and "Glyph" not in done.stderr
 
 
 @pytest.mark.slow
@@ -94,4 +96,5 @@ def test_the_report_is_a_page_of_text(record, tmp_path):
     done = CliRunner().invoke(main, ["report", record, "--body", "stone.toml", "-o", "out.html", "--quiet"])
     assert done.exception is None, done.exception
     page = (tmp_path / "out.html").read_text(encoding="utf-8")
+    assert not set(COMMANDING) & set(page)
     assert "<script>alert(1)" not in page and "&lt;script&gt;alert(1)" in page

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +12,14 @@ import numpy as np
 
 from seisblock.present.documents.kind import Document
 
+_COMMANDING = re.compile("[\x7f-\x9f\xad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb]")
+"""Control characters that JSON leaves as they are, and those that turn lines around or cannot be seen."""
+
 
 def to_json(document: Document) -> str:
-    """Return a document as text."""
-    return msgspec.json.format(msgspec.json.encode(document, enc_hook=_foreign), indent=2).decode()
+    """Return a document as text, in which no text of a file commands the terminal that it may be printed on."""
+    written = msgspec.json.format(msgspec.json.encode(document, enc_hook=_foreign), indent=2).decode()
+    return _COMMANDING.sub(lambda found: json.dumps(found[0])[1:-1], written)
 
 
 def plain(value: Any) -> Any:

@@ -22,7 +22,7 @@ from seisblock.present.files import check_figure, replacing
 from seisblock.present.wrap import columns
 from seisblock.results import Phase
 from seisblock.units import GAL
-from seisblock.words import language, speaking, tell
+from seisblock.words import language, plain_text, speaking, tell
 
 INPUT = "0.45"
 ACCENT = "#c0392b"
@@ -81,7 +81,7 @@ class Sheet(Figure):
         """Put a line above all panels; it is text, never mathematics."""
         if self.heading is not None:
             self.heading.set_text("")
-        self.heading = self.suptitle(text, fontsize=10, x=0.01, ha="left", parse_math=False) if text else None
+        self.heading = self.suptitle(plain_text(text), fontsize=10, x=0.01, ha="left", parse_math=False) if text else None
 
     def in_a_column(self, build: Callable[[], Sheet], title: str | None) -> Sheet:
         """Return this figure as it is built for a narrow page, in its language, at its resolution, under a title if one is given."""
