@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import IO, Any
 
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.text import Text
-from matplotlib.ticker import NullLocator
 from matplotlib.transforms import ScaledTranslation
 
 from seisblock.present.directions import phase as called
@@ -48,9 +45,6 @@ BETWEEN = "   "
 
 MOST_PIXELS = 20_000
 """Longest side of a picture."""
-
-MOST_TICKS = 7
-"""Names along a logarithmic axis."""
 
 TICKS = 8
 """Size of the letters of an axis, points."""
@@ -185,17 +179,6 @@ def label(axis: Axes, x: str = "", y: str = "") -> None:
         axis.set_xlabel(x, fontsize=9)
     if y:
         axis.set_ylabel(y, fontsize=9)
-
-
-def round_ticks(ruler: Axis) -> None:
-    """Name round numbers along a logarithmic axis, as far as it reaches: 1, 2 and 5 of each decade, or the decades alone."""
-    low, high = sorted(ruler.get_view_interval())
-    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    within = [[n * 10.0**d for d in decades for n in some if low <= n * 10.0**d <= high] for some in ((1, 2, 5), (1,))]
-    chosen = within[0] if len(within[0]) <= MOST_TICKS else within[1]
-    ruler.set_ticks(chosen, labels=[f"{each:g}" for each in chosen])
-    ruler.set_minor_locator(NullLocator())
-    ruler.set_view_interval(low, high, ignore=True)
 
 
 def panel_title(axis: Axes, text: str) -> None:

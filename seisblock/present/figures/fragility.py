@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, Sheet, label, legend, new_figure, panel_title, round_ticks
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, Sheet, label, legend, new_figure, panel_title
+from seisblock.present.figures.rulers import round_ticks
 from seisblock.present.text.fragility import limit_name
 from seisblock.studies.fragility.answer import Fragility, FragilityStudy
 from seisblock.studies.fragility.estimate import CLOUD

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure, round_ticks
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure
+from seisblock.present.figures.rulers import round_ticks
 from seisblock.present.text.risk import name_of
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.hazard.curve import Hazard
