@@ -75,17 +75,29 @@ def test_a_second_process_compiles_nothing(folder):
     assert kept(folder) == before
 
 
-SPOILT = {"empty": lambda data: b"", "half": lambda data: data[: len(data) // 2], "last byte": lambda data: data[:-1]}
+SPOILT = {
+    "empty": lambda data: b"",
+    "half": lambda data: data[: len(data) // 2],
+    "last byte": lambda data: data[:-1],
+    "inside": lambda data: data[: len(data) // 2] + bytes(300) + data[len(data) // 2 + 300 :],
+        data[: len(data) // 2] + bytes(255 - byte for byte in data[len(data) // 2 :][:300]) + data[len(data) // 2 + 300 :]
+    ),
+}
 
 
 @pytest.mark.parametrize(
     ("spoil", "script"),
-    [pytest.param("empty", ONE, marks=pytest.mark.slow), ("half", SCRIPT), pytest.param("last byte", ONE, marks=pytest.mark.slow)],
+    [
+        pytest.param("empty", ONE, marks=pytest.mark.slow),
+        pytest.param("half", ONE, marks=pytest.mark.slow),
+        pytest.param("last byte", ONE, marks=pytest.mark.slow),
+        ("inside", SCRIPT),
+    ],
     ids=SPOILT,
 )
 @pytest.mark.parametrize("suffix", ["nbc", pytest.param("nbi", marks=pytest.mark.slow)])
 def test_a_damaged_kernel_is_compiled_afresh(folder, suffix, spoil, script):
-    """Files that lost their bytes, as after a power cut: the answer stands, one line says so, and the next run finds them whole."""
+    """Files that lost bytes, or changed some, which would be run: the answer stands, one line says so, and the next run finds them whole."""
     for path in folder.rglob(f"*.{suffix}"):
         path.write_bytes(SPOILT[spoil](path.read_bytes()))
     said = answers(folder, script)

@@ -13,6 +13,7 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any, TypeVar, cast
 
+from seisblock._jit.seal import is_sealed, seal_what_is_kept_in
 from seisblock.errors import reason
 from seisblock.words import Said, said
 
@@ -111,6 +112,8 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
         _once(say, said("compiling the kernels, once; a few seconds..."))
     with _numba_keeps_in(place):
         try:
+            if seal_what_is_kept_in(place):
+                _check(cast(FunctionType, function))
             return compiled(True)
         except UNREADABLE as error:
             why = reason(error) if isinstance(error, OSError) and error.strerror else said("a damaged kernel")
@@ -126,6 +129,12 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
 def is_kept(function: Callable[..., Any]) -> bool:
     """Whether something is kept of a kernel."""
     return any(True for _ in _files(cast(FunctionType, function)))
+
+
+def _check(function: FunctionType) -> None:
+    """Refuse to read a kernel whose bytes are not those that were written: it would be run."""
+    if not all(is_sealed(path) for path in _files(function)):
+        raise ValueError("a digest does not hold")
 
 
 def _remove(function: FunctionType) -> None:
