@@ -80,8 +80,6 @@ SPOILT = {
     "half": lambda data: data[: len(data) // 2],
     "last byte": lambda data: data[:-1],
     "inside": lambda data: data[: len(data) // 2] + bytes(300) + data[len(data) // 2 + 300 :],
-        data[: len(data) // 2] + bytes(255 - byte for byte in data[len(data) // 2 :][:300]) + data[len(data) // 2 + 300 :]
-    ),
 }
 
 
@@ -97,7 +95,7 @@ SPOILT = {
 )
 @pytest.mark.parametrize("suffix", ["nbc", pytest.param("nbi", marks=pytest.mark.slow)])
 def test_a_damaged_kernel_is_compiled_afresh(folder, suffix, spoil, script):
-    """Files that lost bytes, or changed some, which would be run: the answer stands, one line says so, and the next run finds them whole."""
+    """Files that lost bytes, or changed some, which would be run: the answer stands, one line says so, the next run finds them whole."""
     for path in folder.rglob(f"*.{suffix}"):
         path.write_bytes(SPOILT[spoil](path.read_bytes()))
     said = answers(folder, script)
