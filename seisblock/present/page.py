@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
 
 TEMPLATES = Path(__file__).with_name("pages") / "templates"
 """What pages look like: HTML with fields; a text that is filled in cannot become a tag."""
+
+PER_CENT = re.compile(r"(?<=\d) %")
+"""What may not be broken: the blank between a number and its sign."""
 
 
 def page(template: str, title: str, **values: Any) -> str:
@@ -42,8 +46,13 @@ def _templates() -> Environment:
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
-        finalize=lambda value: plain_text(value) if type(value) is str else value,
+        finalize=_unbroken,
     )
     made.globals |= {"tell": tell, "version": __version__, "subtitles": (), "foot": ""}
     made.policies["json.dumps_kwargs"] = {"ensure_ascii": False, "separators": (",", ":")}
     return made
+
+
+def _unbroken(value: Any) -> Any:
+    """Return a text that commands nothing, whose numbers stay on one line with their sign of per cent; what is no text as it is."""
+    return PER_CENT.sub("\N{NO-BREAK SPACE}%", plain_text(value)) if type(value) is str else value

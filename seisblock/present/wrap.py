@@ -11,8 +11,13 @@ _WIDE = r"\u1100-\u115f\u2e80-\u303e\u3041-\u3247\u3250-\ua4cf\uac00-\ud7a3\uf90
 _CLOSING = "、。，．）」』］：；！？ー・々ぁぃぅぇぉゃゅょっァィゥェォャュョッ"
 """Marks that may not begin a line."""
 
-_ATOM = re.compile(rf"\s*[（「『［]*(?:[^\s{_WIDE}]+|[{_WIDE}])[{_CLOSING}]*|\s+")
-"""What is not broken: a word, or a wide letter, with the marks that belong to it."""
+_UNITS = rf"(?:%|mm|cm|km|m|s|Hz|gal|kine|g|kg|N|J|rad|deg)(?![\w/])(?:[^\s{_WIDE}]*)"
+"""What belongs to the number before it, with the marks behind it."""
+
+_NUMBER = rf"[(+-]*\d[\d.,]*\ {_UNITS}"
+
+_ATOM = re.compile(rf"\s*[（「『［]*(?:{_NUMBER}|[^\s{_WIDE}]+|[{_WIDE}])[{_CLOSING}]*|\s+")
+"""What is not broken: a word, a number with its unit, or a wide letter, with the marks that belong to it."""
 
 _MARKS = re.compile(rf"[{_WIDE}]")
 
@@ -20,6 +25,16 @@ _MARKS = re.compile(rf"[{_WIDE}]")
 def is_wide(text: str) -> bool:
     """Whether a text holds letters that take two columns."""
     return _MARKS.search(text) is not None
+
+
+def has_units(text: str) -> bool:
+    """Whether a text holds a number with a unit, which should stay together."""
+    return re.search(_NUMBER, text) is not None
+
+
+def fits(text: str, width: int) -> bool:
+    """Whether no word of a text takes more columns than `width`."""
+    return max((columns(atom[0].strip()) for atom in _ATOM.finditer(text)), default=0) <= width
 
 
 def columns(text: str) -> int:
@@ -40,7 +55,9 @@ def breaks(text: str, width: int) -> list[int]:
     found: list[int] = []
     start = end = 0
     for atom in _ATOM.finditer(text):
-        if end > start and columns(text[start : atom.end()].rstrip()) > width:
+        so_far = text[start : atom.end()].rstrip()
+        # a line that goes on loses the blank before it
+        if end > start and columns(so_far.lstrip() if found else so_far) > width:
             start = end
             found.append(start)
         end = atom.end()

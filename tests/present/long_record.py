@@ -19,6 +19,7 @@ from seisblock import (
     find_risk,
     fit_block,
     read_hazard,
+    run_fragility,
     solve_jump,
     solve_respond,
     solve_rock,
@@ -38,6 +39,7 @@ from seisblock.present.figures import (
     criteria,
     field_test,
     fit,
+    fragility,
     infer,
     inputs,
     mode_map,
@@ -177,6 +179,25 @@ def risks():
     return [(each, find_risk(each.curve, hazard)) for each in given], hazard
 
 
+NAMES = tuple(f"益城町宮園中央小学校の長い名前の墓石その{i}" for i in range(1, 10))
+
+
+@functools.cache
+def many_risks():
+    """Return what becomes of nine bodies with long names."""
+    hazard = read_hazard("synthetic_hazard.csv")
+    given = [GivenFragility(name, "overturn", "pgv", "m/s", Lognormal(0.2 + 0.1 * i, 0.3)) for i, name in enumerate(NAMES)]
+    return [(each, find_risk(each.curve, hazard)) for each in given], hazard
+
+
+@functools.cache
+def fragilities(*, names=("stone",), limits=("rock", "overturn")):
+    """Return the curves of some bodies, each wider than the one before, over the record and two others."""
+    bodies = {name: Block(0.3 + 0.01 * i, 0.9) for i, name in enumerate(names)}
+    suite = [record(), "elcentro_1940_ns.csv", "synthetic_jma.csv"]
+    return run_fragility(suite, bodies, "rock", limits=limits, im="pgv", steps=10, bootstrap=20)
+
+
 @functools.cache
 def factors():
     base = SlidingBase(0.15)
@@ -267,6 +288,9 @@ OF_NO_RECORD = {
         stack_criterion.figure,
         lambda gal: stack_criterion.figure(*criterion(), reinforced=False, gal=gal),
     ),
+    "risk of nine": (risk.figure, lambda gal: risk.figure(*many_risks(), gal=gal)),
+    "fragility": (fragility.figure, lambda gal: fragility.figure(fragilities(), gal=gal)),
+    "fragility of nine": (fragility.figure, lambda gal: fragility.figure(fragilities(names=NAMES, limits=("overturn",)), gal=gal)),
     "risk": (risk.figure, lambda gal: risk.figure(*risks(), gal=gal)),
     "fit": (fit.fit_figure, lambda gal: fit.fit_figure(fitted_block(), "shaken.csv", gal=gal)),
     "field test": (field_test.figure, lambda _: field_test.figure()),
@@ -292,5 +316,7 @@ def drawing_functions():
         for module in modules
         if module.__name__.rsplit(".", 1)[1] not in NOT_A_KIND
         for name, function in inspect.getmembers(module, inspect.isfunction)
-        if function.__module__ == module.__name__ and not name.startswith("_") and function.__annotations__.get("return") == "Figure"
+        if function.__module__ == module.__name__
+        and not name.startswith("_")
+        and function.__annotations__.get("return") in ("Figure", "Sheet")
     }

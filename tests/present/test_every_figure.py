@@ -15,6 +15,7 @@ from matplotlib.text import Text
 from seisblock.errors import OutputError
 from seisblock.present.figures import size as size_module
 from seisblock.present.figures.canvas import SMALLEST_LETTERS
+from seisblock.present.figures.embed import picture
 from seisblock.present.figures.size import fitted
 from seisblock.units import Size
 from seisblock.words import speaking
@@ -92,7 +93,7 @@ def test_a_journals_column_holds_it(name):
 
 TOO_SMALL = {
     "respond", "respond, two", "rock", "rock, two", "slide", "slide, two", "jump", "jump, two", "uplift", "uplift, two", "stack",
-    "measure", "criteria", "modes", "rate with dowels", "harmonic", "a scan",
+    "measure", "criteria", "modes", "rate with dowels", "harmonic", "a scan", "fragility of nine", "risk of nine",
 }  # fmt: skip
 """What has more panels, or columns of them, than 85 mm x 60 mm hold."""
 
@@ -144,6 +145,35 @@ def test_a_key_does_not_lie_on_a_curve_of_a_small_figure(number, lang):
         figure = fitted(figure, size=Size(COLUMN, 0.06, "mm"))
         figure.draw_without_rendering()
     assert not figure.hides_a_curve(figure.axes[0].get_legend())
+
+
+@pytest.mark.parametrize("name", ["fragility", "fragility of nine"])
+def test_the_key_of_a_fragility_hides_no_curve(name):
+    """Curves rise to the right: the key stands in the corner that they leave."""
+    figure = drawn(name, "en")
+    assert [axis for axis in figure.axes if axis.get_legend() and figure.hides_a_curve(axis.get_legend())] == []
+
+
+def test_nine_risks_differ_and_are_all_named():
+    """Each has a line of its own, and its name stands within the figure."""
+    figure = drawn("risk of nine", "ja")
+    curves = figure.axes[1].lines
+    assert len({(str(curve.get_color()), str(curve._unscaled_dash_pattern)) for curve in curves}) == len(curves) == 9
+    assert {text.get_text() for text in figure.legends[0].get_texts()} == {curve.get_label() for curve in curves}
+
+
+@pytest.mark.parametrize("lang", ["en", "ja"])
+def test_no_key_covers_a_title_within_a_page(lang):
+    """A figure that is narrowed for a page lifts its titles over the keys, with the tails of their letters."""
+    with speaking(lang):
+        figure = EVERY["measure"][1](True)
+        picture(figure, "")
+        figure.draw_without_rendering()
+    keyed = [axis for axis in figure.axes if axis.get_legend() and axis.get_title(loc="left")]
+    assert len(keyed) >= 2
+    for axis in keyed:
+        title = next(text for text in axis.findobj(Text) if text.get_text() == axis.get_title(loc="left"))
+        assert title.get_window_extent().y0 >= axis.get_legend().get_window_extent().y1
 
 
 @pytest.mark.parametrize("name", OF_THE_RECORD)

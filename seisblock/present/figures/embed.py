@@ -24,6 +24,9 @@ LARGEST_DRAWING = 600_000
 
 PICTURE_DPI = 170
 
+OVER_KEY = 17.0
+"""Height of a panel's title that stands over a key of one row and hides no letter's tail behind it, points."""
+
 CLIP = re.compile(r"\bp[0-9a-f]{10}\b")
 """The name of a clipping path, which matplotlib makes of an address in memory."""
 
@@ -87,4 +90,4 @@ def _part(axis: Axes) -> None:
     """Lift a panel's title over its legend, which a narrow figure would draw on it."""
     title = axis.get_title(loc="left")
     if title and axis.get_legend() is not None:
-        axis.set_title(title, loc="left", fontsize=8, pad=13.0)
+        axis.set_title(title, loc="left", fontsize=8, pad=OVER_KEY)

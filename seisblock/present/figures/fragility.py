@@ -61,7 +61,7 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
         label(axis, x=name if index + columns >= len(bodies) else "", y=tell("probability") if index % columns == 0 else "")
         axis.set_ylim(-0.02, 1.02)
         round_ticks(axis.xaxis)
-        legend(axis, bbox_to_anchor=(1.0, 0.03), ncols=1)
+        legend(axis, loc="best", bbox_to_anchor=None, borderaxespad=0.5, ncols=1)
     if columns > 1:
         made.stacked = partial(figure, study, gal=gal, compare=compare, columns=1)
     return made

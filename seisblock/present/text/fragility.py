@@ -45,8 +45,7 @@ def tables(study: FragilityStudy, *, gal: bool, compare: Lognormal | None = None
         A curve to tell them beside.
     """
     fitted = [curve for curve in study.curves if curve.median is not None]
-    for curve in fitted if len(fitted) <= MOST_VERDICTS else []:
-        yield line(verdict(study, curve, gal=gal), "bold")
+    yield from (line(told, "bold") for told in _verdicts(study, fitted, gal=gal))
     yield _curves(study, gal=gal)
     yield line(_what(study), "dim")
     if any(curve.beta_alone is not None for curve in study.curves):
@@ -59,6 +58,16 @@ def tables(study: FragilityStudy, *, gal: bool, compare: Lognormal | None = None
     if compared:
         text = noted("beta: the smaller, the better it tells; slopes of what it leaves unexplained: none is best, p: that it is chance")
         yield line(tell(text), "dim")
+
+
+def _verdicts(study: FragilityStudy, fitted: Sequence[Fragility], *, gal: bool) -> Iterator[str]:
+    """Yield what each curve says; of many, the one that does it first and the one that does it last."""
+    if len(fitted) <= MOST_VERDICTS:
+        yield from (verdict(study, curve, gal=gal) for curve in fitted)
+        return
+    by_median = sorted(fitted, key=lambda curve: curve.median or 0.0)
+    yield tell("first of {count}: {verdict}", count=len(fitted), verdict=verdict(study, by_median[0], gal=gal))
+    yield tell("last of {count}: {verdict}", count=len(fitted), verdict=verdict(study, by_median[-1], gal=gal))
 
 
 def verdict(study: FragilityStudy, curve: Fragility, *, gal: bool) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from seisblock.present.directions import moved as moved_to
 from seisblock.present.directions import side
-from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, seconds, table
+from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, seconds, side_by_side
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.solvers.jump.solve import JumpOutcome
@@ -61,7 +61,9 @@ def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None)
             body=tell(response.body.name),
             threshold=f"{acceleration(outcome.rocking_threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}",
         )
-        yield table(title, [tell("chain"), *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown], response.motion.name))
+        yield side_by_side(
+            title, [tell("chain"), *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown], response.motion.name)
+        )
     for sentence in sentences(response, tenon):
         yield line(sentence)
     yield line()
@@ -116,7 +118,8 @@ def verdict(response: Response[JumpOutcome]) -> str:
 
 def _moved(length: float, name: str) -> str:
     """Return a displacement in mm, and its direction."""
-    return moved_to(f"{round(abs(length) * 1e3)} mm", name, length)
+    told = f"{round(abs(length) * 1e3)} mm"
+    return moved_to(tell("less than 1 mm") if told == "0 mm" and length != 0.0 else told, name, length)
 
 
 def _held(response: Response[JumpOutcome]) -> Iterator[str]:

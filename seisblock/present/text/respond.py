@@ -9,7 +9,7 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.present.directions import moved, side
-from seisblock.present.text.tables import NOTHING, answered, line, number, seconds, table
+from seisblock.present.text.tables import NOTHING, answered, line, number, seconds, side_by_side, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.azimuths import AzimuthFate
@@ -223,7 +223,7 @@ def _table(responses: Responds, *, gal: bool) -> Any:
         (tell("  both, in flight (s)"), [f"{seconds(s['slide_rock'])}, {seconds(s['flight'])}" for s in spent]),
         (tell("lost to friction, impacts (J)"), [f"{number(o.energy_friction_j)}, {number(o.energy_impacts_j)}" for o in outcomes]),
     ]
-    return table(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
+    return side_by_side(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
 
 
 def _tidy(value: float) -> float:

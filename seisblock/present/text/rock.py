@@ -12,7 +12,7 @@ from seisblock.bodies.library import edges
 from seisblock.present.directions import side
 from seisblock.present.text.agreement import agreement_line, chance_lines
 from seisblock.present.text.respond import around, falls_to
-from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, number, seconds, table
+from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, number, seconds, side_by_side, table
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome, friction_suffices
 from seisblock.studies.rocking.azimuths import RockAzimuth
@@ -77,7 +77,7 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
         (tell("  at (s)"), [seconds(o.max_friction_demand_s) for o in outcomes]),
         (tell("contact lost (s)"), [seconds(o.contact_lost_s) for o in outcomes]),
     ]
-    return table(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
+    return side_by_side(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
 
 
 def _own(outcomes: Sequence[RockOutcome], *, gal: bool) -> list[tuple[str, list[Any]]]:

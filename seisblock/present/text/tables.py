@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, TypeVar
 
 from rich.box import SIMPLE_HEAD
-from rich.console import Console, Group
+from rich.console import Console, ConsoleOptions, Group, RenderResult
 from rich.containers import Lines
+from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
-from seisblock.present.wrap import breaks, is_wide
+from seisblock.present.wrap import breaks, fits, has_units, is_wide
 from seisblock.records import Record
 from seisblock.records.site import Earthquake, earthquake_of, site_of, told_time
 from seisblock.units import GAL
@@ -22,6 +23,9 @@ Item = TypeVar("Item")
 
 NOTHING = "-"
 """What stands where there is no number."""
+
+UNBOUND = 10_000
+"""Columns of a terminal that is wide enough for anything."""
 
 
 def console(*, stderr: bool = False) -> Console:
@@ -53,14 +57,61 @@ def table(title: str, columns: Sequence[str], rows: Iterable[Sequence[Any]], *, 
         Texts, or numbers that :func:`number` formats.
     caption : str
     """
-    # title and caption stand outside the table: rich would wrap them to its width
+    return _under(title, _table(columns, [*rows]), caption)
+
+
+def side_by_side(title: str, names: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = "") -> Group:
+    """Return a table with a column for each of some things; what does not fit beside each other goes on below.
+
+    Parameters
+    ----------
+    title : str
+    names : sequence of str
+        Headings; the first is that of the names of the rows.
+    rows : sequence of rows
+        Texts, or numbers that :func:`number` formats.
+    caption : str
+    """
+    return _under(title, _Parts(names, [*rows]), caption)
+
+
+def _under(title: str, made: Any, caption: str) -> Group:
+    """Return a table between its title and its caption: rich would wrap them to its width."""
+    around = [line(title, "italic")] if title else []
+    return Group(*around, made, *([line(caption, "dim")] if caption else []))
+
+
+def _table(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> Table:
+    """Return the table alone."""
     made = Table(box=SIMPLE_HEAD, pad_edge=False)
     for index, heading in enumerate(columns):
         made.add_column(plain_text(heading), justify="left" if index == 0 else "right", overflow="fold")
     for row in rows:
         made.add_row(*(cell if isinstance(cell, Text) else line(cell if isinstance(cell, str) else number(cell)) for cell in row))
-    around = [line(title, "italic")] if title else []
-    return Group(*around, made, *([line(caption, "dim")] if caption else []))
+    return made
+
+
+class _Parts:
+    """A table that is cut between its columns where the terminal ends; the first column is repeated."""
+
+    def __init__(self, names: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
+        self.names, self.rows = names, rows
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        """Yield as many tables as it takes."""
+        first, unbound = 1, options.update_width(UNBOUND)
+        while first < len(self.names):
+            last = len(self.names)
+            made = self._part(first, last)
+            while last > first + 1 and Measurement.get(console, unbound, made).maximum > options.max_width:
+                last -= 1
+                made = self._part(first, last)
+            yield made
+            first = last
+
+    def _part(self, first: int, last: int) -> Table:
+        """Return the table of the columns from one to before another."""
+        return _table([self.names[0], *self.names[first:last]], [[row[0], *row[first:last]] for row in self.rows])
 
 
 def line(text: str = "", style: str = "") -> Text:
@@ -73,7 +124,7 @@ class _Line(Text):
 
     def wrap(self, console: Console, width: int, **options: Any) -> Lines:  # type: ignore[override]
         """Return the lines of the text."""
-        if not is_wide(self.plain):
+        if not is_wide(self.plain) and not (has_units(self.plain) and fits(self.plain, width)):
             return super().wrap(console, width, **options)
         lines = Lines()
         for part in self.split("\n", allow_blank=True):
