@@ -73,7 +73,6 @@ def test_files_are_written(folder, tmp_path):
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (SHELF, "no RECORD is given"),
         (("FOLDER/S00.csv", *SHELF), "one record says nothing of how records differ"),
         (("FOLDER", "--solver", "rock"), "which body? --width, --height missing"),
         (("FOLDER", *SHELF, "--bodies", "gravestone"), "not both"),
