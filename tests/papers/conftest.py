@@ -2,10 +2,12 @@
 
 import pytest
 
+from seisblock.validation.case import Case
+
 
 def pytest_collection_modifyitems(items):
     """Mark them as slow."""
     for item in items:
         case = getattr(item, "callspec", None) and item.callspec.params.get("case")
-        if case and not case.quick:
+        if isinstance(case, Case) and not case.quick:
             item.add_marker(pytest.mark.slow)
