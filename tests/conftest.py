@@ -9,16 +9,20 @@ import os
 import pkgutil
 import signal
 import time
+from pathlib import Path
 
 import hypothesis
 import pytest
 
+import seisblock
 from seisblock import _jit
 from seisblock._jit.on_demand import OnDemand
 from seisblock.validation.case import Case, CaseResult
 
 os.environ.setdefault("COLUMNS", "80")
 os.environ["NO_COLOR"] = "1"
+# commands that tests start run this very source, wherever they are started: another one would compile its own kernels
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (str(Path(seisblock.__file__).parent.parent), os.environ.get("PYTHONPATH"))))
 for name in ("LC_ALL", "LC_MESSAGES", "LANG"):
     os.environ.pop(name, None)
 

@@ -1,6 +1,7 @@
 """How fast fragilities come: the runs, the fits of all samples of the records, and both together."""
 
 import numpy as np
+import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.studies.fragility.lognormal import curves
@@ -10,6 +11,7 @@ from tests.motions import synthetic_suite
 BODIES = {f"shelf {number}": Block(0.32, 0.7 + 0.17 * number) for number in range(9)}
 
 
+@pytest.mark.slow
 def test_nine_shelves(benchmark):
     """44 records of 40 s x 60 levels x 9 blocks, 23 760 runs with fits and intervals: at most 8 s of this process on all its cores."""
     records = synthetic_suite(44, seconds=40.0, dt=0.01)

@@ -21,6 +21,7 @@ def scanned(tmp_path_factory):
     )
 
 
+@pytest.mark.slow
 def test_a_million_triangles_are_read(benchmark, scanned):
     """From the file to shared vertices."""
     mesh = benchmark.pedantic(read_mesh, (scanned,), rounds=1, warmup_rounds=0)

@@ -58,6 +58,7 @@ def test_worn_edges_are_found():
     assert found.block.inset / drawing.width == pytest.approx(found["inset"].median, abs=0.01)
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_fit(experiment, slender):
     """Bit by bit, on any number of threads; another seed gives another sample of the same answer."""
     again, other = (fit_block(experiment, free=["alpha"], **KNOWN, seed=seed) for seed in (0, 1))

@@ -12,6 +12,7 @@ from seisblock import words
 from seisblock.cli import COMMANDS, language, main
 from seisblock.present.wrap import columns
 from tests.language.english import english_in
+from tests.lengths import all_but_slow
 
 WIDTH = 80
 SHORT = ("synthetic_jma.csv", "--window", "25:28")
@@ -73,6 +74,9 @@ ANSWERS = (
     ("schema",),
 )
 """A run of every command, each of its kinds of answer among them, on bundled samples, a short window of them where it takes long."""
+
+TOLD = all_but_slow(ANSWERS, {line for line in ANSWERS if line[0] != "fit"})
+"""Those, of which one takes seconds."""
 
 REFUSALS = (
     (),
@@ -189,7 +193,7 @@ def line_of(parts):
     return " ".join(parts) or "(nothing)"
 
 
-@pytest.mark.parametrize("line", ANSWERS, ids=line_of)
+@pytest.mark.parametrize("line", TOLD, ids=line_of)
 def test_an_answer_is_in_japanese(line, spoken):
     """Tables, sentences, notes and warnings, on both streams."""
     answer = spoken(line, "ja")
@@ -216,7 +220,7 @@ def test_help_is_in_japanese(command, spoken):
 
 
 @pytest.mark.parametrize("lang", words.LANGUAGES)
-@pytest.mark.parametrize("line", [*ANSWERS, *((command, "--help") for command in COMMANDS)], ids=line_of)
+@pytest.mark.parametrize("line", [*TOLD, *((command, "--help") for command in COMMANDS)], ids=line_of)
 def test_an_answer_fits_a_terminal(line, lang, spoken):
     """Wide letters take two columns; a table that does not fit is not readable, whatever its language."""
     answer = spoken(line, lang)
@@ -227,7 +231,7 @@ def test_an_answer_fits_a_terminal(line, lang, spoken):
 
 
 @pytest.mark.parametrize("lang", words.LANGUAGES)
-@pytest.mark.parametrize("line", ANSWERS, ids=line_of)
+@pytest.mark.parametrize("line", TOLD, ids=line_of)
 def test_nothing_is_minus_nothing(line, lang, spoken):
     """F2: what rounds to zero has no sign, on either stream."""
     answer = spoken(line, lang)

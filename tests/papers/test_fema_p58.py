@@ -65,10 +65,10 @@ def test_the_rocking_block_gives_them_up_to_one_constant(medians):
 
 
 def test_the_constant_is_not_that_of_any_law(medians):
-    """Medians that went with the slenderness alone would not do: their ratio scatters three times as much."""
+    """Medians that went with the slenderness alone would not do: their ratio scatters more than twice as much."""
     proportional = np.array([depth / height / printed for depth, height, printed in SHELVES.values()])
     ratio = np.array([medians[name] / printed for name, (_, _, printed) in SHELVES.items()])
-    assert proportional.std() / proportional.mean() > 3 * ratio.std() / ratio.mean()
+    assert proportional.std() / proportional.mean() > 2 * ratio.std() / ratio.mean()
 
 
 @pytest.mark.slow

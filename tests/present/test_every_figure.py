@@ -162,7 +162,7 @@ def test_nine_risks_differ_and_are_all_named():
     assert {text.get_text() for text in figure.legends[0].get_texts()} == {curve.get_label() for curve in curves}
 
 
-@pytest.mark.parametrize("lang", ["en", "ja"])
+@pytest.mark.parametrize("lang", all_but_slow(["en", "ja"], {"en"}))
 def test_no_key_covers_a_title_within_a_page(lang):
     """A figure that is narrowed for a page lifts its titles over the keys, with the tails of their letters."""
     with speaking(lang):
