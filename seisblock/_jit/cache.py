@@ -146,4 +146,4 @@ def _remove(function: FunctionType) -> None:
 def _files(function: FunctionType) -> Iterator[Path]:
     """Return the files of one kernel."""
     stem = f"{Path(function.__code__.co_filename).stem}.{function.__qualname__}-{function.__code__.co_firstlineno}"
-    return directory().rglob(f"{stem}.*.nb[ci]")
+    return directory().glob(f"*/{stem}.*.nb[ci]")  # numba makes a folder for each of ours, and nothing below it
