@@ -21,6 +21,9 @@ from seisblock.studies.standing.azimuths import respond_directions
 SOON_S = 90.0
 """Processor time, s, within which anything is refused, a compilation of the kernels included."""
 
+REFUSED_S = 10.0
+"""Processor time, s, within which a number is refused before anything is computed: what the command imports, on any machine."""
+
 ASKED = {
     "factors of a margin": (
         ["rock", "--block", "gravestone", "--margin", "--margin-limit", "1e9"],
@@ -82,7 +85,7 @@ def test_a_thousand_million_of_anything_is_refused(what):
     name, option = COUNTS[what]
     start = time.process_time()
     done = CliRunner().invoke(main, [name, *COUNTED.get(name, []), option, "1000000000"])
-    assert time.process_time() - start < 1.0
+    assert time.process_time() - start < REFUSED_S
     told = " ".join(done.stderr.split())
     assert (done.exit_code, done.stdout) == (2, ""), told
     assert option in told and "1000000000" in told
