@@ -28,7 +28,7 @@ class Sample:
     sha256 : str
         Digest of its bytes.
     kind : str
-        ``record``, or ``body``, ``cemetery`` and ``hazard`` for what is no record.
+        ``record``, or ``body``, ``cemetery``, ``outcomes`` and ``hazard`` for what is no record.
     pga_gal : dict of str to float
         Largest absolute acceleration of each component, for K-NET after its mean is removed, gal; empty when the file is no record.
     """
@@ -100,6 +100,19 @@ def sample_path(name: str = DEFAULT_SAMPLE) -> Path:
             "no bundled sample is called {name!r}; there are {known}", name=name, known=[s.name for s in list_samples()]
         )
     return found
+
+
+def file_or_sample(path: Path, kind: str) -> Path | None:
+    """Return a path that exists, else the bundled file of a kind that its name alone means, or None."""
+    if path.exists():
+        return path
+    found = find_sample(str(path)) if path.parent == Path() else None
+    return found if found is not None and found.name in samples_of(kind) else None
+
+
+def samples_of(kind: str) -> list[str]:
+    """Return the names of the bundled files of a kind."""
+    return [sample.name for sample in list_samples() if sample.kind == kind]
 
 
 def find_sample(name: str) -> Path | None:

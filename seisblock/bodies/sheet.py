@@ -15,6 +15,10 @@ from seisblock.units import LENGTH_UNITS, MASS_UNITS, parse_length
 UNIT = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
 """A heading with a unit: ``height (cm)``."""
 
+YES = frozenset({"1", "1.0", "yes", "y", "true", "t", "○", "〇", "有", "有り", "あり"})
+NO = frozenset({"0", "0.0", "no", "n", "false", "f", "×", "無", "無し", "なし"})
+"""What people write in a cell that asks yes or no, without case."""
+
 MOST_NAMED = 5
 """How many further bad rows a message names."""
 

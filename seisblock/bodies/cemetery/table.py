@@ -8,10 +8,23 @@ from pathlib import Path
 
 from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
-from seisblock.bodies.sheet import MOST_NAMED, cells_of, heading, is_bare, length_of, number_of, row_of, rows_of, separator_of, sheet_text
+from seisblock.bodies.sheet import (
+    MOST_NAMED,
+    NO,
+    YES,
+    cells_of,
+    heading,
+    is_bare,
+    length_of,
+    number_of,
+    row_of,
+    rows_of,
+    separator_of,
+    sheet_text,
+)
 from seisblock.errors import BodyError, InputError
 from seisblock.limits import check_budget
-from seisblock.samples import find_sample, list_samples
+from seisblock.samples import file_or_sample, samples_of
 from seisblock.words import noted, said
 
 _NAMES = {
@@ -37,13 +50,11 @@ _NAMES = {
 """Column names accepted, without case, blanks and underscores."""
 
 _COLUMNS = {spelling: name for name, spellings in _NAMES.items() for spelling in spellings}
-_YES = {"1", "yes", "y", "true", "○", "〇", "有", "有り", "あり"}
-_NO = {"0", "no", "n", "false", "×", "無", "無し", "なし"}
 _WORDS = {
-    "fallen": (_YES | {"fallen", "overturned", "転倒"}, _NO | {"standing", "stood", "残存"}, noted("0, 1, yes, no, 転倒 or 残存")),
+    "fallen": (YES | {"fallen", "overturned", "転倒"}, NO | {"standing", "stood", "残存"}, noted("0, 1, yes, no, 転倒 or 残存")),
     "reinforced": (
-        _YES | {"reinforced", "補強", "補強有", "補強あり"},
-        _NO | {"unreinforced", "無補強", "補強なし"},
+        YES | {"reinforced", "補強", "補強有", "補強あり"},
+        NO | {"unreinforced", "無補強", "補強なし"},
         noted("0, 1, yes or no"),
     ),
 }
@@ -114,17 +125,12 @@ def _path(name: str | Path) -> Path:
     path = Path(checks.path(name))
     if path.is_dir():
         raise BodyError("{name} is a directory: give the CSV file of a cemetery", name=name)
-    if path.exists():
-        return path
-    known = [sample.name for sample in list_samples() if sample.kind == "cemetery"]
-    bundled = find_sample(str(name)) if path.parent == Path() else None
-    if bundled is None or bundled.name not in known:
+    found = file_or_sample(path, "cemetery")
+    if found is None:
         raise BodyError(
-            "no cemetery file {name}, and no bundled cemetery of that name; bundled are {known}",
-            name=name,
-            known=list(known) or said("none"),
+            "no cemetery file {name}, and no bundled cemetery of that name; bundled are {known}", name=name, known=samples_of("cemetery")
         )
-    return bundled
+    return found
 
 
 def _header(cells: Sequence[str], source: str, line: int) -> tuple[list[str], dict[str, str]]:

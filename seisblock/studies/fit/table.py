@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seisblock import checks
-from seisblock.bodies.sheet import MOST_NAMED, cells_of, heading, number_of, row_of, rows_of, separator_of, sheet_text
+from seisblock.bodies.sheet import MOST_NAMED, NO, YES, cells_of, heading, number_of, row_of, rows_of, separator_of, sheet_text
 from seisblock.errors import BodyError, InputError, ParameterError, SeisblockError
 from seisblock.readers.dispatch import Options
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
+from seisblock.samples import file_or_sample, samples_of
 from seisblock.studies.fit.experiment import FELL, MOVED, Observed
 from seisblock.studies.fit.files import Files
 from seisblock.typing import Progress
@@ -28,8 +29,8 @@ _NAMES = {
 """Columns, by their headings without case, blanks and underscores."""
 
 _COLUMNS = {spelling: name for name, spellings in _NAMES.items() for spelling in spellings}
-_YES = {"1", "1.0", "yes", "y", "true", "t", "fell", "fallen", "overturned", "toppled", "moved", "rocked", "転倒", "○", "〇", "有", "あり"}
-_NO = {"0", "0.0", "no", "n", "false", "f", "stood", "stands", "standing", "stable", "still", "rested", "残存", "×", "無", "なし"}
+_DID = YES | {"fell", "fallen", "overturned", "toppled", "moved", "rocked", "転倒"}
+_DID_NOT = NO | {"stood", "stands", "standing", "stable", "still", "rested", "残存"}
 
 MOST_REASONS = 3
 """Rows left out of which the reason is told."""
@@ -151,20 +152,14 @@ def read_outcomes(
 
 def _path(name: Location) -> Path:
     """Return the file that a name means: a path, else a bundled table of outcomes."""
-    from seisblock.samples import find_sample, list_samples
-
     path = Path(checks.path(name))
     if path.is_dir():
         raise ParameterError("{name} is a directory: give the CSV file of outcomes", name=str(name))
-    if path.exists():
-        return path
-    known = [sample.name for sample in list_samples() if sample.kind == "outcomes"]
-    bundled = find_sample(str(name)) if path.parent == Path() else None
-    if bundled is None or bundled.name not in known:
-        raise ParameterError(
-            "no file of outcomes {name}, and no bundled one of that name; bundled are {known}", name=str(name), known=known
-        )
-    return bundled
+    found = file_or_sample(path, "outcomes")
+    if found is None:
+        text = "no file of outcomes {name}, and no bundled one of that name; bundled are {known}"
+        raise ParameterError(text, name=str(name), known=samples_of("outcomes"))
+    return found
 
 
 def _rows(text: str, source: str, kind: str | None) -> tuple[str, list[_Row], list[str]]:
@@ -225,9 +220,9 @@ def _row(row: Mapping[str, str], kind: str, line: int) -> _Row:
     if not row.get("record"):
         raise ParameterError("an outcome without a record: fill the cell")
     told = row.get(kind, "")
-    if told and told.casefold() not in _YES | _NO:
+    if told and told.casefold() not in _DID | _DID_NOT:
         raise ParameterError("{key} must be 0, 1, yes, no, true, false, 転倒 or 残存, found {text!r}", key=kind, text=told[:100])
-    found = _Row(line, row["record"], told.casefold() in _YES if told else None, component=row.get("component", ""))
+    found = _Row(line, row["record"], told.casefold() in _DID if told else None, component=row.get("component", ""))
     if row.get("weight"):
         found = replace(found, weight=checks.not_negative("weight", number_of(row["weight"], "weight")))
     if row.get("scale"):

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from seisblock import checks
 from seisblock.bodies.sheet import cells_of, number_of, plain, row_of, rows_of, separator_of, sheet_text
 from seisblock.errors import BodyError, HazardError, InputError
-from seisblock.samples import find_sample, list_samples
+from seisblock.samples import file_or_sample
 from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_measure
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
 from seisblock.units import ACCELERATION_UNITS, LENGTH_UNITS, VELOCITY_UNITS
@@ -97,9 +97,7 @@ def read_hazard(path: str | Path, *, im: str | None = None) -> Hazard:
 def _path(name: str | Path) -> Path:
     """Return the file that a name means: a path, else a bundled hazard."""
     path = Path(checks.path(name))
-    known = [sample.name for sample in list_samples() if sample.kind == "hazard"]
-    bundled = find_sample(str(name)) if not path.exists() and path.parent == Path() else None
-    return bundled if bundled is not None and bundled.name in known else path
+    return file_or_sample(path, "hazard") or path
 
 
 def _hazard(text: str, wanted: IntensityMeasure | None) -> Hazard:
