@@ -41,6 +41,7 @@ from .records.motion import Motion, motion_of
 from .records.preparation import Preparation
 from .records.process import crop, demean, highpass, rotate, scale, scale_to_pga, towards
 from .records.record import Component, Record
+from .records.storey import Storey, on_storey
 from .records.synthetic.suite import synthetic_suite
 from .results import Channel, Event, Phase, Response, Status
 from .samples import Sample, list_samples, sample_path
@@ -154,6 +155,7 @@ __all__ = [
     "motion_of",
     "natural_modes",
     "Observed",
+    "on_storey",
     "Outcomes",
     "OutputError",
     "overturning_card",
@@ -233,6 +235,7 @@ __all__ = [
     "StackOutcome",
     "Status",
     "Stone",
+    "Storey",
     "studies",
     "Survey",
     "synthetic_suite",

@@ -73,6 +73,7 @@ def preparation_of(source: Source, peaks: tuple[str, ...], *, whole: bool = Fals
         target_pga=None if source.target_pga is None else source.target_pga / 100.0,
         components=peaks,
         window=source.window[0] if source.window and not whole else None,
+        floor=source.floor,
     )
 
 

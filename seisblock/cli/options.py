@@ -16,8 +16,9 @@ from seisblock.cli.command import argument, option
 from seisblock.cli.meant import OneOf
 from seisblock.cli.output import Output, check_output
 from seisblock.cli.quiet import quietly
-from seisblock.cli.types import SIZE, WINDOW
+from seisblock.cli.types import SIZE, STOREY, WINDOW
 from seisblock.errors import ParameterError
+from seisblock.records.storey import Storey
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted, tell
 
@@ -34,6 +35,7 @@ class Source:
     target_pga: float | None
     window: tuple[tuple[float | None, float | None], ...]
     highpass: float | None
+    floor: Storey | None
     demean: bool | None
     format: str | None
     units: str | None
@@ -104,6 +106,15 @@ _RECORD_OPTIONS = (
         metavar="HZ",
         section="Record",
         help="Zero-phase high-pass (4th-order Butterworth) before anything else, Hz. [default: none]",
+    ),
+    option(
+        "--floor",
+        type=STOREY,
+        metavar="T=S[,zeta=0.05][,height=0.8]",
+        section="Record",
+        help="The object stands in a building over this ground: it feels a linear oscillator of period T (s) and damping zeta (a ratio), "
+        "or the storey at this share of the height, the mode being a straight line. After --scale, before --window; vertical as it is. "
+        "[default: on the ground]",
     ),
     option(
         "--demean/--no-demean",

@@ -10,6 +10,7 @@ import click
 from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.errors import InputError
 from seisblock.limits import check_budget
+from seisblock.records.storey import Storey, parse_storey
 from seisblock.units import LENGTH_UNITS, Size, parse_length, parse_mass
 from seisblock.words import noted, said, tell
 
@@ -176,6 +177,19 @@ class WindowType(click.ParamType):  # type: ignore[type-arg]
         return first, last
 
 
+class StoreyType(click.ParamType):  # type: ignore[type-arg]
+    """A storey ``T=0.6,zeta=0.05,height=0.8``: period in s, damping and height as shares; all but the period may be left out."""
+
+    name = "storey"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Storey:
+        """Return the storey."""
+        try:
+            return value if isinstance(value, Storey) else parse_storey(value)
+        except InputError as error:
+            self.fail(tell(error.said), param, ctx)
+
+
 LENGTH = Length()
 MASS = Mass()
 INSET = InsetType()
@@ -183,4 +197,5 @@ FLOATS = Floats()
 LENGTHS = Floats(unit=parse_length)
 MASSES = Floats(unit=parse_mass)
 WINDOW = WindowType()
+STOREY = StoreyType()
 SIZE = SizeType()

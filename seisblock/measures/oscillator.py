@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock._jit import kernel
 from seisblock.limits import AT_A_TIME
+from seisblock.records.oscillator import exact_step
 from seisblock.typing import FloatArray
 
 ACCELERATION, VELOCITY, DISPLACEMENT, AT_DISPLACEMENT, AT_VELOCITY = range(5)
@@ -39,13 +40,7 @@ def oscillator_peaks(ground: FloatArray, dt: float, omega: float, damping: float
     -------
     float, float, float : m/s^2, m/s, m
     """
-    # state (u, v, a, a') over one step: a straight line of ground acceleration is part of the linear system
-    system = np.zeros((4, 4))
-    system[0, 1] = system[2, 3] = 1.0
-    system[1, :3] = -(omega**2), -2.0 * damping * omega, -1.0
-    step = _exponential(system * dt)
-    step[:2, 3] /= dt
-    step[:2, 2] -= step[:2, 3]  # what the samples at its two ends do to a step
+    step = exact_step(dt, omega, damping)
     kept = np.zeros(5)
     for begin in range(0, max(ground.size - 1, 1), AT_A_TIME):
         _follow(step, ground[begin : begin + AT_A_TIME + 1], dt, omega, damping, kept)
@@ -91,19 +86,6 @@ def _peak_of_cubic(first, last, slope, slope_2, dt, top):
         place = one / (-square + math.copysign(math.sqrt(square**2 - 3.0 * cube * one), one))
         high = max(high, abs(first + place * (one + place * (square + place * cube))))
     return max(top, high)
-
-
-def _exponential(matrix: FloatArray) -> FloatArray:
-    """Return the exponential of a small matrix, by its series and by squaring; scipy's asks a threaded library, a hundred times slower."""
-    halvings = max(math.ceil(math.log2(max(float(np.abs(matrix).sum(axis=0).max()), 1.0))), 0)
-    small = matrix / 2.0**halvings
-    total = term = np.eye(matrix.shape[0])
-    for k in range(1, 20):
-        term = term @ small / k
-        total = total + term
-    for _ in range(halvings):
-        total = total @ total
-    return total
 
 
 def _free_peak(value: float, rate: float, omega: float, damping: float) -> float:

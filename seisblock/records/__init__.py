@@ -4,5 +4,6 @@ from seisblock.records.doubts import Doubt
 from seisblock.records.motion import Motion, motion_of
 from seisblock.records.preparation import Preparation
 from seisblock.records.record import Component, Record
+from seisblock.records.storey import Storey
 
-__all__ = ["Component", "Doubt", "Motion", "Preparation", "Record", "motion_of"]
+__all__ = ["Component", "Doubt", "Motion", "Preparation", "Record", "Storey", "motion_of"]

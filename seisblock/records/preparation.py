@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from seisblock import checks
 from seisblock.records import process
 from seisblock.records.record import Record
+from seisblock.records.storey import Storey, on_storey
 from seisblock.typing import Stretch
 
 
 @dataclass(frozen=True)
 class Preparation:
-    """Mean, high-pass, scale and window, in this order.
+    """Mean, high-pass, scale, floor and window, in this order.
 
     Parameters
     ----------
@@ -28,6 +29,9 @@ class Preparation:
         Codes or azimuths among which that peak is looked for; all horizontals when empty.
     window : (float or None, float or None) or None, s
         First and last instant kept, counted from the record's first sample as read; None is the record's own end.
+    floor : Storey or None
+        What stands on a storey of a building feels :func:`~seisblock.records.storey.on_storey` of that. The scale is that of the ground,
+        a target PGA too; the window is cut out of the storey's motion, which knows what came before it.
 
     Raises
     ------
@@ -49,6 +53,7 @@ class Preparation:
     target_pga: float | None = None
     components: tuple[str, ...] = ()
     window: Stretch | None = None
+    floor: Storey | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "components", (self.components,) if isinstance(self.components, str) else tuple(self.components))
@@ -57,6 +62,8 @@ class Preparation:
             checks.positive("the corner of the high-pass", self.highpass_hz, "Hz")
         if self.target_pga is not None:
             checks.positive("the target PGA", self.target_pga, "m/s^2")
+        if self.floor is not None:
+            checks.instance(self.floor, Storey)
 
     def apply(self, record: Record) -> Record:
         """Return a record that went through the steps, each of which is told in its ``history``.
@@ -69,7 +76,7 @@ class Preparation:
         Raises
         ------
         ParameterError
-            If the corner lies above half the sampling rate, or nothing can be scaled.
+            If the corner lies above half the sampling rate, nothing can be scaled, or the floor swings for ever.
         ComponentError
             If there is no such component.
         RecordError
@@ -84,4 +91,6 @@ class Preparation:
             record = process.scale(record, self.scale)
         if self.target_pga is not None:
             record = process.scale_to_pga(record, self.target_pga, self.components or None)
+        if self.floor is not None:
+            record = on_storey(record, self.floor)
         return record if self.window is None else process.crop(record, *self.window)

@@ -62,5 +62,13 @@ GROUND_MOTION = (
         "Earthquake Engineering Research Institute, Oakland, California",
         kind="book",
     ),
+    Reference(
+        "Chopra2012",
+        "Chopra, A. K.",
+        2012,
+        "Dynamics of structures: theory and applications to earthquake engineering",
+        "Prentice Hall, 4th edition",
+        kind="book",
+    ),
 )
-"""What synthetic records rest on."""
+"""What synthetic records, the motion of storeys and long periods rest on."""

@@ -42,6 +42,7 @@ FITTING: dict[str, Sequence[str]] = {
     "scale": ("1", "3", "-1", "0"),
     "target_pga": ("700", "100"),
     "window": ("0.2:1", ":1", "0.5:", "0.3:0.31", "5:9"),
+    "floor": ("T=0.6", "T=0.3,zeta=0.1,height=1", "T=0.001", "T=0", "height=0.5", "T=5,zeta=1e-9"),
     "highpass": ("0.5", "5", "49", "51"),
     "format": ("CSV", "KNET", "JMA-CSV", "OBSPY:MSEED", "OBSPY:PICKLE"),
     "units": ("gal", "m/s2", "g", "furlong"),
