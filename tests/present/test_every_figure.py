@@ -92,14 +92,14 @@ def test_a_journals_column_holds_it(name):
 
 
 TOO_SMALL = {
-    "respond", "respond, two", "rock", "rock, two", "slide", "slide, two", "jump", "jump, two", "uplift", "uplift, two", "stack",
+    "respond", "rock", "slide", "jump", "uplift", "stack",
     "measure", "criteria", "fit", "modes", "rate with dowels", "harmonic", "a scan", "fragility of nine", "risk of nine",
 }  # fmt: skip
-"""What has more panels, or columns of them, than 85 mm x 60 mm hold."""
+"""What has more panels, or columns of them, than 85 mm x 60 mm hold; two components side by side have twice those of one."""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(set(EVERY) - {"field test"}))
+@pytest.mark.parametrize("name", sorted(name for name in EVERY if name != "field test" and not name.endswith(", two")))
 def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatch):
     """At 85 mm x 60 mm no text lies on another or leaves the canvas, in no panel without room; or a size that will do is told, in mm."""
     monkeypatch.setattr(size_module, "FINE", 0.5)  # the first size that will do, not the least
@@ -123,7 +123,7 @@ def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatc
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lang", ["en", "ja"])
-@pytest.mark.parametrize("name", ["rock", "rock, two", "slide, two", "jump, two", "respond, two", "uplift"])
+@pytest.mark.parametrize("name", ["rock", "slide, two", "jump, two", "respond, two", "uplift"])
 def test_columns_stand_below_each_other_where_the_width_is_one_of_a_journal(name, lang):
     """A column of 85 mm as high as a page holds histories, phase planes and both components; the title that was asked for goes along."""
     with speaking(lang):

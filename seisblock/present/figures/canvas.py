@@ -9,6 +9,7 @@ from typing import IO, Any
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import LayoutEngine
 from matplotlib.legend import Legend
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
@@ -68,6 +69,7 @@ class Sheet(Figure):
         self.spoken = language()
         self.heading: Text | None = None
         self.narrowed = False
+        self.laid_out = False
         self.stacked: Callable[[], Sheet] | None = None
         self.keys: dict[Axes | None, tuple[list[Any], dict[str, Any]]] = {}
 
@@ -90,20 +92,27 @@ class Sheet(Figure):
         """Draw, in fonts that hold the letters."""
         with set_letters(self, self.spoken):
             self._fit_title(renderer)
-            if self.narrowed:
-                self._lift_legends(renderer)
-            super().draw(renderer)
+            self.laid_out = self.narrowed and not self._lift_legends(renderer)
+            try:
+                super().draw(renderer)
+            finally:
+                self.laid_out = False
+
+    def get_layout_engine(self) -> LayoutEngine | None:
+        """Return what gives the panels their places; nothing while they have just been given them, which is half of a drawing's time."""
+        return None if self.laid_out else super().get_layout_engine()
 
     def hides_a_curve(self, key: Legend) -> bool:
         """Return whether the key of a panel lies on one of its curves."""
         box, lines = key.get_window_extent(), key.axes.lines if key.axes is not None else ()
         return any(line.get_path().transformed(line.get_transform()).intersects_bbox(box, filled=False) for line in lines)
 
-    def _lift_legends(self, renderer: Any) -> None:
-        """Put each legend that lies on its panel's title above it."""
+    def _lift_legends(self, renderer: Any) -> bool:
+        """Lay the panels out, put each legend that lies on its panel's title above it, and return whether there was one."""
         engine = self.get_layout_engine()
         if engine is not None:
             engine.execute(self)
+        lifted = False
         for each in self.axes:
             key = each.get_legend()
             if key is None:
@@ -115,6 +124,8 @@ class Sheet(Figure):
                 if box.overlaps(over.expanded(1.0, 0.5)):
                     up = ScaledTranslation(0.0, (over.y1 - box.y0) / self.dpi, self.dpi_scale_trans)
                     key.set_bbox_to_anchor((1.0, ABOVE), transform=each.transAxes + up)
+                    lifted = True
+        return lifted
 
     def _fit_title(self, renderer: Any) -> None:
         """Make the title as much smaller as it must be, and cut its end off where that is too small to read."""
