@@ -45,6 +45,8 @@ from .records.storey import Storey, on_storey
 from .records.synthetic.suite import synthetic_suite
 from .results import Channel, Event, Phase, Response, Status
 from .samples import Sample, list_samples, sample_path
+from .solvers.jump.fates import JumpFates
+from .solvers.jump.many import jump_many
 from .solvers.jump.solve import JumpOutcome, solve_jump
 from .solvers.respond.many import Fates, respond_many
 from .solvers.respond.outcome import RespondOutcome
@@ -57,7 +59,9 @@ from .solvers.rock.verdicts import Verdict, rock_verdict
 from .solvers.slide.solve import SlideOutcome, solve_slide
 from .solvers.stack.outcome import StackOutcome
 from .solvers.stack.solve import solve_stack
+from .solvers.uplift.fates import UpliftFates
 from .solvers.uplift.harmonic import uplift_thresholds
+from .solvers.uplift.many import uplift_many
 from .solvers.uplift.minima import UpliftMinimum, uplift_minima
 from .solvers.uplift.modes import natural_modes
 from .solvers.uplift.outcome import UpliftOutcome
@@ -133,7 +137,9 @@ __all__ = [
     "Inset",
     "jma_class",
     "jma_intensity",
+    "jump_many",
     "jumped",
+    "JumpFates",
     "JumpOutcome",
     "KindError",
     "list_samples",
@@ -243,8 +249,10 @@ __all__ = [
     "TwoLayerBlock",
     "UnitError",
     "units",
+    "uplift_many",
     "uplift_minima",
     "uplift_thresholds",
+    "UpliftFates",
     "UpliftMinimum",
     "UpliftOutcome",
     "validation",

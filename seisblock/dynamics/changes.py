@@ -33,6 +33,13 @@ BEGINNING = Instant()
 """The first sample."""
 
 
+class Instants(NamedTuple):
+    """Times of many, one each: `tau` seconds after sample number `sample`, (m,) arrays."""
+
+    sample: IntArray
+    tau: FloatArray
+
+
 class Change(NamedTuple):
     """An event as the engine logs it; times in s after sample 0 of the motion."""
 

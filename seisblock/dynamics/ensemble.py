@@ -29,7 +29,7 @@ from seisblock.dynamics.arguments import (
     Rows,
 )
 from seisblock.dynamics.arrays import MATRIX
-from seisblock.dynamics.changes import Instant
+from seisblock.dynamics.changes import BEGINNING, Instant, Instants
 from seisblock.dynamics.contract import FIELDS, LANES
 from seisblock.dynamics.following import SLICE, cursor_at
 from seisblock.dynamics.halt import heed
@@ -77,7 +77,7 @@ def integrate_rows(series, reset, skip, grounds, shape, parameters, rows, first,
             scratch,
         )
         steps = place[STEPS_LEFT] - 1
-        through = place[BEYOND] > 0 and place[SAMPLE] - place[BASE] == grounds.acceleration.shape[1] - 1
+        through = place[BEYOND] > 0 and place[SAMPLE] - place[BASE] >= grounds.acceleration.shape[1] - 1
         if rows.statuses[row] != PAUSED or through:
             row += 1
     return row
@@ -94,7 +94,7 @@ class Ensemble:
     final : (m, n_states) array
         State at the end.
     final_mode, n_changes : (m,) arrays of int
-    end_time : (m,) array, s after sample 0
+    end : Instants
     first_change : (m,) array, s after sample 0
         Time of the first event, NaN where there was none.
     extrema : (m, n_tracked, 4) array
@@ -110,15 +110,30 @@ class Ensemble:
     final: FloatArray
     final_mode: IntArray
     n_changes: IntArray
-    end_time: FloatArray
+    end: Instants
     first_change: FloatArray
     extrema: FloatArray
     tally: IntArray
     stays: FloatArray
 
+    @property
+    def end_time(self) -> FloatArray:
+        """Times at which the integrations ended, (m,), s after sample 0."""
+        return self.end.sample * self.dt + self.end.tau
 
-def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: ArrayLike, mode: int, *, gains: ArrayLike) -> Ensemble:
-    """Follow a model through a motion once per row of parameters, from its first sample, without the GIL.
+
+def follow_many(
+    model: Model,
+    motion: Motion,
+    parameters: ArrayLike,
+    initial: ArrayLike,
+    mode: int | IntArray,
+    *,
+    gains: ArrayLike,
+    start: Instant | Instants = BEGINNING,
+    called: IntArray | None = None,
+) -> Ensemble:
+    """Follow a model through a motion once per row of parameters, without the GIL.
 
     Parameters
     ----------
@@ -128,11 +143,15 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     parameters : (m, n_parameters) array
         In the model's order and units.
     initial : (n_states,) or (m, n_states) array
-        State at the first sample.
-    mode : int
-        Mode at the first sample.
+        State at `start`.
+    mode : int or (m,) array of int
+        Mode at `start`.
     gains : (3,) or (m, 3) array
         Factors on the rows along, across, up; zero leaves a row out.
+    start : Instant or Instants
+        Where to begin, all of them or each.
+    called : (m,) array of int
+        The numbers by which an error names the rows, where they are some of many.
 
     Returns
     -------
@@ -151,7 +170,7 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
     m, n_states = p.shape[0], len(model.states)
     states, scale = np.empty((m, n_states)), np.empty((m, 3))
     states[:], scale[:] = initial, gains
-    begin = cursor_at(Instant(), mode, states[0])
+    begin = cursor_at(BEGINNING, 0, np.empty(n_states))
     rows = Rows(
         np.tile(begin.place, (m, 1)),
         np.tile(begin.clock, (m, 1)),
@@ -161,6 +180,7 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
         np.zeros((m, len(model.modes), 2)),
         np.full(m, PAUSED, dtype=np.int64),
     )
+    rows.places[:, MODE], rows.places[:, SAMPLE], rows.clocks[:, TAU] = mode, start.sample, start.tau
     for stretch in motion.stretches((scale != 0.0).any(axis=0).tolist()):
         grounds = Grounds(stretch.acceleration, scale, motion.dt)
         rows.places[:, BASE], rows.places[:, BEYOND] = stretch.first, stretch.beyond
@@ -171,13 +191,13 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
         while row < m:
             heed()
             row = integrate_rows(*model.pointers, grounds, model.shape, p, rows, row, SLICE)
-    end_time = rows.places[:, SAMPLE] * motion.dt + rows.clocks[:, TAU]
+    end = Instants(rows.places[:, SAMPLE], rows.clocks[:, TAU])
     for row in np.flatnonzero(_FAILED[rows.statuses])[:1]:
         raise SolverError(
             "{name}, row {row}: given up at {at:.6f} s, where {failure}",
             name=model.name,
-            row=row,
-            at=motion.start_s + end_time[row],
+            row=row if called is None else called[row],
+            at=motion.start_s + end.sample[row] * motion.dt + end.tau[row],
             failure=said(FAILURES[int(rows.statuses[row])]),
         )
     return Ensemble(
@@ -186,7 +206,7 @@ def follow_many(model: Model, motion: Motion, parameters: ArrayLike, initial: Ar
         states,
         rows.places[:, MODE],
         rows.places[:, FOUND],
-        end_time,
+        end,
         rows.clocks[:, FIRST_EVENT],
         rows.extrema,
         rows.tallies,

@@ -82,7 +82,7 @@ def integrate_in_lanes(series, reset, skip, stride, grounds, shape, parameters, 
                     scratch,
                 )
                 steps -= 2 - place[STEPS_LEFT]
-                through = place[BEYOND] > 0 and place[SAMPLE] - place[BASE] == last
+                through = place[BEYOND] > 0 and place[SAMPLE] - place[BASE] >= last
                 if rows.statuses[each] != PAUSED or through:
                     chosen[lane] = -1
                 elif place[STILL] == 0:

@@ -19,6 +19,8 @@ OF_MOTIONS = {
     "slide_study": lambda motion: sb.slide_study(0.2, motion),
     "respond_probability": lambda motion: sb.respond_probability(BLOCK, motion, mu=0.3, runs=2),
     "respond_many": lambda motion: sb.respond_many([sb.make_setting(BLOCK, mu=0.3)], motion),
+    "jump_many": lambda motion: sb.jump_many([LAYERS], motion, contacts=[sb.load_contact("chozusha")]),
+    "uplift_many": lambda motion: sb.uplift_many([SPRINGS], motion),
     "scale_factors": lambda motion: sb.scale_factors(lambda factor: factor, 0.05, motion),
     "rock_verdict": lambda motion: sb.rock_verdict(BLOCK, motion),
     "perturb": lambda motion: sb.perturb(BLOCK, motion, 2),
@@ -58,6 +60,9 @@ OF_BODIES = {
     "contact of solve_jump": (lambda body: sb.solve_jump(LAYERS, MOTION, contact=body), "Contact"),
     "contact of solve_stack": (lambda body: sb.solve_stack(PILE, MOTION, contact=body), "PileContact"),
     "spread of perturb": (lambda body: sb.perturb(BLOCK, MOTION, 2, spread=body), "Spread"),
+    "blocks of jump_many": (lambda body: sb.jump_many([body], MOTION, contacts=[sb.load_contact("chozusha")]), "TwoLayerBlock"),
+    "contacts of jump_many": (lambda body: sb.jump_many([LAYERS], MOTION, contacts=[body]), "Contact"),
+    "bodies of uplift_many": (lambda body: sb.uplift_many([body], MOTION), "SpringBlock"),
     "settings of respond_many": (lambda body: sb.respond_many([body], MOTION), "Setting"),
 }
 

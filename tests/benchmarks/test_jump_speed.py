@@ -23,7 +23,7 @@ def parameters(**changed):
 
 def flight():
     p = modes.flight_parameters(BLOCK, 1e-9, 0.2, 0.2, 0.3, QUIET.dt)
-    return follow(flying.FLYING, QUIET, p, [0.0, 1e-9, 0.0, 0.0, 1.0, 1.0], modes.FLIGHT, keep_path=False)
+    return follow(flying.FLYING, QUIET, p, [0.0, 1e-9, 0.0, 0.0, 1.0, 1.0, *[0.0] * 4], modes.FLIGHT, keep_path=False)
 
 
 def rest():

@@ -39,7 +39,7 @@ def test_a_foot_that_lands_holds_where_static_friction_bears_what_it_needs(side,
     push, normal = forces_on_a_foot_that_holds(side, theta, omega, shake)
     assume(abs(abs(push) - mu * normal) > 1e-6 * SHORT.mass * G)
     p = modes.flight_parameters(SHORT, G, mu, 0.01, 0.0, 0.01)
-    y = np.array([theta, omega, 0.3, 1.0, 0.1, -1.0])
+    y = np.array([theta, omega, 0.3, 1.0, 0.1, -1.0, *[0.0] * 4])
     corner = modes.RIGHT if side > 0 else modes.LEFT
     found = flight_reset(modes.FLIGHT, corner, y, np.array([[shake, 0.0]]), p)
     if abs(push) <= mu * normal:

@@ -247,7 +247,8 @@ def test_a_large_lean_is_said_to_be_beyond_the_model():
     assert response.outcome.lean_ratio > 0.1
     slenderness = np.array([SLENDER.height / SLENDER.width, SLENDER.height / SLENDER.depth])
     leans = np.abs(np.array([response["rotation"], response["rotation_across"]])).max(axis=1) * slenderness
-    assert response.outcome.lean_ratio == pytest.approx(leans.max())
+    # the largest lean lies between two samples: above theirs by at most theta'' dt^2/8, a few millionths of it
+    assert leans.max() <= response.outcome.lean_ratio == pytest.approx(leans.max(), rel=1e-5)
     weak = solve_uplift(SLENDER, shaking(6.0, 0.01, peaks=(1.0, 0.8, 0.5))).outcome
     assert weak.within_model
     assert weak.lean_ratio < 0.1

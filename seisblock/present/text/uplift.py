@@ -7,7 +7,8 @@ from typing import Any
 
 from seisblock.present.text.tables import answered, fixed, line, seconds, table
 from seisblock.results import Response
-from seisblock.solvers.uplift.outcome import SMALL, UpliftOutcome
+from seisblock.solvers.uplift.fates import SMALL
+from seisblock.solvers.uplift.outcome import UpliftOutcome
 from seisblock.words import noted, strung, tell
 
 Uplifts = Sequence[Response[UpliftOutcome]]

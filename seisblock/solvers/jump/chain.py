@@ -15,7 +15,6 @@ from seisblock.results import Event, Phase
 from seisblock.solvers.jump import modes as flying
 from seisblock.solvers.jump import rocking
 from seisblock.solvers.jump.impact import Launch, centroid_rise, foot_rise
-from seisblock.solvers.jump.touch import Touch, is_landing, touch_of
 from seisblock.typing import FloatArray
 from seisblock.words import noted
 
@@ -143,12 +142,7 @@ class Followed:
     @property
     def touch(self) -> Change | None:
         """The first landing."""
-        return next((change for change in self.flown.changes if is_landing(change)), None) if self.flown else None
-
-    @property
-    def touches(self) -> tuple[Touch, ...]:
-        """What each landing took."""
-        return tuple(touch_of(change, self.block) for change in self.flown.changes if is_landing(change)) if self.flown else ()
+        return next((change for change in self.flown.changes if change.source == flying.FLIGHT), None) if self.flown else None
 
     @property
     def end(self) -> Instant:
@@ -205,16 +199,14 @@ def _flight_numbers(followed: Followed) -> dict[str, Any]:
     if touch is None:
         return found
     landing = followed.motion.start_s + touch.time
-    touches = followed.touches
-    worst = max(touches, key=lambda each: each.energy_after_j / each.energy_before_j if each.energy_before_j > 0.0 else 0.0)
     jumped = followed.sign * float(touch.before[flying.X])
     found |= {
         "landing_s": landing,
         "jump_duration_s": landing - followed.impact_s,
         "jump_displacement_m": jumped,
         "landing_corner": "leading" if touch.guard == flying.RIGHT else "trailing",
-        "friction_needed_at_landing": max(each.friction_needed for each in touches),
-        "landing_energy_j": (worst.energy_before_j, worst.energy_after_j),
+        "friction_needed_at_landing": float(flown.final[flying.NEEDED]),
+        "landing_energy_j": (float(flown.final[flying.BEFORE]), float(flown.final[flying.AFTER])),
         "slid": any(c.target > 0 and flying.kind_of(c.target) in SLIPPING for c in flown.changes),
     }
     if followed.finished:

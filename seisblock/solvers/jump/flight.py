@@ -7,7 +7,8 @@ Assumptions
     goes on until the base, flat again, has slid to rest.
 State
     theta (counter-clockwise) and omega; x, vx: displacement of the centroid and its rate in flight, of the foot that touches
-    afterwards, both relative to the ground; y, vy: rise of the centroid above its height at rest, and its rate, in flight.
+    afterwards, both relative to the ground; y, vy: rise of the centroid above its height at rest, and its rate, in flight. Of landings:
+    side of the last, -1 or +1, 0 before it; largest friction needed; energy before and after the one that kept the largest share of it, J.
 Modes
     FLIGHT; then for each corner STICK (no slip), HOLD (slip at rest under kinetic friction), BACK and FORTH (slip to -x, +x); FLAT_BACK and
     FLAT_FORTH when the base slides, the tilt at zero.
@@ -25,10 +26,12 @@ from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.dynamics.contract import OFF, RESET, SERIES
 from seisblock.dynamics.model import Model
 from seisblock.dynamics.series import product, quotient, sine_cosine
-from seisblock.solvers.jump.landing import lie_down_by_friction, take_off, touch_down, touch_down_by_friction
+from seisblock.solvers.jump.landing import lie_down_by_friction, take_account, take_off, touch_down, touch_down_by_friction
 from seisblock.solvers.jump.modes import (
+    AFTER,
     ALPHA,
     BACK,
+    BEFORE,
     BY_FRICTION,
     CENTROID_INERTIA,
     COS,
@@ -52,12 +55,14 @@ from seisblock.solvers.jump.modes import (
     MASS,
     MU,
     MU_KINETIC,
+    NEEDED,
     NORMAL,
     OMEGA,
     OVERTURNED,
     PSI,
     RADIUS,
     RIGHT,
+    SIDE,
     SIN,
     SINK,
     SPEED2,
@@ -130,6 +135,7 @@ def _flat_series(slip, y, f, p, c, g):
 @kernel(SERIES)
 def flight_series(mode, y, f, p, order, c, g):
     """Write the series of the flight, or of the motion about the corner that touches."""
+    c[SIDE, 1] = c[NEEDED, 1] = c[BEFORE, 1] = c[AFTER, 1] = OFF
     if mode == FLIGHT:
         return _flight_series(y, f, p, order, c, g)
     side = 2 * corner_of(mode) - 1
@@ -239,12 +245,14 @@ def _held_or_slipping(corner, y, f, p, mu, held):
 def flight_reset(mode, guard, y, f, p):
     """Land, stop slipping, slip again, lift off again, or end."""
     if mode == FLIGHT:
+        flying_x, flying_y, flying_spin = y[VX], y[VY], y[OMEGA]
         if p[BY_FRICTION] == 0.0:
             touch_down(guard, y, p)
         else:
             touch_down_by_friction(guard, y, p)
-            if y[VX] != 0.0:
-                return _slipping(guard, y, p)
+        take_account(guard, flying_x, flying_y, flying_spin, y, p)
+        if p[BY_FRICTION] != 0.0 and y[VX] != 0.0:
+            return _slipping(guard, y, p)
         return _held_or_slipping(guard, y, f, p, p[MU], STICK)
     corner = corner_of(mode)
     if guard == TOUCH:
@@ -271,22 +279,12 @@ FLYING = Model(
     "jump (flight)",
     flight_series,
     flight_reset,
-    states=("theta", "omega", "x", "vx", "y", "vy"),
+    states=("theta", "omega", "x", "vx", "y", "vy", "side", "needed", "before", "after"),
     guards=("left lands, or tilt ends", "right lands, or topples", "lift", "friction", "friction backward"),
     modes=(
         "flight",
-        "stick left",
-        "stick right",
-        "hold left",
-        "hold right",
-        "back left",
-        "back right",
-        "forth left",
-        "forth right",
-        "flat, back",
-        "flat, back",
-        "flat, forth",
-        "flat, forth",
+        *(f"{kind} {side}" for kind in ("stick", "hold", "back", "forth") for side in ("left", "right")),
+        *("flat, back", "flat, back", "flat, forth", "flat, forth"),
         "jammed",
         "overturned",
         "end",

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.errors import ParameterError
+from seisblock.typing import FloatArray
+
+Number: TypeAlias = "float | FloatArray"
 
 SPIN_RULES = ("momentum", "printed", "ratio=Q")
 """How the spin after the impact is found."""
@@ -102,12 +106,15 @@ def launch(block: TwoLayerBlock, omega: float, ratio: float, restitution_x: floa
     The lower corners rise at -e_y theta'_1 B/2 +- theta'_2 B/2, so both leave the floor exactly when e_y > abs(ratio), whatever
     the amplitude. Differs from the paper, which samples eq. (8b) every 1e-4 s and finds no jump in its case 1.
     """
-    return Launch(
-        horizontal=-restitution_x * omega * block.centroid_height,
-        vertical=-restitution_y * omega * block.width / 2,
-        spin=ratio * omega,
-        jumps=omega < 0.0 and restitution_y > abs(ratio),
-    )
+    horizontal, vertical, spin = thrown(omega, ratio, restitution_x, restitution_y, block.centroid_height, block.width)
+    return Launch(horizontal, vertical, spin, jumps=omega < 0.0 and restitution_y > abs(ratio))
+
+
+def thrown(
+    omega: Number, ratio: Number, restitution_x: Number, restitution_y: Number, height: Number, width: Number
+) -> tuple[Any, Any, Any]:
+    """Return horizontal and vertical velocity and spin after an impact, of one block or of many ([Sugimoto2017]_ eqs. (6), (10))."""
+    return -restitution_x * omega * height, -restitution_y * omega * width / 2, ratio * omega
 
 
 def centroid_rise(speed: float, gravity: float, flight_s: float) -> float:

@@ -16,15 +16,19 @@ import numpy as np
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import VECTOR
 from seisblock.solvers.jump.modes import (
+    AFTER,
     ALPHA,
+    BEFORE,
     CENTROID_INERTIA,
     DROP,
     HALF_WIDTH,
     HEIGHT,
     MASS,
     MU_KINETIC,
+    NEEDED,
     OMEGA,
     RADIUS,
+    SIDE,
     THETA,
     VX,
     VY,
@@ -47,6 +51,39 @@ def touch_down(corner, y, p):
     y[VX] = 0.0
     y[Y] = 0.0
     y[VY] = 0.0
+
+
+@kernel(_t.float64(_t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def _energy(vx, vy, omega, p):
+    """Return the kinetic energy relative to the ground, J."""
+    return 0.5 * (p[MASS] * (vx * vx + vy * vy) + p[CENTROID_INERTIA] * omega * omega)
+
+
+@kernel(_t.void(_t.int64, _t.float64, _t.float64, _t.float64, VECTOR, VECTOR), inline=True)
+def take_account(corner, vx, vy, omega, y, p):
+    """Keep what a landing took that turned these velocities of the flight into those of a state about a corner ([Sugimoto2017]_ 3.10).
+
+    The friction it needed is abs(P_x)/P_y of its impulse, infinite where the ground would have to pull. Of several landings the largest is
+    kept, and the energies of the one that kept the largest share.
+    """
+    side = 2 * corner - 1
+    psi = 0.5 * np.pi - p[ALPHA] - side * y[THETA]
+    tilting = -side * y[OMEGA]
+    along = y[VX] + side * p[RADIUS] * np.sin(psi) * tilting
+    up = p[RADIUS] * np.cos(psi) * tilting
+    push = along - vx
+    lift = up - vy
+    needed = 0.0
+    if push != 0.0:
+        needed = abs(push) / lift if lift > 0.0 else np.inf
+    before = _energy(vx, vy, omega, p)
+    after = _energy(along, up, y[OMEGA], p)
+    share = after / before if before > 0.0 else 0.0
+    if y[SIDE] == 0.0 or share > (y[AFTER] / y[BEFORE] if y[BEFORE] > 0.0 else 0.0):
+        y[BEFORE] = before
+        y[AFTER] = after
+    y[NEEDED] = max(y[NEEDED], needed)
+    y[SIDE] = side
 
 
 @kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from seisblock._jit import kernel, types
@@ -9,7 +11,8 @@ from seisblock.bodies.two_layer import TwoLayerBlock
 from seisblock.typing import FloatArray, IntArray
 
 THETA, OMEGA, X, VX, Y, VY = range(6)
-PSI, SIN, COS, TAU1, TAU2, SPEED2, SINK, WEIGHT, INERTIA, NORMAL = range(6, 16)
+SIDE, NEEDED, BEFORE, AFTER = range(6, 10)
+PSI, SIN, COS, TAU1, TAU2, SPEED2, SINK, WEIGHT, INERTIA, NORMAL = range(10, 20)
 LEFT, RIGHT = 0, 1
 FLIGHT = 0
 STICK, HOLD, BACK, FORTH, FLAT_BACK, FLAT_FORTH = range(6)
@@ -60,8 +63,18 @@ def flight_parameters(
     )
 
 
-def centroid(block: TwoLayerBlock, drop: float, modes: IntArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return displacement x and rise y of the centroid, (n,), m, from states of this model.
+@dataclass(frozen=True, eq=False)
+class Sizes:
+    """What many blocks measure, (m,) arrays: R, alpha, B, and the height of the centroid; m and rad."""
+
+    radius: FloatArray
+    slenderness: FloatArray
+    width: FloatArray
+    centroid_height: FloatArray
+
+
+def centroid(block: TwoLayerBlock | Sizes, drop: float | FloatArray, modes: IntArray, states: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return displacement x and rise y of the centroid, (n,), m, from states of this model: of one block, or of one each.
 
     After landing the state holds the foot's slip; the centroid follows from the tilt about the corner that touches.
     """

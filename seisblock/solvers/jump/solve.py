@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import math
+import operator
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -151,7 +153,7 @@ def solve_jump(
     """
     check_call(block, TwoLayerBlock, motion)
     checks.instance(contact, Contact)
-    _check(drop, direction, landing, gravity)
+    check_options(drop, direction, landing, gravity)
     ratio = spin_ratio(block, spin, contact.restitution_x, contact.restitution_y)
     run = _Run(motion, block, contact, ratio, gravity, landing)
     followed = _chains(run, direction, drop, first, [_stretch(motion, *window) for window in windows or ((None, None),)])
@@ -174,7 +176,7 @@ def solve_jump(
     outcome = JumpOutcome(
         _end_of(chains),
         chains,
-        math.fsum(chain.total_displacement_m or 0.0 for chain in chains),
+        functools.reduce(operator.add, (chain.total_displacement_m or 0.0 for chain in chains), 0.0),
         final_displacement(parts),
         landing,
         max(needed, default=None),
@@ -202,7 +204,7 @@ def _end_of(chains: tuple[Chain, ...]) -> str:
     return JUMPED if last == NO_JUMP and any(chain.outcome == JUMPED for chain in chains) else last
 
 
-def _check(drop: float, direction: str, landing: str, gravity: float) -> None:
+def check_options(drop: float, direction: str, landing: str, gravity: float) -> None:
     """Refuse options outside their range."""
     checks.gravity(gravity)
     checks.not_negative("the drop", drop, "m")
@@ -270,7 +272,7 @@ def _follow_chain(run: _Run, drop: float, start: Instant, sign: float) -> Follow
     if not go.jumps:
         return so_far(rocked, go, None)
     parameters = flying.flight_parameters(block, run.gravity, contact.mu, contact.kinetic, drop, motion.dt, run.landing)
-    thrown = [0.0, go.spin, 0.0, go.horizontal, 0.0, go.vertical]
+    thrown = [0.0, go.spin, 0.0, go.horizontal, 0.0, go.vertical, *[0.0] * 4]
     flown = follow_on(FLYING, motion, parameters, thrown, flying.FLIGHT, gains=gains, start=rocked.end)
     if flown.final_mode == flying.JAMMED:
         raise SolverError(

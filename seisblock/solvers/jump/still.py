@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from seisblock.dynamics import Instant, Model, Path, Trajectory, follow
+from seisblock.dynamics import Ensemble, Instant, Instants, Model, Path, Trajectory, follow, follow_many
 from seisblock.records import Motion
-from seisblock.typing import ArrayLike
+from seisblock.typing import ArrayLike, FloatArray, IntArray
 
 STRETCH_S, MOST_S = 4.0, 60.0
 """Still ground is added in stretches of so many seconds, and at most so long."""
@@ -72,3 +72,66 @@ def _joined(one: Trajectory, two: Trajectory) -> Trajectory:
             yield replace(path, first=path.first + again, states=path.states[again:], modes=path.modes[again:])
 
     return replace(two, walk=walk, changes=one.changes + two.changes, n_changes=one.n_changes + two.n_changes, extrema=extrema)
+
+
+def follow_many_on(
+    model: Model,
+    motion: Motion,
+    parameters: ArrayLike,
+    initial: ArrayLike,
+    mode: int,
+    *,
+    gains: ArrayLike,
+    start: Instants,
+    called: IntArray,
+) -> FollowedOn:
+    """Follow many as :func:`follow_on` follows one, bit by bit.
+
+    Parameters are those of :func:`seisblock.dynamics.follow_many`, with a row each of parameters and gains.
+    """
+    p, scale = np.asarray(parameters, dtype=np.float64), np.asarray(gains, dtype=np.float64)
+    runs, last = len(p), motion.samples - 1
+    each: FloatArray = np.array(np.broadcast_to(np.asarray(initial, dtype=np.float64), (runs, len(model.states))))
+    found = FollowedOn(each, np.full(runs, mode), Instants(start.sample.copy(), start.tau.copy()), np.full(runs, np.nan))
+    shaken = np.flatnonzero(start.sample < last)
+    if shaken.size:
+        here = Instants(start.sample[shaken], start.tau[shaken])
+        some = follow_many(model, motion, p[shaken], each[shaken], mode, gains=scale[shaken], start=here, called=called[shaken])
+        found.put(shaken, some, 0)
+    going = np.flatnonzero(found.final_mode >= 0)
+    if going.size:
+        # what begins on still ground has a stretch more, as it has alone
+        stretch = math.ceil(STRETCH_S / motion.dt)
+        late = start.sample[going] >= last
+        begin = np.where(late, 0, stretch)
+        still = Motion(np.zeros((3, (math.ceil(MOST_S / STRETCH_S) + 1) * stretch + 1)), motion.dt)
+        here = Instants(begin, found.end.tau[going])
+        state, modes = found.final[going], found.final_mode[going]
+        after = follow_many(model, still, p[going], state, modes, gains=(1.0, 0.0, 0.0), start=here, called=called[going])
+        found.put(going, after, found.end.sample[going] - begin)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class FollowedOn:
+    """The ends of many that were followed on.
+
+    Parameters
+    ----------
+    final, final_mode : (m, n_states), (m,) arrays
+    end : Instants
+    first_change : (m,) array, s after sample 0
+        Time of the first event, NaN where there was none.
+    """
+
+    final: FloatArray
+    final_mode: IntArray
+    end: Instants
+    first_change: FloatArray
+
+    def put(self, rows: IntArray, found: Ensemble, samples: IntArray | int) -> None:
+        """Write what some rows came to on a clock that started so many samples late."""
+        self.final[rows], self.final_mode[rows] = found.final, found.final_mode
+        self.end.sample[rows], self.end.tau[rows] = found.end.sample + samples, found.end.tau
+        first = self.first_change[rows]
+        self.first_change[rows] = np.where(np.isnan(first), found.first_change + samples * found.dt, first)

@@ -9,8 +9,9 @@ Modes
     to its springs, which no guard ends: the linear system, for the scale at which a record just lifts.
 State
     Vertical displacement u of each corner from the spring's natural length, m, positive when lifted; upward force of each corner over the
-    mass, m/s^2; displacement of the centre of gravity along x and y, m; the rates of u, x and y. All relative to the ground.
-    The four u of a rigid base obey u1 - u2 - u3 + u4 = 0, which the equations keep.
+    mass, m/s^2; b theta_x and b theta_y, m; displacement of the centre of gravity along x and y, m; the rates of u, x and y. All relative
+    to the ground. The four u of a rigid base obey u1 - u2 - u3 + u4 = 0, which the equations keep. What the resets count: how often a
+    corner lifted or landed, and which corners lifted first, one bit each.
 """
 
 from __future__ import annotations
@@ -34,10 +35,10 @@ samples every 0.01 s, order 20 takes 1.4 us per sample, 12 takes 2.2 us and 28 t
 takes 0.1 us where nothing can open or close, but the interior of 14 % of the samples (91 % at 50 Hz) must be looked at, for which
 the series is needed anyway."""
 
-U, F, X, Y, W, VX, VY = 0, 4, 8, 9, 10, 14, 15
-"""First of four corner displacements, first of four forces, x, y, first of four rates, rates of x and y."""
+U, F, TURN_X, TURN_Y, X, Y, W, VX, VY, CHANGES, FIRST = 0, 4, 8, 9, 10, 11, 12, 16, 17, 18, 19
+"""First of four corner displacements, first of four forces, b theta_x, b theta_y, x, y, first of four rates, rates of x and y, counts."""
 
-N_STATES = 16
+N_STATES, TRACKED = 20, 10
 
 SNAP = 1e-12
 """Corners nearer to their springs than this share of the static settlement cross together."""
@@ -58,15 +59,18 @@ def _series(mode, y, f, p, order, c, g):
     c[Y, 0] = y[Y]
     c[VX, 0] = y[VX]
     c[VY, 0] = y[VY]
+    c[CHANGES, 1] = c[FIRST, 1] = OFF
     for k in range(order + 1):
         for i in range(4):
             c[F + i, k] = -(p[KZ] * c[U + i, k] + p[CZ] * c[W + i, k]) if (mode >> i) & 1 else 0.0
-        if k == order:
-            break
         # b theta_x and b theta_y, and their rates, from the corners (+,+), (+,-), (-,+), (-,-); as sums of differences, which
         # are exactly zero for corners that move alike
         turn_x = 0.5 * ((c[U, k] - c[U + 1, k]) + (c[U + 2, k] - c[U + 3, k]))
         turn_y = -0.5 * ((c[U, k] - c[U + 2, k]) + (c[U + 1, k] - c[U + 3, k])) / gamma
+        c[TURN_X, k] = turn_x
+        c[TURN_Y, k] = turn_y
+        if k == order:
+            break
         rate_x = 0.5 * ((c[W, k] - c[W + 1, k]) + (c[W + 2, k] - c[W + 3, k]))
         rate_y = -0.5 * ((c[W, k] - c[W + 2, k]) + (c[W + 1, k] - c[W + 3, k])) / gamma
         push_x = -p[KX] * (c[X, k] - 0.5 * alpha * turn_y) - p[CX] * (c[VX, k] - 0.5 * alpha * rate_y)
@@ -114,6 +118,9 @@ def _reset(mode, guard, y, f, p):
             if i == guard or (held and y[W + i] > 0.0) or (not held and y[W + i] < 0.0):
                 following ^= 1 << i
                 y[F + i] = 0.0 if held else -p[CZ] * y[W + i]
+                y[CHANGES] += 1.0
+    if y[FIRST] == 0.0:
+        y[FIRST] = mode & ~following
     return following
 
 
@@ -130,15 +137,19 @@ UPLIFT = Model(
     (
         *(f"u{i}" for i in (1, 2, 3, 4)),
         *(f"f{i}" for i in (1, 2, 3, 4)),
+        "b theta_x",
+        "b theta_y",
         "x",
         "y",
         *(f"w{i}" for i in (1, 2, 3, 4)),
         "vx",
         "vy",
+        "changes",
+        "first",
     ),
     tuple(f"corner {i}" for i in (1, 2, 3, 4)),
-    tuple(contact_name(mode) for mode in range(16)),
-    tracked=8,
+    (*(contact_name(mode) for mode in range(WHOLE_BASE + 1)), *("",) * (GLUED - WHOLE_BASE - 1), "glued"),
+    tracked=TRACKED,
     order=ORDER,
     floored=True,
 )
@@ -157,7 +168,7 @@ def parameters(body: SpringBlock, gravity: float) -> FloatArray:
     twice = 2.0 * body.damping
     floors = np.full(N_STATES, body.static_settlement(gravity))
     floors[F : F + 4] = gravity / 4.0
-    floors[W:] *= wz
+    floors[W : VY + 1] *= wz
     return np.array(
         [
             body.alpha,
@@ -177,7 +188,7 @@ def parameters(body: SpringBlock, gravity: float) -> FloatArray:
 
 
 def at_rest(body: SpringBlock, gravity: float) -> FloatArray:
-    """Return the state of static equilibrium, (16,)."""
+    """Return the state of static equilibrium, (20,)."""
     state = np.zeros(N_STATES)
     state[U : U + 4] = -body.static_settlement(gravity)
     state[F : F + 4] = gravity / 4.0

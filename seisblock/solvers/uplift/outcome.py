@@ -12,13 +12,11 @@ from seisblock.bodies.spring_block import SpringBlock
 from seisblock.dynamics import Changes, Trajectory
 from seisblock.records.motion import Motion
 from seisblock.results import Event, LazySequence, Phase, phases_between
-from seisblock.solvers.uplift.model import WHOLE_BASE, F, U, contact_name, rotations
+from seisblock.solvers.uplift.fates import SMALL, UpliftFates
+from seisblock.solvers.uplift.model import WHOLE_BASE, F, U, contact_name
 from seisblock.solvers.uplift.modes import natural_modes
 from seisblock.typing import BoolArray, FloatArray, IntArray
 from seisblock.words import Said, said
-
-SMALL = 0.1
-"""Largest slenderness times rotation for which leaving the weight's lever out (P-delta) is defensible."""
 
 REPEATABLE = 1e-3
 """Largest share by which two integrations may differ in the largest uplift before that is said."""
@@ -81,7 +79,7 @@ class UpliftOutcome:
     uplift_scale : float or None
         Factor on the record at which a corner just lifts: below it the response is linear.
     max_rotation_rad : float
-        Largest rotation about x or y, at samples and contact changes.
+        Largest rotation about x or y, between samples too.
     lean_ratio : float
         The same over the slenderness of that side.
     within_model : bool
@@ -110,22 +108,6 @@ class UpliftOutcome:
     corners: tuple[CornerOutcome, ...]
 
 
-def highest(trajectory: Trajectory) -> float:
-    """Return the highest position of any corner, m."""
-    return float(trajectory.extrema[U : U + 4, 0].max())
-
-
-def largest_rotations(trajectory: Trajectory, body: SpringBlock) -> tuple[float, float]:
-    """Return the largest rotations about x and about y, rad, at samples and at both limits of every event."""
-    largest = (0.0, 0.0)
-    for path in trajectory.walk():
-        _, states, _ = path.table()
-        if states.size:
-            about = rotations(states, body)
-            largest = (max(largest[0], float(np.abs(about[0]).max())), max(largest[1], float(np.abs(about[1]).max())))
-    return largest
-
-
 def _contact_states(trajectory: Trajectory) -> tuple[FloatArray, IntArray]:
     """Return when contact states begin, and the last one ends, (m + 1,), s after sample 0, and which they are, (m,)."""
     changes = trajectory.changes
@@ -138,33 +120,16 @@ def _contacts(trajectory: Trajectory) -> tuple[FloatArray, BoolArray]:
     return np.diff(edges), (modes[:, None] >> np.arange(4) & 1) == 0
 
 
-def gather(
-    body: SpringBlock, motion: Motion, trajectory: Trajectory, gravity: float, scale: float | None, rotation: float, lean: float
-) -> UpliftOutcome:
+def gather(body: SpringBlock, motion: Motion, trajectory: Trajectory, fates: UpliftFates) -> UpliftOutcome:
     """Return the numbers a user asks for."""
     lengths, in_air = _contacts(trajectory)
-    corners = tuple(_corner(i, body, motion, trajectory, lengths, in_air[:, i]) for i in range(4))
-    first = min((c for c in corners if c.first_uplift_s is not None), key=lambda c: c.first_uplift_s or 0.0, default=None)
-    force = max(c.max_contact_force_n for c in corners)
-    held = 4 - in_air.sum(axis=1)
+    (time,) = fates.time_on_corners_s
     return UpliftOutcome(
         natural_frequencies_hz=natural_modes(body).frequencies_hz,
-        uplifts=first is not None,
-        first_uplift_s=None if first is None else first.first_uplift_s,
-        max_uplift_m=max(0.0, *(c.max_uplift_m for c in corners)),
-        corner=None if first is None else first.corner,
-        first_corners=() if first is None else tuple(c.corner for c in corners if c.first_uplift_s == first.first_uplift_s),
-        uplift_duration_s=float(lengths[held < 4].sum()),
-        max_contact_force_n=force,
-        max_contact_force_ratio=force / body.static_corner_force(gravity),
-        contact_changes=_of_corners(trajectory.changes)[0].size,
-        share_on_corners={str(n): float(lengths[held == n].sum() / lengths.sum()) for n in (4, 3, 2, 1, 0)},
-        uplift_scale=scale,
-        max_rotation_rad=rotation,
-        lean_ratio=lean,
-        within_model=lean <= SMALL,
-        static_settlement_m=body.static_settlement(gravity),
-        corners=corners,
+        first_corners=tuple((np.flatnonzero(fates.first_corners[0]) + 1).tolist()),
+        share_on_corners={str(n): float(share) for n, share in zip((4, 3, 2, 1, 0), time / time.sum(), strict=True)},
+        corners=tuple(_corner(i, body, motion, trajectory, lengths, in_air[:, i]) for i in range(4)),
+        **fates.told(0, motion.start_s),
     )
 
 
@@ -216,8 +181,9 @@ def _of_corners(changes: Changes) -> tuple[IntArray, IntArray]:
     return which, corner
 
 
-def warnings(motion: Motion, lean: float, rise: float, again: float) -> tuple[Said, ...]:
-    """Return what the user should know before believing the numbers."""
+def warnings(motion: Motion, fates: UpliftFates, row: int) -> tuple[Said, ...]:
+    """Return what the user should know before believing the numbers of one run."""
+    lean, rise, again = (float(each[row]) for each in (fates.lean_ratio, fates.rise_m, fates.rise_again_m))
     found = []
     if motion.record is not None and motion.record.vertical is None:
         found.append(said("the record has no vertical component: solved with zero vertical motion"))

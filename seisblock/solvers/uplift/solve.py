@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
+import numpy as np
+
 from seisblock import checks
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.dynamics import Trajectory, follow
@@ -11,12 +13,10 @@ from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
 from seisblock.results import Channel, Histories, Response, Status
+from seisblock.solvers.uplift.fates import ends_of, fates_of
 from seisblock.solvers.uplift.model import GLUED, UPLIFT, UPLIFT_AGAIN, WHOLE_BASE, F, U, X, Y, at_rest, parameters, rotations
-from seisblock.solvers.uplift.outcome import UpliftOutcome, events, gather, highest, largest_rotations, phases, warnings
+from seisblock.solvers.uplift.outcome import UpliftOutcome, events, gather, phases, warnings
 from seisblock.units import STANDARD_GRAVITY
-
-ROUND_OFF = 1e-12
-"""A corner that rises by less than this share of the static settlement has not moved."""
 
 
 def solve_uplift(
@@ -64,14 +64,10 @@ def solve_uplift(
     trajectory = follow(UPLIFT, motion, p, start, WHOLE_BASE, gains=gains)
     linear = follow(UPLIFT, motion, p, start, GLUED, gains=gains, keep_path=False, keep_events=False)
     again = follow(UPLIFT_AGAIN, motion, p, start, WHOLE_BASE, gains=gains, keep_path=False, keep_events=False)
-    about_x, about_y = largest_rotations(trajectory, body)
-    lean = max(body.height / body.depth * about_x, body.height / body.width * about_y)
-    settlement = body.static_settlement(gravity)
-    risen = highest(linear) + settlement
-    rotation = max(about_x, about_y)
+    fates = fates_of([body], ends_of(trajectory), linear.extrema[np.newaxis], again.extrema[np.newaxis], gravity)
     return Response(
         model="uplift",
-        outcome=gather(body, motion, trajectory, gravity, settlement / risen if risen > ROUND_OFF * settlement else None, rotation, lean),
+        outcome=gather(body, motion, trajectory, fates),
         motion=motion,
         body=body,
         make_histories=partial(_curves, body, motion, trajectory),
@@ -79,7 +75,7 @@ def solve_uplift(
         events=events(motion, trajectory.changes),
         options={"vertical": gains[2], "gravity_m_s2": gravity},
         status=Status(trajectory.status),
-        warnings=warnings(motion, lean, highest(trajectory), highest(again)),
+        warnings=warnings(motion, fates, 0),
         citations=papers("uplift"),
     )
 

@@ -16,6 +16,7 @@ from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.doubtful import refuse_doubtful, sentences
 from seisblock.studies.batch.models import BATCH_MODELS, BatchModel, Placed
 from seisblock.studies.batch.table import REASON, WARNINGS, Row
+from seisblock.studies.batch.together import answers_together
 from seisblock.words import said
 
 ALL = "all"
@@ -138,13 +139,20 @@ def _of_component(record: Record, name: str, plan: Plan, known: Row, doubts: lis
     except SeisblockError as error:
         yield {**known, "component": name, REASON: error.said}
         return
+    together = answers_together(plan.solver, [body for body in plan.bodies if isinstance(body, Placed)], motion)
     for body in plan.bodies:
         row = {**known, "component": motion.name, "body": body.name}
-        yield {**row, REASON: body.reason} if isinstance(body, Unplaced) else {**row, **_answer(motion, body, plan, doubts)}
+        if isinstance(body, Unplaced):
+            yield {**row, REASON: body.reason}
+        elif body.name in together:
+            found, told = together[body.name]
+            yield {**row, **found, WARNINGS: "; ".join([*doubts, *told]) or None}
+        else:
+            yield {**row, **_answer(motion, body, plan, doubts)}
 
 
 def _answer(motion: Motion, body: Placed, plan: Plan, doubts: list[str]) -> Row:
-    """Return what a solver says of one body under one motion, or why it does not."""
+    """Return what a solver says of one body alone under one motion, or why it does not."""
     model = plan.model
     try:
         there = replace(body, body=along(body.body, motion))

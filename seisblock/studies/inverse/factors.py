@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,15 +17,16 @@ import numpy as np
 from seisblock import checks
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.two_layer import Contact, TwoLayerBlock
-from seisblock.dynamics import follow
+from seisblock.dynamics import follow_many
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import check_call, check_motion
+from seisblock.solvers.jump.many import jump_many
 from seisblock.solvers.jump.solve import solve_jump
 from seisblock.solvers.slide.model import SLIDE, SLIP, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.solve import refuse_lift_off, solve_slide
-from seisblock.studies.runs import in_threads
-from seisblock.typing import Progress
+from seisblock.studies.runs import in_batches, in_threads
+from seisblock.typing import FloatArray, Progress
 from seisblock.words import noted
 
 LIMIT = 3.0
@@ -140,7 +142,7 @@ def scale_factors(
     checks.whole("the number of steps", steps, least=1)
     check_budget(noted("factors"), steps, "SEISBLOCK_RUNS")
     grid = [limit * i / steps for i in range(steps + 1)]
-    values = [0.0, *in_threads(displacement, grid[1:], progress=progress)]
+    values = [0.0, *_scan(displacement, grid[1:], progress)]
     peak = float(np.abs(motion.horizontal).max())
     found = []
     for i in range(1, len(grid)):
@@ -151,6 +153,32 @@ def scale_factors(
     top = int(np.argmax(values))
     curve = tuple(grid), tuple(values)
     return ScaleFactors(motion.name, observed, peak, tuple(found), displacement(1.0), values[top], grid[top], limit, curve)
+
+
+@dataclass(frozen=True)
+class Displacement:
+    """How far an object is displaced, m, against the factor on a motion: of many factors side by side, or of one.
+
+    Parameters
+    ----------
+    many : callable
+        From factors, (m,), to displacements, (m,), m.
+    """
+
+    many: Callable[[FloatArray], FloatArray]
+
+    def __call__(self, factor: float) -> float:
+        """Return the displacement at one factor, m."""
+        return float(self.many(np.array([factor]))[0])
+
+
+def _scan(displacement: Callable[[float], float], factors: list[float], progress: Progress | None) -> list[float]:
+    """Return the displacement at some factors, on all cores."""
+    if not isinstance(displacement, Displacement):
+        return list(in_threads(displacement, factors, progress=progress))
+    rows = np.array(factors)
+    parts = in_batches(lambda part: displacement.many(rows[part]), rows.size, progress=progress)
+    return [float(each) for part in parts for each in part]
 
 
 def _bisected(displacement: Callable[[float], float], observed: float, low: float, high: float, short_above: bool) -> float:
@@ -196,13 +224,24 @@ def jumped(
     """
     check_call(block, TwoLayerBlock, motion)
     checks.instance(contact, Contact)
-    key = "jump_displacement_m" if flight_only else "total_displacement_m"
 
-    def displacement(factor: float) -> float:
+    def alone(factor: float, key: str = "total_displacement_m") -> float:
         found = solve_jump(block, scaled(motion, factor), contact=contact, first=first, **options)
         return abs(sum((getattr(chain, key) or 0.0 for chain in found.outcome.chains), 0.0))
 
-    return displacement
+    if flight_only:
+        return partial(alone, key="jump_displacement_m")
+    if options.get("windows"):
+        return alone
+    rows = {key: value for key, value in options.items() if key != "windows"}
+
+    def many(factors: FloatArray) -> FloatArray:
+        found = jump_many([block], motion, contacts=[contact], factors=factors, first=first, **rows)
+        for factor in factors[found.jammed][:1]:
+            alone(factor)  # which says at what time, and why
+        return np.abs(found.total_displacement_m)
+
+    return Displacement(many)
 
 
 def slid(base: SlidingBase | float, motion: Motion, *, largest: bool = False, **options: Any) -> Callable[[float], float]:
@@ -235,12 +274,12 @@ def slid(base: SlidingBase | float, motion: Motion, *, largest: bool = False, **
     start = solve_slide(base, motion, **options)  # what cannot be solved is refused here
     p, up = parameters(start.body, start.options["gravity_m_s2"]), start.options["vertical"]
 
-    def displacement(factor: float) -> float:
-        gains = factor, 0.0, factor * up
-        end = follow(SLIDE, motion, p, np.zeros(4), STICK, gains=gains, keep_path=False, keep_events=False)
-        if end.final_mode == UNDEFINED:
-            refuse_lift_off(motion, end.end_time)
-        highest, _, lowest, _ = end.extrema[SLIP].tolist()
-        return max(highest, -lowest) if largest else abs(float(end.final[SLIP]))
+    def many(factors: FloatArray) -> FloatArray:
+        rows = np.tile(np.asarray(p, dtype=np.float64), (factors.size, 1))
+        end = follow_many(SLIDE, motion, rows, np.zeros(4), STICK, gains=factors[:, None] * [1.0, 0.0, up])
+        for row in np.flatnonzero(end.final_mode == UNDEFINED)[:1]:
+            refuse_lift_off(motion, float(end.end_time[row]))
+        highest, _, lowest, _ = end.extrema[:, SLIP].T
+        return np.maximum(highest, -lowest) if largest else np.abs(end.final[:, SLIP])
 
-    return displacement
+    return Displacement(many)
