@@ -234,7 +234,7 @@ def _displacement(source: Source, output: Output, asked: dict[str, Any]) -> None
     def figure() -> Any:
         from seisblock.present.figures.infer import factor_figure
 
-        return factor_figure(curves)
+        return factor_figure(curves, gal=output.gal)
 
     def csv(path: Path) -> None:
         from seisblock.present.files import write_table

@@ -177,7 +177,13 @@ _FILM_OPTIONS = (
     ),
 )
 
-_GAL = option("--gal/--si", "gal", default=True, section="Output", help="Unit of accelerations in tables and figures. [default: gal]")
+_GAL = option(
+    "--gal/--si",
+    "gal",
+    default=True,
+    section="Output",
+    help="Units of tables, figures and films: gal, kine and cm, or m/s², m/s and m. [default: gal]",
+)
 
 _QUIET = option("--quiet", is_flag=True, section="Output", help="Nothing on stderr but errors, and one line on doubtful records.")
 

@@ -108,7 +108,7 @@ def respond(
         document(responses, responses[0].body, extras),
         output,
         responses=responses,
-        figure=drawing(responses, extras),
+        figure=drawing(responses, extras, gal=output.gal),
         tables=lambda: shown.tables(responses, extras, gal=output.gal),
     )
 

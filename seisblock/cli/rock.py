@@ -119,7 +119,7 @@ def rock(
         document(responses, responses[0].body, extras, margin_limit=margin_limit if margin else None, mu=mu),
         output,
         responses=responses,
-        figure=drawing(responses, extras),
+        figure=drawing(responses, extras, gal=output.gal),
         tables=lambda: chain(
             shown.tables(responses, extras, gal=output.gal, mu=mu),
             after_rock(source, body, responses[0].body, mu, suffices=all(extra.get("friction_suffices", True) for extra in extras)),

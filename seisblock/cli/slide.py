@@ -147,7 +147,7 @@ def _one(
         output,
         responses=responses,
         tables=lambda: chain(
-            shown.tables(responses, sweep),
+            shown.tables(responses, sweep, gal=output.gal),
             after_slide(source, base.mu, single.get("mu_kinetic"), slips=not base.slope_deg and any(r.outcome.slips for r in responses)),
         ),
     )
@@ -178,9 +178,9 @@ def _study(
     emit(
         study_document(parameters, pairs, warnings),
         output,
-        tables=lambda: shown.tables(records, points),
+        tables=lambda: shown.tables(records, points, gal=output.gal),
         csv=lambda path: write_table(path, *shown.study_columns(records, points)),
-        figure=lambda: _draw(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"]),
+        figure=lambda: _draw(records, points, slope_length=fixed["slope_length"], gravity=fixed["gravity"], gal=output.gal),
     )
 
 

@@ -175,7 +175,7 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
         document(responses, body, contact, agreements),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, agreements),
+        tables=lambda: shown.tables(responses, agreements, gal=output.gal),
     )
 
 
@@ -217,7 +217,7 @@ def _study(
     emit(
         study_document(study, rigid, scaled, records, reinforced=reinforced, **chosen),
         output,
-        tables=lambda: shown.tables(study, rigid, scaled, reinforced=reinforced),
+        tables=lambda: shown.tables(study, rigid, scaled, reinforced=reinforced, gal=output.gal),
         csv=lambda path: shown.write(study, path),
         figure=lambda: _draw(study, rigid, scaled, reinforced=reinforced, gal=output.gal),
     )

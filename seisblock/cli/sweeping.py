@@ -43,7 +43,7 @@ def swept(source: Source, look: Callable[[Record], Sequence[Any]]) -> Iterator[t
         yield motion_of(record, f"{found[0].azimuth_deg:g}"), found
 
 
-def drawing(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]]) -> Callable[[], Figure] | None:
+def drawing(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Callable[[], Figure] | None:
     """Return what draws the directions, None where they were not looked in."""
     if not any("directions" in extra for extra in extras):
         return None
@@ -51,6 +51,6 @@ def drawing(responses: Sequence[Response[Any]], extras: Sequence[Mapping[str, An
     def draw() -> Figure:
         from seisblock.present.figures.azimuths import figure
 
-        return figure(responses, [extra["directions"] for extra in extras])
+        return figure(responses, [extra["directions"] for extra in extras], gal=gal)
 
     return draw

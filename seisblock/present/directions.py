@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from seisblock.present.scales import IN_WORDS, length_unit, told_length
 from seisblock.records import Motion
 from seisblock.words import noted, tell
 
@@ -45,15 +46,31 @@ def side(name: str, sign: float | str | None) -> str:
 
 
 def moved(length: str, name: str, sign: float) -> str:
-    """Return how far and where to, as in ``448 mm to -NS``; a length that is written as nothing has no direction.
+    """Return how far and where to, as in ``44.8 cm to -NS``; a length that is written as nothing has no direction.
 
     Examples
     --------
-    >>> moved("448 mm", "NS", -1.0), moved("0.0 mm", "NS", -1e-9)
-    ('448 mm to -NS', '0.0 mm')
+    >>> moved("44.8 cm", "NS", -1.0), moved("0.00 mm", "NS", -1e-9)
+    ('44.8 cm to -NS', '0.00 mm')
     """
     nothing = not any(digit in length for digit in "123456789")
     return length if nothing else tell("{path} to {towards}", path=length, towards=side(name, sign))
+
+
+def moved_by(length: float, name: str, *, gal: bool = True) -> str:
+    """Return a displacement, m, told by itself: how far, and where to.
+
+    Examples
+    --------
+    >>> moved_by(-0.448, "NS"), moved_by(0.0, "NS"), moved_by(1e-6, "NS")
+    ('44.8 cm to -NS', '0.0 cm', 'less than 0.01 mm to +NS')
+    """
+    unit = length_unit([length], gal=gal)
+    least = 10.0 ** -IN_WORDS[unit.name]
+    told = told_length(abs(length), unit)
+    if length and abs(length) < least * unit.size / 2:
+        told = tell("less than {length}", length=f"{least:g} {unit.name}")
+    return moved(told, name, length)
 
 
 def towards(degrees: float, motion: Motion) -> str:

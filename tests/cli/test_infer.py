@@ -129,7 +129,7 @@ def test_a_slid_object(run, document):
     told = run("--slid", "35cm", "--mu", 0.3, "elcentro_1940_ns.csv", "--steps", 60).stdout
     assert "no factor up to 3 moves it so far" in " ".join(told.split())
     told = run("--slid", "5cm", "--mu", 0.2, "--component", "NS", "--steps", 60).stdout
-    assert "NS: 5 cm of slip needs 0.612 times this record (571.5 gal); as recorded it is 44.8 cm." in " ".join(told.split())
+    assert "NS: 5.0 cm of slip needs 0.612 times this record (571.5 gal); as recorded it is 44.8 cm." in " ".join(told.split())
 
 
 def test_a_jumped_block(document):

@@ -127,7 +127,7 @@ def test_the_result_is_the_sum_of_all_chains():
     assert (found["outcome"], found["landing"], len(found["chains"])) == ("jumped", "paper", 3)
     assert found["friction_needed_at_landing"] == max(chain["friction_needed_at_landing"] for chain in found["chains"])
     shown = " ".join(run("--component", "EW").stdout.split())
-    assert "EW: jumped 3 times in 3 chains of motion, and in the end stands 215 mm to +EW from where it stood." in shown
+    assert "EW: jumped 3 times in 3 chains of motion, and in the end stands 21.5 cm to +EW from where it stood." in shown
     assert "friction 0.18 is below b/h, 0.47, and would let them slide first. Its landings need a friction of 3.64, mu is 0.18." in shown
     assert "the paper's model ends here" in shown
 

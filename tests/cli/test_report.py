@@ -191,7 +191,7 @@ def test_one_card_per_body_says_what_governs(pages):
     assert "plausible versions" in cards[0][1] and "slides" in cards[1][0]
     page = pages["en"]
     assert page.index("What it does") < page.index("Idealised models") < page.index("<h3>Rocking and overturning</h3>")
-    assert re.search(r"<td>Sliding</td><td>EW</td><td>slides up to \d+ mm \(EW\)</td><td>0\.\d\d</td>", page)
+    assert re.search(r"<td>Sliding</td><td>EW</td><td>slides up to \d+\.\d cm \(EW\)</td><td>0\.\d\d</td>", page)
 
 
 def test_a_body_of_unknown_friction_is_said_to_hold(tmp_path):
@@ -221,9 +221,13 @@ def test_a_record_of_one_component_is_enough(tmp_path):
 
 
 def test_a_jump_that_rounds_to_nothing_is_no_minus():
-    """A body that ends a hundredth of a millimetre to the left of where it stood has moved 0 mm, to neither side."""
-    moved = [SimpleNamespace(outcome=JUMPED, final_displacement_m=metres) for metres in (-1e-5, 0.0, -6e-4)]
+    """A body that ends where it stood has moved to neither side, one that ends a hair's breadth to the left has moved."""
+    moved = [SimpleNamespace(outcome=JUMPED, final_displacement_m=metres) for metres in (-0.0, 0.0, -4e-6, -6e-4)]
     effects = [
         SimpleNamespace(kind="jump", response=SimpleNamespace(outcome=outcome, motion=SimpleNamespace(name="NS"))) for outcome in moved
     ]
-    assert [verdict(effect) for effect in effects] == ["jumps 0 mm"] * 2 + ["jumps 1 mm to -NS"]
+    assert [verdict(effect) for effect in effects] == [
+        *["jumps 0.0 cm"] * 2,
+        "jumps less than 0.01 mm to -NS",
+        "jumps 0.60 mm to -NS",
+    ]

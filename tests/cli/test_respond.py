@@ -11,6 +11,7 @@ from click.testing import CliRunner
 from seisblock.bodies.block import Block
 from seisblock.cli import main
 from seisblock.present.figures.respond import figure
+from seisblock.present.scales import length_unit
 from seisblock.present.text.respond import share, signed
 from seisblock.records import Motion
 from seisblock.solvers.respond import solve_respond
@@ -142,7 +143,8 @@ def test_files(tmp_path):
 
 def test_what_rounds_to_nothing_has_no_sign():
     """A quantile of a quarter of a millimetre is 0, not -0.0 cm."""
-    assert [signed(value) for value in (-2e-4, 4e-4, -6e-4, 0.0123)] == ["0", "0", "-0.1 cm", "+1.2 cm"]
+    unit = length_unit([0.0123], gal=True)
+    assert [signed(value, unit) for value in (-2e-4, 4e-4, -6e-4, 0.0123)] == ["0", "0", "-0.1 cm", "+1.2 cm"]
 
 
 def test_hops_too_small_to_see_have_no_panel():
@@ -152,7 +154,7 @@ def test_hops_too_small_to_see_have_no_panel():
     high = solve_respond(Block(0.3, 0.9), motion, mu=0.9, restitution=0.7)
     assert 0.0 < low["lift"].max() < 1e-4 < high["lift"].max()
     labels = [[axis.get_ylabel() for axis in figure([each]).axes] for each in (low, high)]
-    assert ["lift (mm)" in each for each in labels] == [False, True]
+    assert ["lift (cm)" in each for each in labels] == [False, True]
 
 
 def test_what_did_not_happen_has_no_panel():

@@ -47,9 +47,9 @@ SPANS = {
 CURVES = {
     "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ (deg)": np.degrees(r["rotation"])},
     "rock": lambda r: {"θ (deg)": np.degrees(r["rotation"])},
-    "slide": lambda r: {"x − z (mm)": 1e3 * r["displacement"]},
-    "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "rise of G (mm)": 1e3 * (r["height"] - r.body.centroid_height)},
-    "uplift": lambda r: {"u (mm)": 1e3 * r["uplift_1"]},
+    "slide": lambda r: {"x − z (cm)": 100.0 * r["displacement"]},
+    "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "rise of G (cm)": 100.0 * (r["height"] - r.body.centroid_height)},
+    "uplift": lambda r: {"u (cm)": 100.0 * r["uplift_1"]},
     "stack": lambda r: {"tilt θ (deg)": np.degrees(r["sao_tilt"])},
 }
 """What each film shows of its response, by the label of its strip."""

@@ -16,10 +16,10 @@ from tests.present.long_record import DT, PAVILION, SAMPLES, SOLVED, motion, rec
 DRAWN = {
     "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ/α": r["rotation"] / min(r.body.slendernesses)},
     "rock": lambda r: {"θ/α": r["rotation"] / r.outcome.slenderness_rad, "a (gal)": 100.0 * r["ground_acceleration"]},
-    "slide": lambda r: {"x − z (mm)": 1e3 * r["displacement"], "velocity (m/s)": r["ground_velocity"] + r["velocity"]},
-    "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "x of G (mm)": 1e3 * r["displacement"]},
-    "uplift": lambda r: {f"u{'₁₂₃₄'[i]} (mm)": 1e3 * r[f"uplift_{i + 1}"] for i in range(4)},
-    "stack": lambda r: {"tilt θ (deg)": np.degrees(r["sao_tilt"]), "slip s (mm)": 1e3 * r["sao_slip"]},
+    "slide": lambda r: {"x − z (cm)": 100.0 * r["displacement"], "velocity (kine)": 100.0 * (r["ground_velocity"] + r["velocity"])},
+    "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "x of G (cm)": 100.0 * r["displacement"]},
+    "uplift": lambda r: {f"u{'₁₂₃₄'[i]} (cm)": 100.0 * r[f"uplift_{i + 1}"] for i in range(4)},
+    "stack": lambda r: {"tilt θ (deg)": np.degrees(r["sao_tilt"]), "slip s (cm)": 100.0 * r["sao_slip"]},
 }
 """What each model's figure shows of its response, by the label of the panel's axis."""
 

@@ -94,5 +94,7 @@ def test_measures_are_a_table():
     record = seisblock.read("synthetic_jma.csv")
     answer = seisblock.measure(record)
     text = answer._repr_html_()
-    assert "<img" not in text and "pga (m/s²)" in text and f"JMA {answer.jma_class}" in text
+    assert (
+        "<img" not in text and "pga (gal)" in text and "pgv (kine)" in text and "arias (m/s)" in text and f"JMA {answer.jma_class}" in text
+    )
     assert all(f">{part.code}</td>" in text for part in record.components)

@@ -53,12 +53,12 @@ def test_a_number_stays_with_its_unit():
     assert "98\N{NO-BREAK SPACE}% (94\N{NO-BREAK SPACE}% to" in page("base.html", "98 % (94 % to 99 %)")
 
 
-def test_a_jump_of_a_tenth_of_a_millimetre_is_not_none():
-    """What is written as 0 mm has not moved at all."""
+def test_a_jump_of_a_thousandth_of_a_millimetre_is_not_none():
+    """What is written as nothing has not moved at all."""
     found = response("jump")
-    near = replace(found, outcome=replace(found.outcome, final_displacement_m=-7e-5))
+    near = replace(found, outcome=replace(found.outcome, final_displacement_m=-4e-6))
     with speaking("en"):
-        assert "less than 1 mm to -NS" in jump_verdict(near)
+        assert "less than 0.01 mm to -NS" in jump_verdict(near)
 
 
 def test_many_fragilities_begin_with_a_verdict():

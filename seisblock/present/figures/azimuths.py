@@ -14,6 +14,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.body import rose
 from seisblock.present.figures.heading import heading_of, name_of
 from seisblock.present.figures.spectrum import FELL, ROCKED
+from seisblock.present.scales import length_unit
 from seisblock.results import Response
 from seisblock.words import tell
 
@@ -23,7 +24,7 @@ RIM = 1.0
 """Lean over alpha at the rim of a rose: what falls reaches it."""
 
 
-def figure(responses: Sequence[Response[Any]], directions: Sequence[Directions]) -> Figure:
+def figure(responses: Sequence[Response[Any]], directions: Sequence[Directions], *, gal: bool = True) -> Figure:
     """Return the figure: per record a rose of the largest lean over alpha and, of what slides, one of the furthest displacement.
 
     Parameters
@@ -32,14 +33,16 @@ def figure(responses: Sequence[Response[Any]], directions: Sequence[Directions])
         That of the worst direction, for each record.
     directions : sequence of sequences
         What became of the body in each direction.
+    gal : bool
+        Displacements in cm, else m.
     """
     slides = any(hasattr(each, "max_displacement_m") for found in directions for each in found)
-    made = _drawn(responses, directions, slides=slides, stacked=False)
-    made.stacked = lambda: _drawn(responses, directions, slides=slides, stacked=True)
+    made = _drawn(responses, directions, slides=slides, stacked=False, gal=gal)
+    made.stacked = lambda: _drawn(responses, directions, slides=slides, stacked=True, gal=gal)
     return made
 
 
-def _drawn(responses: Sequence[Response[Any]], directions: Sequence[Directions], *, slides: bool, stacked: bool) -> canvas.Sheet:
+def _drawn(responses: Sequence[Response[Any]], directions: Sequence[Directions], *, slides: bool, stacked: bool, gal: bool) -> canvas.Sheet:
     """Return the figure, the roses of a record beside or below each other."""
     across, down = 1 + slides, len(responses)
     rows, columns = (across * down, 1) if stacked else (down, across)
@@ -53,9 +56,10 @@ def _drawn(responses: Sequence[Response[Any]], directions: Sequence[Directions],
         rose(lean, called + tell("largest lean over α, worst: {direction}", direction=worst), RIM)
         if slides:
             path = made.add_subplot(rows, columns, across * row + 2, projection="polar")
-            far = [100.0 * each.max_displacement_m for each in found]
+            unit = length_unit((each.max_displacement_m for each in found), gal=gal)
+            far = [each.max_displacement_m / unit.size for each in found]
             _bars(path, found, far)
-            rose(path, called + tell("furthest from start (cm)"), max(*far, 0.1))
+            rose(path, called + tell("furthest from start ({unit})", unit=unit.name), max(*far, 1e-3 / unit.size))
     handles = [Patch(facecolor=ROCKED, edgecolor="0.4", linewidth=0.5, label=tell("stands"))]
     half = all(map(_half, directions))
     if any(each.overturned for found in directions for each in found):

@@ -19,7 +19,6 @@ from seisblock.present.figures.fonts import set_letters
 from seisblock.present.files import check_figure, replacing
 from seisblock.present.wrap import columns
 from seisblock.results import Phase
-from seisblock.units import GAL
 from seisblock.words import language, plain_text, speaking, tell
 
 INPUT = "0.45"
@@ -148,8 +147,8 @@ def in_two(text: str, between: str = " ") -> str:
 
     Examples
     --------
-    >>> in_two("rise of G (mm)").splitlines()
-    ['rise of', 'G (mm)']
+    >>> in_two("rise of G (cm)").splitlines()
+    ['rise of', 'G (cm)']
     """
     parts = text.split(between)
     halves = [(between.join(parts[:i]), between.join(parts[i:])) for i in range(1, len(parts))]
@@ -195,11 +194,6 @@ def label(axis: Axes, x: str = "", y: str = "") -> None:
 def panel_title(axis: Axes, text: str) -> None:
     """Write over a panel, on the left; what a file says there is text, never mathematics."""
     axis.set_title(text, fontsize=9, loc="left", parse_math=False)
-
-
-def acceleration_unit(*, gal: bool) -> tuple[float, str]:
-    """Return the unit in which accelerations are drawn, m/s^2, and its name."""
-    return (GAL, "gal") if gal else (1.0, "m/s²")
 
 
 def shade(axis: Axes, phases: Iterable[Phase], colours: dict[str, str], *, names: bool = False, direction: str = "") -> None:

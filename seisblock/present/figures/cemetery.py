@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
-from seisblock.present.figures.canvas import ACCENT, BETWEEN, INPUT, acceleration_unit, label, legend, new_figure, panel_title
+from seisblock.present.figures.canvas import ACCENT, BETWEEN, INPUT, label, legend, new_figure, panel_title
 from seisblock.present.figures.heading import called, heading_over
+from seisblock.present.scales import acceleration_unit
 from seisblock.records import Record
 from seisblock.studies.cemetery.judgement import LARGER, CemeteryRate, Reinforcement
 from seisblock.studies.cemetery.rate import FREQUENCIES, CurvePoint, overturning_rate, rate_curve

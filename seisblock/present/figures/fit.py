@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
-from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, acceleration_unit, label, legend, panel_title
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, panel_title
 from seisblock.present.figures.rulers import round_ticks
+from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.fit import NAMES
 from seisblock.studies.fit.axes import Axis
 from seisblock.studies.fit.experiment import FELL, MOVED

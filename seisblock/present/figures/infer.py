@@ -11,8 +11,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, acceleration_unit, label, legend, new_figure, panel_title, threshold
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, new_figure, panel_title, threshold
 from seisblock.present.figures.heading import called, heading_over
+from seisblock.present.scales import acceleration_unit, length_unit
 from seisblock.records import Record
 from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.estimate import ShakingEstimate, contour
@@ -118,22 +119,23 @@ def _likelihoods(axis: Axes, survey: Survey, assumptions: Assumptions, chosen: S
     legend(axis, ncols=6)
 
 
-def factor_figure(found: Sequence[tuple[Record, ScaleFactors]]) -> Figure:
+def factor_figure(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool = True) -> Figure:
     """Return the figure: displacement against the factor, the observed one and the factors that give it, a panel per component."""
     records = [record for record, _ in found]
     title = heading_over(records, [each.component for _, each in found])
     figure, axes = new_figure(len(found), height=1.4 + 1.9 * len(found), title=title)
+    far = length_unit((each.observed_m for _, each in found), gal=gal)
     for axis, (record, each) in zip(axes, found, strict=True):
         scales, values = each.curve
-        axis.plot(scales, np.array(values) * 100.0, color=SECOND, linewidth=1.0)
-        threshold(axis, [each.observed_m * 100.0], tell("observed"))
+        axis.plot(scales, np.array(values) / far.size, color=SECOND, linewidth=1.0)
+        threshold(axis, [each.observed_m / far.size], tell("observed"))
         for marker, leaps, text in (("o", False, tell("solution")), ("x", True, tell("leaps across"))):
             points = [f.scale for f in each.scale_factors if f.leaps == leaps]
             if points:
-                axis.plot(points, [each.observed_m * 100.0] * len(points), marker, color=ACCENT, markersize=5, label=text)
+                axis.plot(points, [each.observed_m / far.size] * len(points), marker, color=ACCENT, markersize=5, label=text)
         axis.axvline(1.0, color=INPUT, linewidth=0.8, linestyle=(0, (1, 2)), label=tell("as recorded"))
         panel_title(axis, called(record, each.component, records))
-        label(axis, y=tell("displacement (cm)"))
+        label(axis, y=tell("displacement ({unit})", unit=far.name))
         legend(axis)
     label(axes[-1], x=tell("factor on the record"))
     return figure

@@ -10,6 +10,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading, heading_of
 from seisblock.present.figures.spectrum import figure as spectrum_figure
+from seisblock.present.scales import acceleration_unit
 from seisblock.records import Motion, Record
 from seisblock.studies.rocking.spectra import RockingSpectrum
 from seisblock.typing import FloatArray
@@ -33,7 +34,7 @@ def motion_figure(motion: Motion) -> Figure:
 
 def response_spectrum_figure(spectrum: ResponseSpectrum) -> Figure:
     """Return the absolute acceleration response against the period, gal."""
-    unit, name = canvas.acceleration_unit(gal=True)
+    unit, name = acceleration_unit(gal=True)
     made, (axis,) = canvas.new_figure(1, height=3.6)
     axis.plot(spectrum.period_s, spectrum.sa_m_s2 / unit, color=canvas.ACCENT, linewidth=1.0)
     axis.set_xscale("log")
@@ -50,7 +51,7 @@ def rocking_spectrum_figure(spectrum: RockingSpectrum) -> Figure:
 
 def _histories(title: str, time: FloatArray, rows: dict[str, FloatArray]) -> Figure:
     """Return one panel per row."""
-    unit, name = canvas.acceleration_unit(gal=True)
+    unit, name = acceleration_unit(gal=True)
     reach = 1.15 * max(float(np.abs(row).max()) for row in rows.values()) / unit or 1.0
     made, axes = canvas.new_figure(len(rows), title=title)
     for axis, (code, row) in zip(axes, rows.items(), strict=True):

@@ -12,13 +12,14 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
+from seisblock.present.scales import Unit, acceleration_unit, length_unit
 from seisblock.present.text.jump import Jumps
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import FLIGHT, LANDED, ROCKING
 from seisblock.solvers.jump.solve import JumpOutcome
 from seisblock.words import noted, tell
 
-QUANTITIES = tuple(map(noted, ("θ (deg)", "rise of G (mm)", "x of G (mm)")))
+QUANTITIES = tuple(map(noted, ("θ (deg)", "rise of G ({unit})", "x of G ({unit})")))
 COLOURS = {ROCKING: "#f4d9c6", FLIGHT: "#8fb89b", LANDED: "#7183bb"}
 
 
@@ -36,8 +37,9 @@ def _drawn(responses: Jumps, *, gal: bool, stacked: bool = False) -> canvas.Shee
     wide, high = (8.0, 1.0 + 1.8 * sum(rows)) if stacked else (4.0 + 4.0 * len(responses), 1.0 + 1.8 * max(rows))
     made = canvas.titled(heading_of(motions), width=wide, height=high)
     columns = columns_of(made, motions, [stretch(r) for r in responses], rows, stacked=stacked)
+    far = length_unit((float(np.abs(each["displacement"]).max()) for each in responses), gal=gal)
     for panels, name, response in zip(columns, names_of(motions), responses, strict=True):
-        _column(panels, name, response, gal=gal)
+        _column(panels, name, response, far, gal=gal)
     return made
 
 
@@ -51,10 +53,10 @@ def stretch(response: Response[JumpOutcome]) -> Stretch:
     return max(first - margin, float(response.motion.time[0])), last + margin
 
 
-def _column(panels: Sequence[Any], called: str, response: Response[JumpOutcome], *, gal: bool) -> None:
+def _column(panels: Sequence[Any], called: str, response: Response[JumpOutcome], far: Unit, *, gal: bool) -> None:
     """Draw one component's four panels: the first alone where nothing rocks."""
     motion, outcome = response.motion, response.outcome
-    unit, name = canvas.acceleration_unit(gal=gal)
+    unit, name = acceleration_unit(gal=gal)
     curve(panels[0], motion.time, motion.horizontal / unit, color=canvas.INPUT)
     level = outcome.rocking_threshold_m_s2 / unit
     peak = float(np.abs(motion.horizontal).max()) / unit
@@ -62,12 +64,15 @@ def _column(panels: Sequence[Any], called: str, response: Response[JumpOutcome],
     if near:
         canvas.threshold(panels[0], [level, -level], tell("rocks beyond"))
     rise = response["height"] - response.body.centroid_height
-    for panel, values in zip(panels[1:], (np.degrees(response["rotation"]), rise * 1e3, response["displacement"] * 1e3), strict=False):
+    for panel, values in zip(
+        panels[1:], (np.degrees(response["rotation"]), rise / far.size, response["displacement"] / far.size), strict=False
+    ):
         curve(panel, response.time, values, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
     for panel in panels:
         canvas.shade(panel, response.phases, COLOURS, names=panel is panels[min(1, len(panels) - 1)])
     for panel in panels[:2]:
         canvas.legend(panel)
     canvas.panel_title(panels[0], tell("{name}: {what}", name=called, what=tell(response.body.name)))
-    for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), *map(tell, QUANTITIES)), strict=False):
+    labels = tell("z'' ({unit})", unit=name), *(tell(text, unit=far.name) for text in QUANTITIES)
+    for panel, text in zip(panels, labels, strict=False):
         canvas.label(panel, y=text)

@@ -8,14 +8,14 @@ from matplotlib.figure import Figure
 
 from seisblock.measures import RecordMeasures, fourier_amplitude, ground_history, response_spectrum
 from seisblock.measures.spectra import DAMPING
-from seisblock.present.figures.canvas import ACCENT, BETWEEN, INPUT, acceleration_unit, dress, label, legend, threshold, titled
+from seisblock.present.figures.canvas import ACCENT, BETWEEN, INPUT, dress, label, legend, threshold, titled
 from seisblock.present.figures.curves import curve, in_view, thin
 from seisblock.present.figures.heading import heading
 from seisblock.present.figures.histories import columns_of, strong_part
+from seisblock.present.scales import acceleration_unit, velocity_unit
 from seisblock.records import Component, Motion, Record
 from seisblock.records.process import pick
 from seisblock.typing import FloatArray
-from seisblock.units import GAL, KINE
 from seisblock.words import tell
 
 LINES = (("0.1", "-"), ("#1f5a8c", (0, (5, 1.5))), ("#b5651d", (0, (1.2, 1.2))), ("0.55", "-"))
@@ -92,7 +92,7 @@ def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component]
 
 def _draw_velocities(axes: list[Axes], record: Record, parts: list[Component], answer: RecordMeasures, *, gal: bool) -> None:
     """Draw the velocities of the baseline of the PGV, on one scale."""
-    unit, name = (KINE, "kine") if gal else (1.0, "m/s")
+    unit, name = velocity_unit(gal=gal)
     reach = 1.15 * max(m.pgv_m_s for m in answer.components) / unit or 1.0
     for axis, part, m in zip(axes, parts, answer.components, strict=True):
         history = ground_history(part.acceleration, record.dt, highpass_hz=answer.conventions.velocity_highpass_hz)
@@ -104,7 +104,7 @@ def _draw_velocities(axes: list[Axes], record: Record, parts: list[Component], a
 
 def _draw_fourier(axis: Axes, record: Record, parts: list[Component], smoothing_hz: float, *, gal: bool) -> None:
     """Draw the smoothed Fourier amplitudes from 0.1 Hz to 30 Hz or half the sampling rate."""
-    unit, name = (GAL, "gal s") if gal else (1.0, "m/s")
+    unit, name = (acceleration_unit(gal=True).size, "gal s") if gal else velocity_unit(gal=False)
     for part, (colour, dashes) in zip(parts, _styles(len(parts)), strict=True):
         frequency, amplitude = fourier_amplitude(part.acceleration, record.dt, smoothing_hz=smoothing_hz)
         shown = (frequency >= 0.1) & (frequency <= min(0.5 / record.dt, 30.0))

@@ -12,6 +12,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
+from seisblock.present.scales import Unit, acceleration_unit, length_unit
 from seisblock.results import Phase, Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.solvers.respond.tale import FLIGHT, ROCK, SLIDE, SLIDE_ROCK
@@ -45,10 +46,11 @@ def _drawn(responses: Responds, *, gal: bool, stacked: bool = False) -> canvas.S
     motions, stretches = [response.motion for response in responses], [stretch(response) for response in responses]
     wide, high = (7.4, 1.2 + 1.75 * sum(rows)) if stacked else (2.0 + 5.4 * len(responses), 1.2 + 1.75 * max(rows))
     made = canvas.titled(heading_of(motions), width=wide, height=high)
+    far = length_unit((each.outcome.max_displacement_m for each in responses), gal=gal)
     columns, names = columns_of(made, motions, stretches, rows, stacked=stacked), names_of(motions)
     for panels, name, response, kinds, (first, last) in zip(columns, names, responses, shown, stretches, strict=True):
         for kind, panel in zip(kinds, panels, strict=True):
-            _draw(kind, panel, name, response, gal=gal)
+            _draw(kind, panel, name, response, far, gal=gal)
             canvas.shade(panel, seen(response.phases, first, last), COLOURS, names=kind == DISPLACEMENT)
             canvas.legend(panel)
     return made
@@ -63,16 +65,16 @@ def happened(response: Response[RespondOutcome]) -> list[int]:
     return [kind for kind, does in there if does]
 
 
-def _draw(kind: int, panel: Axes, called: str, response: Response[RespondOutcome], *, gal: bool) -> None:
+def _draw(kind: int, panel: Axes, called: str, response: Response[RespondOutcome], far: Unit, *, gal: bool) -> None:
     """Draw one panel."""
     if kind == GROUND:
         _ground(panel, called, response, gal=gal)
     elif kind == DISPLACEMENT:
-        _curve(panel, response, 100.0 * response["displacement"], tell("x (cm)"), canvas.SECOND)
+        _curve(panel, response, response["displacement"] / far.size, tell("x ({unit})", unit=far.name), canvas.SECOND)
     elif kind == LEAN:
         _lean(panel, response)
     else:
-        _curve(panel, response, 1e3 * np.maximum(response["lift"], 0.0), tell("lift (mm)"), "#2e7d4f")
+        _curve(panel, response, np.maximum(response["lift"], 0.0) / far.size, tell("lift ({unit})", unit=far.name), "#2e7d4f")
 
 
 def stretch(response: Response[RespondOutcome]) -> Stretch:
@@ -92,7 +94,7 @@ def seen(phases: Sequence[Phase], first: float, last: float) -> list[Phase]:
 
 def _ground(axis: Axes, called: str, response: Response[RespondOutcome], *, gal: bool) -> None:
     """Draw the ground acceleration with the levels at which it would slide and rock from rest."""
-    unit, name = canvas.acceleration_unit(gal=gal)
+    unit, name = acceleration_unit(gal=gal)
     block, options = response.body, response.options
     right, left = block.arms
     gravity = options["gravity_m_s2"] / unit

@@ -12,6 +12,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
+from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.rock import Rockings
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
@@ -69,7 +70,7 @@ def stretch(response: Response[RockOutcome]) -> Stretch:
 
 def draw_ground(axis: Any, response: Response[RockOutcome], called: str, *, gal: bool) -> None:
     """Draw the ground acceleration over the band within which the block rests."""
-    unit, name = canvas.acceleration_unit(gal=gal)
+    unit, name = acceleration_unit(gal=gal)
     outcome, options = response.outcome, response.options
     weight = 1.0 + response["vertical_acceleration"] / options["gravity_m_s2"]
     right, left = (

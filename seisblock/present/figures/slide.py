@@ -12,6 +12,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
+from seisblock.present.scales import Unit, acceleration_unit, length_unit, velocity_unit
 from seisblock.present.text.slide import Slides, setting
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SLIDING, SlideOutcome
@@ -35,14 +36,16 @@ def _drawn(responses: Slides, *, gal: bool, stacked: bool = False) -> canvas.She
     wide, high = (8.5, 1.0 + 2.0 * sum(rows)) if stacked else (4.5 + 4.0 * len(responses), 1.0 + 2.0 * max(rows))
     made = canvas.titled(heading_of(motions), width=wide, height=high)
     columns = columns_of(made, motions, [stretch(r) for r in responses], rows, stacked=stacked)
+    far = length_unit((response.outcome.max_slip_m for response in responses), gal=gal)
     for panels, name, response in zip(columns, names_of(motions), responses, strict=True):
-        _column(panels, name, response, gal=gal)
+        _column(panels, name, response, far, gal=gal)
     return made
 
 
-def _column(panels: Sequence[Any], called: str, response: Response[SlideOutcome], *, gal: bool) -> None:
+def _column(panels: Sequence[Any], called: str, response: Response[SlideOutcome], far: Unit, *, gal: bool) -> None:
     """Draw one direction's panels: the first alone where nothing slides."""
-    unit, name = canvas.acceleration_unit(gal=gal)
+    unit, name = acceleration_unit(gal=gal)
+    speed = velocity_unit(gal=gal)
     time, phases = response.time, response.phases
     top, *below = panels
     lower, upper = response["lower_limit"], response["upper_limit"]
@@ -55,14 +58,15 @@ def _column(panels: Sequence[Any], called: str, response: Response[SlideOutcome]
         curve(top, time, limit / unit, color=canvas.THRESHOLD, linestyle=(0, (6, 2, 1, 2)), label=text)
     if below:
         middle, bottom = below
-        block = response["ground_velocity"] + response["velocity"]
-        curve(middle, time, response["ground_velocity"], color="0.62", linewidth=1.6, label=tell("ground"))
+        block = (response["ground_velocity"] + response["velocity"]) / speed.size
+        curve(middle, time, response["ground_velocity"] / speed.size, color="0.62", linewidth=1.6, label=tell("ground"))
         curve(middle, time, block, color=canvas.ACCENT, label=tell("object"))
-        curve(bottom, time, response["displacement"] * 1e3, color=canvas.ACCENT)
+        curve(bottom, time, response["displacement"] / far.size, color=canvas.ACCENT)
         canvas.shade(middle, phases, COLOURS, names=True, direction=response.motion.name)
         canvas.shade(bottom, phases, COLOURS)
         bottom.axhline(0.0, color=canvas.INPUT, linewidth=0.6)
-    for panel, text in zip(panels, (tell("z'' ({unit})", unit=name), tell("velocity (m/s)"), tell("x − z (mm)")), strict=False):
+    labels = tell("z'' ({unit})", unit=name), tell("velocity ({unit})", unit=speed.name), tell("x − z ({unit})", unit=far.name)
+    for panel, text in zip(panels, labels, strict=False):
         canvas.label(panel, y=text)
         canvas.legend(panel)
     canvas.panel_title(top, tell("{name}: {what}", name=called, what=setting(response)))

@@ -13,11 +13,12 @@ from matplotlib.figure import Figure
 from seisblock.criteria.sliding import friction_that_holds, friction_that_stops
 from seisblock.present.figures import canvas
 from seisblock.present.figures.heading import called, heading_over
+from seisblock.present.scales import Unit, length_unit
 from seisblock.present.text.slide_study import PLANE, SYMBOLS, Arrangement, Points, panels_of, value_of
 from seisblock.records import Record, motion_of
 from seisblock.words import noted, tell
 
-SLIP_LABEL = noted("largest slip (m)")
+SLIP_LABEL = noted("largest slip ({unit})")
 LEAST_SHADE, MOST_SHADE = 1e-4, 10.0
 """Slip, m, below which the plane stays white, and beyond which it is black: it slides on as long as the record lasts."""
 
@@ -25,7 +26,7 @@ DIGITS = 9
 """Decimals to which a ratio of two frictions is the one that was asked for."""
 
 
-def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length: float | None, gravity: float) -> Figure:
+def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length: float | None, gravity: float, gal: bool = True) -> Figure:
     """Return the figure of the study: slip (or beta) against the parameter with most values, one curve per value of the others.
 
     A study of both slope and friction is drawn as the plane of [Fujino1978]_ fig. 16, with the criteria (14) and (15).
@@ -40,16 +41,17 @@ def figure(records: Sequence[Record], studies: Sequence[Points], *, slope_length
     made, axes = canvas.new_figure(
         1, columns=len(panels), width=2.0 + 4.5 * len(panels), height=4.6, sharey=True, title=heading_over(records, directions)
     )
+    far = length_unit((point.max_slip_m for points in studies for point in points), gal=gal)
     for axis, (record, title, part) in zip(axes, panels, strict=True):
         if _is_plane(part):
-            _plane(axis, part)
+            _plane(axis, part, far)
             _criteria(axis, part, record, gravity)
         else:
-            _curves(axis, part, slope_length)
+            _curves(axis, part, slope_length, far)
         canvas.panel_title(axis, title)
     for axis in axes:
         axis.label_outer()
-    if axes[0].get_ylabel() == tell(SLIP_LABEL):
+    if axes[0].get_ylabel() == tell(SLIP_LABEL, unit=far.name):
         axes[0].set_ylim(bottom=0.0)
     return made
 
@@ -73,7 +75,7 @@ def _planes(title: str, points: Points) -> list[tuple[str, Points]]:
     return parts
 
 
-def _curves(axis: Any, points: Points, slope_length: float | None) -> None:
+def _curves(axis: Any, points: Points, slope_length: float | None, far: Unit) -> None:
     """Draw curves as in [Fujino1978]_ fig. 7 (slip), figs. 9 and 10 (beta), fig. 15 (slip on a slope)."""
     arrangement = Arrangement.of(points)
     ratio = any(point.beta is not None for point in points)
@@ -83,7 +85,7 @@ def _curves(axis: Any, points: Points, slope_length: float | None) -> None:
             (point for point in points if arrangement.name(point) == name), key=lambda point: float(getattr(point, arrangement.x))
         )
         x = [getattr(point, arrangement.x) for point in mine]
-        y = [value_of(point, ratio) for point in mine]
+        y = [value_of(point, ratio) / (1.0 if ratio else far.size) for point in mine]
         share = index / max(len(names) - 1, 1)
         colour = canvas.ACCENT if len(names) == 1 else _shade(share)
         marker = "os^Dvx"[index % 6] if len(x) <= 60 else ""
@@ -91,8 +93,10 @@ def _curves(axis: Any, points: Points, slope_length: float | None) -> None:
     if ratio:
         axis.axhline(1.0, color=canvas.INPUT, linewidth=0.7)
     if slope_length is not None and not ratio:
-        axis.axhline(slope_length, color=canvas.THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label=tell("foot of the slope"))
-    canvas.label(axis, x=tell(SYMBOLS[arrangement.x]), y="β (1)" if ratio else tell(SLIP_LABEL))
+        axis.axhline(
+            slope_length / far.size, color=canvas.THRESHOLD, linewidth=0.8, linestyle=(0, (6, 2, 1, 2)), label=tell("foot of the slope")
+        )
+    canvas.label(axis, x=tell(SYMBOLS[arrangement.x]), y="β (1)" if ratio else tell(SLIP_LABEL, unit=far.name))
     canvas.legend(axis, loc="best", bbox_to_anchor=None, borderaxespad=0.5, ncols=1 if len(names) < 6 else 2)
 
 
@@ -101,7 +105,7 @@ def _shade(share: float) -> Any:
     return colormaps["plasma"](0.85 * share)
 
 
-def _plane(axis: Any, points: Points) -> None:
+def _plane(axis: Any, points: Points, far: Unit) -> None:
     """Shade the plane of slope and friction by the largest slip."""
     slopes = sorted({point.slope_deg for point in points})
     frictions = sorted({point.mu for point in points})
@@ -110,11 +114,11 @@ def _plane(axis: Any, points: Points) -> None:
         if point.max_slip_m is not None:
             slip[frictions.index(point.mu), slopes.index(point.slope_deg)] = max(point.max_slip_m, LEAST_SHADE)
     most = float(np.nanmax(slip))
-    norm = LogNorm(LEAST_SHADE, min(max(most, 100.0 * LEAST_SHADE), MOST_SHADE))
-    mesh = axis.pcolormesh(slopes, frictions, slip, norm=norm, cmap="Greys", shading="nearest")
+    norm = LogNorm(LEAST_SHADE / far.size, min(max(most, 100.0 * LEAST_SHADE), MOST_SHADE) / far.size)
+    mesh = axis.pcolormesh(slopes, frictions, slip / far.size, norm=norm, cmap="Greys", shading="nearest")
     axis.grid(False)
     bar = axis.figure.colorbar(mesh, ax=axis, pad=0.02, extend="max" if most > MOST_SHADE else "neither")
-    bar.set_label(tell(SLIP_LABEL), fontsize=9)
+    bar.set_label(tell(SLIP_LABEL, unit=far.name), fontsize=9)
     bar.ax.tick_params(labelsize=8)
 
 

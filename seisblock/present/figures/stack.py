@@ -13,6 +13,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import columns_of, strong_stretch
+from seisblock.present.scales import Unit, acceleration_unit, length_unit
 from seisblock.present.text.stack import NOTICEABLE_SLIP, NOTICEABLE_TILT, Stacks
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome
@@ -27,15 +28,16 @@ def figure(responses: Stacks, *, gal: bool = True) -> Figure:
     """Return the figure: per run the ground acceleration, and tilts and slips of the stones against time."""
     motions, stretches = [response.motion for response in responses], [stretch(response, margin=1.0) for response in responses]
     made = canvas.titled(heading_of(motions), width=3.5 + 4.5 * len(responses), height=6.6)
+    far = length_unit((largest(response, "slip") for response in responses), gal=gal)
     for panels, name, response in zip(columns_of(made, motions, stretches, 3), names_of(motions), responses, strict=True):
-        _column(panels, name, response, gal=gal)
+        _column(panels, name, response, far, gal=gal)
     return made
 
 
-def _column(panels: Sequence[Any], called: str, response: Response[StackOutcome], *, gal: bool) -> None:
+def _column(panels: Sequence[Any], called: str, response: Response[StackOutcome], far: Unit, *, gal: bool) -> None:
     """Draw one run's three panels."""
     motion = response.motion
-    unit, unit_name = canvas.acceleration_unit(gal=gal)
+    unit, unit_name = acceleration_unit(gal=gal)
     rows = ((tell("up"), 2, canvas.SECOND), (tell("across"), 1, "0.7"), (tell("along {name}", name=motion.name or "x"), 0, "0.2"))
     for name, row, colour in rows:
         values = motion.acceleration[row]
@@ -45,9 +47,9 @@ def _column(panels: Sequence[Any], called: str, response: Response[StackOutcome]
     for index, name in enumerate(reversed(response.body.names)):
         style: dict[str, Any] = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": tell(name)}
         curve(panels[1], response.time, np.degrees(response[f"{name}_tilt"]), **style)
-        curve(panels[2], response.time, response[f"{name}_slip"] * 1e3, **style)
-    for panel, quantity, factor in ((panels[1], "tilt", math.degrees(1.0)), (panels[2], "slip", 1e3)):
-        top = factor * _largest(response, quantity)
+        curve(panels[2], response.time, response[f"{name}_slip"] / far.size, **style)
+    for panel, quantity, factor in ((panels[1], "tilt", math.degrees(1.0)), (panels[2], "slip", 1.0 / far.size)):
+        top = factor * largest(response, quantity)
         panel.set_ylim(-0.05 * top, 1.1 * top)
         for event in response.events:
             panel.axvline(event.time_s, color="0.3", linewidth=0.8, linestyle=(0, (2, 2)))
@@ -57,11 +59,12 @@ def _column(panels: Sequence[Any], called: str, response: Response[StackOutcome]
     canvas.legend(panels[0])
     canvas.legend(panels[1])
     canvas.panel_title(panels[0], f"+x = {called}: {tell(response.body.name)}")
-    for panel, text in zip(panels, (tell("a ({unit})", unit=unit_name), tell("tilt θ (deg)"), tell("slip s (mm)")), strict=True):
+    labels = tell("a ({unit})", unit=unit_name), tell("tilt θ (deg)"), tell("slip s ({unit})", unit=far.name)
+    for panel, text in zip(panels, labels, strict=True):
         canvas.label(panel, y=text)
 
 
-def _largest(response: Response[StackOutcome], quantity: str) -> float:
+def largest(response: Response[StackOutcome], quantity: str) -> float:
     """Return the largest tilt or slip of the stones that stand, and of the others until they fell."""
     top = 1e-3
     for stone in response.outcome.stones:

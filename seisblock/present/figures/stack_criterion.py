@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 
 from seisblock.criteria.gravestones import overturning_level, published
 from seisblock.present.figures import canvas
+from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.stack_criterion import Scaled
 from seisblock.studies.gravestone_criterion import CriterionStudy, frequencies_of
 from seisblock.words import tell
@@ -18,7 +19,7 @@ def figure(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, 
     import numpy as np
 
     fit, equation = published(reinforced)
-    unit, unit_name = canvas.acceleration_unit(gal=gal)
+    unit, unit_name = acceleration_unit(gal=gal)
     made, (left, right) = canvas.new_figure(1, columns=2, width=9.5, height=4.4)
     fine = np.linspace(1.0, 13.5, 200)
     for index, f in enumerate(frequencies_of(study)):

@@ -15,6 +15,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
+from seisblock.present.scales import Unit, acceleration_unit, length_unit, told_length
 from seisblock.results import Phase, Response
 from seisblock.words import tell
 
@@ -34,12 +35,13 @@ def record_figure(responses: Sequence[Response[UpliftOutcome]], *, gal: bool = T
     above, below = made.subfigures(2, 1, height_ratios=(5.3, 2.6), squeeze=False)[:, 0]
     plans = below.subplots(1, columns, squeeze=False)[0]
     histories = columns_of(above, motions, spans, 5, heights=(1.3, 1, 1, 1, 1))
+    far = length_unit((corner.max_uplift_m for response in responses for corner in response.outcome.corners), gal=gal)
     for panels, plan, name, response, span in zip(histories, plans, names_of(motions), responses, spans, strict=True):
         _motion(panels[0], name, response, gal=gal)
         for i, panel in enumerate(panels[1:]):
             if i:
                 panel.sharey(panels[1])
-            _corner(panel, response, i)
+            _corner(panel, response, i, far)
         canvas.dress(plan)
         _plan(plan, response, *span)
     return made
@@ -57,7 +59,7 @@ def stretch(response: Response[UpliftOutcome]) -> Stretch:
 
 def _motion(panel: Axes, called: str, response: Response[UpliftOutcome], *, gal: bool) -> None:
     """Draw the three components of the ground motion."""
-    unit, unit_name = canvas.acceleration_unit(gal=gal)
+    unit, unit_name = acceleration_unit(gal=gal)
     motion = response.motion
     names = tell("along {name}", name=motion.name or "x"), tell("across"), tell("up")
     for values, name, style in zip(motion.acceleration, names, ("0.2", "0.55", canvas.SECOND), strict=True):
@@ -75,18 +77,18 @@ def _size(response: Response[UpliftOutcome]) -> str:
     return tell("{size}, {f:.3g} Hz vertical", size=size, f=body.omega[2] / 2 / np.pi)
 
 
-def _corner(panel: Axes, response: Response[UpliftOutcome], i: int) -> None:
+def _corner(panel: Axes, response: Response[UpliftOutcome], i: int, far: Unit) -> None:
     """Draw the displacement of one corner, its uplift shaded."""
     corner = response.outcome.corners[i]
-    curve(panel, response.time, response[f"uplift_{i + 1}"] * 1e3, color=canvas.ACCENT)
+    curve(panel, response.time, response[f"uplift_{i + 1}"] / far.size, color=canvas.ACCENT)
     panel.axhline(0.0, color=canvas.THRESHOLD, linewidth=0.6)
     canvas.shade(panel, _in_air(response, i), {"in the air": LIFTED})
-    canvas.label(panel, y=f"u{SUBSCRIPTS[i]} (mm)")
+    canvas.label(panel, y=f"u{SUBSCRIPTS[i]} ({far.name})")
     sx, sy = ("+" if sign > 0 else "−" for sign in CORNERS[i])
     if corner.uplifts:
         told = tell("first at {time:.3f} s", time=corner.first_uplift_s)
         if response.outcome.within_model:
-            told = tell("first at {time:.3f} s, highest {most:.3g} mm", time=corner.first_uplift_s, most=corner.max_uplift_m * 1e3)
+            told = tell("first at {time:.3f} s, highest {most}", time=corner.first_uplift_s, most=told_length(corner.max_uplift_m, far))
     else:
         told = tell("never lifts")
     title = tell("corner {number} ({place}): {told}", number=i + 1, place=f"{sx}x, {sy}y", told=told)

@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from seisblock.present.directions import phase as called
-from seisblock.present.figures.canvas import acceleration_unit
 from seisblock.present.films.plane import Plane
 from seisblock.present.films.space import Space
+from seisblock.present.scales import acceleration_unit
 from seisblock.records import Motion
 from seisblock.results import Phase
 from seisblock.typing import FloatArray

@@ -13,6 +13,7 @@ from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, stretch, titled
 from seisblock.present.films.plane import Body, Box, Piece, Plane, Trail, ground_shift, rectangle
 from seisblock.present.films.projector import animate_film
+from seisblock.present.scales import length_unit
 from seisblock.results import Response
 from seisblock.solvers.jump.solve import JumpOutcome
 from seisblock.typing import FloatArray
@@ -41,7 +42,8 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
         Trail(name, response.time, *foot, colour)
         for name, foot, colour in zip(map(tell, ("left foot", "right foot")), feet, FEET, strict=True)
     )
-    rise = (response["height"] - block.centroid_height) * 1e3
+    far = length_unit([float(np.abs(response["displacement"]).max())], gal=gal)
+    rise = (response["height"] - block.centroid_height) / far.size
     level = response.outcome.rocking_threshold_m_s2
     return Film(
         title=titled(block.name, response.outcome.outcome),
@@ -58,7 +60,7 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
         strips=(
             ground_strip(motion, (-level, level), gal=gal),
             Strip(tell("θ (deg)"), (Line(response.time, np.degrees(response["rotation"])),)),
-            Strip(tell("rise of G (mm)"), (Line(response.time, rise),)),
+            Strip(tell("rise of G ({unit})", unit=far.name), (Line(response.time, rise),)),
         ),
         phases=response.phases,
         colours=COLOURS,

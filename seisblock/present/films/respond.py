@@ -15,6 +15,7 @@ from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, ti
 from seisblock.present.films.plane import Body, Piece, Plane, Trail, ground_shift, rectangle
 from seisblock.present.films.projector import animate_film
 from seisblock.present.films.rock import corners, on_the_ground
+from seisblock.present.scales import length_unit
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.typing import FloatArray
@@ -36,6 +37,7 @@ def respond_film(response: Response[RespondOutcome], times: FloatArray, *, gal: 
     level = options["gravity_m_s2"] * min(options["mu"], min(block.arms) / block.centre)
     alpha = math.degrees(block.slenderness)
     wide = 4.0 * math.hypot(block.width, block.height) + 2.0 * outcome.max_displacement_m
+    far = length_unit([outcome.max_displacement_m], gal=gal)
     return Film(
         title=titled(block.name, outcome.outcome),
         heading=heading_of([motion]),
@@ -49,7 +51,7 @@ def respond_film(response: Response[RespondOutcome], times: FloatArray, *, gal: 
         ),
         strips=(
             ground_strip(motion, (-level, level), gal=gal),
-            Strip(tell("x (cm)"), (Line(response.time, response["displacement"] * 100.0, "#1f5a8c"),)),
+            Strip(tell("x ({unit})", unit=far.name), (Line(response.time, response["displacement"] / far.size, "#1f5a8c"),)),
             Strip(tell("θ (deg)"), (Line(response.time, np.degrees(response["rotation"])),), (-alpha, alpha)),
         ),
         phases=response.phases,

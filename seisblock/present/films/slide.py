@@ -14,6 +14,7 @@ from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, stretch
 from seisblock.present.films.plane import Body, Piece, Plane, Trail, ground_shift, rectangle
 from seisblock.present.films.projector import animate_film
+from seisblock.present.scales import length_unit
 from seisblock.present.text.slide import setting
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
@@ -40,6 +41,7 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray, *, gal: bool
     size = max(0.5 * float(np.ptp(slip)), SMALLEST)
     block = Piece(rectangle(-size, size, 0.0, 1.2 * size), "#b5a58a")
     limit = base.mu * float(response.options["gravity_m_s2"])
+    far = length_unit([response.outcome.max_slip_m], gal=gal)
     level = not base.slope_deg and not response.options["vertical"]
     return Film(
         title=setting(response),
@@ -54,7 +56,7 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray, *, gal: bool
         ),
         strips=(
             ground_strip(motion, (-limit, limit) if level else (), gal=gal),
-            Strip(tell("x − z (mm)"), (Line(response.time, response["displacement"] * 1e3),)),
+            Strip(tell("x − z ({unit})", unit=far.name), (Line(response.time, response["displacement"] / far.size),)),
         ),
         phases=response.phases,
         colours=COLOURS,

@@ -9,11 +9,12 @@ import numpy as np
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.present.figures.heading import heading_of
-from seisblock.present.figures.stack import DASHES, SHADES, stretch
+from seisblock.present.figures.stack import DASHES, SHADES, largest, stretch
 from seisblock.present.films.animation import REAL_TIME, Filming
 from seisblock.present.films.film import Film, Line, Strip, ground_strip, titled
 from seisblock.present.films.projector import animate_film
 from seisblock.present.films.space import MOMENTS, Solid, Space, ground_path
+from seisblock.present.scales import length_unit
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.typing import FloatArray
@@ -35,18 +36,19 @@ def stack_film(response: Response[StackOutcome], times: FloatArray, *, gal: bool
     motion, options = response.motion, response.options
     fell = {stone.name: math.inf if stone.fell_at_s is None else stone.fell_at_s for stone in response.outcome.stones}
     solids = tuple(Solid(stone.size, *_followed(response, stone.name, times), fell[stone.name]) for stone in body.stones)
-    largest = max(max(stone.width, stone.depth) for stone in body.stones)
+    size = max(max(stone.width, stone.depth) for stone in body.stones)
+    far = length_unit([largest(response, "slip")], gal=gal)
     return Film(
         title=titled(body.name, _fate(response.outcome.overturned)),
         heading=heading_of([motion]),
         direction=motion.name,
         note=f"+x = {motion.name or 'x'}",
         time=times,
-        scene=Space(ground_path(motion, (True, bool(options["across"]), bool(options["vertical"])), times), solids, 1.1 * largest),
+        scene=Space(ground_path(motion, (True, bool(options["across"]), bool(options["vertical"])), times), solids, 1.1 * size),
         strips=(
             ground_strip(motion, gal=gal),
             Strip(tell("tilt θ (deg)"), _lines(response, "tilt", math.degrees(1.0))),
-            Strip(tell("slip s (mm)"), _lines(response, "slip", 1e3)),
+            Strip(tell("slip s ({unit})", unit=far.name), _lines(response, "slip", 1.0 / far.size)),
         ),
     )
 

@@ -15,6 +15,7 @@ from seisblock.present.films.animation import REAL_TIME, Filming
 from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, titled
 from seisblock.present.films.projector import animate_film
 from seisblock.present.films.space import MOMENTS, Solid, Space, Spring, ground_path
+from seisblock.present.scales import length_unit
 from seisblock.results import Phase, Response
 from seisblock.solvers.uplift.model import WHOLE_BASE, contact_name
 from seisblock.solvers.uplift.outcome import UpliftOutcome
@@ -46,8 +47,9 @@ def uplift_film(response: Response[UpliftOutcome], times: FloatArray, *, gal: bo
     motion, outcome = response.motion, response.outcome
     factor = magnification(response)
     what = BEYOND if not outcome.within_model else LIFTS if outcome.uplifts else STAYS
+    far = length_unit((corner.max_uplift_m for corner in outcome.corners), gal=gal)
     lines = tuple(
-        Line(response.time, response[f"uplift_{i + 1}"] * 1e3, COLOURS[i], tell("corner {number}", number=i + 1), DASHES[i])
+        Line(response.time, response[f"uplift_{i + 1}"] / far.size, COLOURS[i], tell("corner {number}", number=i + 1), DASHES[i])
         for i in range(len(CORNERS))
     )
     return Film(
@@ -57,7 +59,7 @@ def uplift_film(response: Response[UpliftOutcome], times: FloatArray, *, gal: bo
         note=tell("motion on the springs drawn {factor:g} times as large; +x = {name}", factor=factor, name=motion.name or "x"),
         time=times,
         scene=_scene(response, times, factor),
-        strips=(ground_strip(motion, gal=gal), Strip(tell("u (mm)"), lines, (0.0,))),
+        strips=(ground_strip(motion, gal=gal), Strip(tell("u ({unit})", unit=far.name), lines, (0.0,))),
         phases=_lifts(response),
         colours={IN_AIR: LIFTED},
     )

@@ -15,6 +15,7 @@ from seisblock.present.faces import figure_of, verdict_of
 from seisblock.present.figures.embed import picture
 from seisblock.present.figures.fonts import drawn
 from seisblock.present.page import page
+from seisblock.present.scales import acceleration_unit, length_unit, velocity_unit
 from seisblock.present.text.tables import number
 from seisblock.records import Motion, Record
 from seisblock.results import Response
@@ -117,11 +118,11 @@ def _peak(row: FloatArray) -> float:
 def _tables(outcome: Mapping[str, Any]) -> Iterator[tuple[str, list[list[str]]]]:
     """Yield the numbers of an outcome, then a table with its name for each list of things in it."""
     flat = {key: value for key, value in outcome.items() if not isinstance(value, (Mapping, list)) or _is_short(value)}
-    yield "", [[_spelt(key), _cell(value)] for key, value in flat.items()]
+    yield "", [_row(key, [value]) for key, value in flat.items()]
     for key, value in outcome.items():
         if isinstance(value, list) and value and all(isinstance(entry, Mapping) for entry in value):
             names = [name for name, one in value[0].items() if not isinstance(one, Mapping)]
-            rows = [[_spelt(name), *(_cell(entry.get(name)) for entry in value[:MOST_COLUMNS])] for name in names]
+            rows = [_row(name, [entry.get(name) for entry in value[:MOST_COLUMNS]]) for name in names]
             yield key.replace("_", " "), rows
 
 
@@ -134,11 +135,36 @@ def _is_short(value: Any) -> bool:
     return isinstance(value, list) and len(value) <= MOST_ENTRIES and not any(isinstance(entry, (Mapping, list)) for entry in value)
 
 
-def _spelt(key: str) -> str:
-    """Return a key as words with its unit in brackets."""
+def _row(key: str, values: Sequence[Any]) -> list[str]:
+    """Return a key as words, and its values, in the unit in which people see them."""
     name, unit = unit_of(key)
+    size, shown = _shown(unit, values) if key not in ENERGIES else (1.0, unit)
     words = name.replace("_", " ")
-    return f"{words} ({_superscript(unit)})" if unit else words
+    heading = f"{words} ({_superscript(shown)})" if shown else words
+    return [heading, *(_cell(_in_unit(value, size)) for value in values)]
+
+
+ENERGIES = ("arias_m_s",)
+"""What has the unit of a velocity and is none."""
+
+
+def _shown(unit: str, values: Sequence[Any]) -> tuple[float, str]:
+    """Return what one of the unit shown is worth, and its name; only accelerations, velocities and lengths have one of their own."""
+    if unit == "m/s^2":
+        return acceleration_unit(gal=True)
+    if unit == "m/s":
+        return velocity_unit(gal=True)
+    if unit == "m":
+        flat = [one for value in values for one in (value if isinstance(value, list) else [value])]
+        return length_unit((one for one in flat if isinstance(one, float)), gal=True)
+    return 1.0, unit
+
+
+def _in_unit(value: Any, size: float) -> Any:
+    """Return a value, or each of several, in a unit."""
+    if isinstance(value, list):
+        return [_in_unit(one, size) for one in value]
+    return value / size if isinstance(value, float) and size != 1.0 else value
 
 
 def _superscript(unit: str) -> str:

@@ -13,13 +13,13 @@ from seisblock.present.figures.embed import Picture, picture
 from seisblock.present.figures.fonts import drawn
 from seisblock.present.page import page
 from seisblock.present.pages import report_words as words
-from seisblock.present.text.tables import NOTHING, history, number, seconds
+from seisblock.present.scales import acceleration_unit, length_unit, velocity_unit
+from seisblock.present.text.tables import NOTHING, acceleration, history, number, seconds, told_acceleration
 from seisblock.records.doubtful import sentences as doubts
 from seisblock.records.site import site_of, told_time
 from seisblock.references import REFERENCES
 from seisblock.studies.assessment import Assessment, BodyAssessment, Effect
 from seisblock.studies.criteria_card import Card
-from seisblock.units import GAL, KINE
 from seisblock.words import listed, noted, strung, tell
 
 GOVERNING = "respond"
@@ -91,13 +91,15 @@ def _record(found: Assessment) -> dict[str, Any]:
         lead.append(tell("JMA intensity {value:.2f} (class {name}).", value=measures.jma_intensity, name=tell(measures.jma_class or "")))
     if measures.horizontal is not None:
         peak = measures.horizontal
-        lead.append(tell("Largest horizontal vector {gal:.1f} gal at {time:.2f} s.", gal=peak.pga_m_s2 / GAL, time=peak.time_s))
+        size = told_acceleration(peak.pga_m_s2, gal=True)
+        lead.append(tell("Largest horizontal vector {size} at {time:.2f} s.", size=size, time=peak.time_s))
     parts = measures.components
+    speed, far = velocity_unit(gal=True), length_unit((m.pgd_m for m in parts), gal=True)
     rows = [
-        ("PGA (gal)", *(f"{m.pga_m_s2 / GAL:.1f}" for m in parts)),
+        (f"PGA ({acceleration_unit(gal=True).name})", *(acceleration(m.pga_m_s2, gal=True) for m in parts)),
         (tell("time of PGA (s)"), *(seconds(m.time_of_pga_s) for m in parts)),
-        ("PGV (kine)", *(number(m.pgv_m_s / KINE) for m in parts)),
-        ("PGD (cm)", *(number(m.pgd_m * 100) for m in parts)),
+        (f"PGV ({speed.name})", *(number(m.pgv_m_s / speed.size) for m in parts)),
+        (f"PGD ({far.name})", *(number(m.pgd_m / far.size) for m in parts)),
         ("f = PGA/2πPGV (Hz)", *(number(m.equivalent_frequency_hz.pga_pgv) for m in parts)),
         (tell("f, Fourier (Hz)"), *(number(m.equivalent_frequency_hz.fourier) for m in parts)),
         (tell("Arias (m/s)"), *(number(m.arias_m_s) for m in parts)),

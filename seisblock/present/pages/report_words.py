@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from seisblock.present.directions import moved, side
+from seisblock.present.directions import moved, moved_by, side
+from seisblock.present.scales import length_unit, told_length
 from seisblock.present.text.respond import share
 from seisblock.present.text.respond import verdict as told
 from seisblock.present.text.rock import way_to_alpha
@@ -64,16 +65,16 @@ def verdict(effect: Effect) -> str:
     if effect.kind == "slide":
         if not outcome.slips:
             return tell("does not slide")
-        return tell("slides up to {mm:.0f} mm ({name})", mm=outcome.max_slip_m * 1e3, name=name)
+        return tell("slides up to {most} ({name})", most=told_length(outcome.max_slip_m), name=name)
     if effect.kind == "jump":
         if outcome.outcome == JUMPED:
-            return tell("jumps {moved}", moved=moved(f"{abs(_moved(effect)) * 1e3:.0f} mm", name, _moved(effect)))
+            return tell("jumps {moved}", moved=moved_by(_moved(effect), name))
         return tell("rocks without jumping ({name})" if outcome.chains else "stands still", name=name)
     if not outcome.uplifts:
         return tell("no corner lifts")
     if not outcome.within_model:
         return tell("corner {corner} lifts, how far is beyond the model ({name})", corner=outcome.corner, name=name)
-    return tell("corner {corner} lifts, up to {mm:.1f} mm ({name})", corner=outcome.corner, mm=outcome.max_uplift_m * 1e3, name=name)
+    return tell("corner {corner} lifts, up to {most} ({name})", corner=outcome.corner, most=told_length(outcome.max_uplift_m), name=name)
 
 
 def sentences(effect: Effect) -> Iterator[str]:
@@ -146,13 +147,14 @@ def _slide(effect: Effect, outcome: Any) -> Iterator[str]:
     if not outcome.slips:
         yield tell("Friction holds throughout.")
         return
-    text = noted("The body slides from {start:.2f} s, up to {most:.1f} mm at {time:.2f} s; {rest} remain.")
+    unit = length_unit([outcome.max_slip_m], gal=True)
+    text = noted("The body slides from {start:.2f} s, up to {most} at {time:.2f} s; {rest} remain.")
     yield tell(
         text,
         start=outcome.slip_start_s,
-        most=outcome.max_slip_m * 1e3,
+        most=told_length(outcome.max_slip_m, unit),
         time=outcome.max_slip_time_s,
-        rest=moved(f"{abs(outcome.residual_slip_m) * 1e3:.1f} mm", effect.response.motion.name, outcome.residual_slip_m),
+        rest=moved(told_length(abs(outcome.residual_slip_m), unit), effect.response.motion.name, outcome.residual_slip_m),
     )
 
 
@@ -163,16 +165,14 @@ def _jump(effect: Effect, outcome: Any) -> Iterator[str]:
     for number, chain in enumerate(outcome.chains, start=1):
         if chain.outcome == JUMPED:
             far = chain.total_displacement_m or 0.0
-            text = noted(
-                "Chain {number}: rocks for {rock:.3f} s, flies for {fly:.3f} s, moves {moved}; the centroid rises by {rise:.1f} mm."
-            )
+            text = noted("Chain {number}: rocks for {rock:.3f} s, flies for {fly:.3f} s, moves {moved}; the centroid rises by {rise}.")
             yield tell(
                 text,
                 number=number,
                 rock=chain.rocking_duration_s,
                 fly=chain.jump_duration_s,
-                moved=moved(f"{abs(far) * 1e3:.1f} mm", effect.response.motion.name, far),
-                rise=(chain.max_rise_m or 0.0) * 1e3,
+                moved=moved_by(far, effect.response.motion.name),
+                rise=told_length(chain.max_rise_m or 0.0),
             )
         else:
             yield tell("Chain {number}: {outcome}.", number=number, outcome=tell(chain.outcome))
@@ -190,14 +190,14 @@ def _uplift(effect: Effect, outcome: Any) -> Iterator[str]:
         yield tell(text, corner=outcome.corner, time=outcome.first_uplift_s)
         return
     text = noted(
-        "Corner {corner} lifts first, at {time:.2f} s; up to {mm:.1f} mm, {total:.2f} s in the air; "
+        "Corner {corner} lifts first, at {time:.2f} s; up to {most}, {total:.2f} s in the air; "
         "largest force {ratio:.1f} times the static one."
     )
     yield tell(
         text,
         corner=outcome.corner,
         time=outcome.first_uplift_s,
-        mm=outcome.max_uplift_m * 1e3,
+        most=told_length(outcome.max_uplift_m),
         total=outcome.uplift_duration_s,
         ratio=outcome.max_contact_force_ratio,
     )

@@ -11,7 +11,8 @@ from seisblock.bodies.scan.body import weakest
 from seisblock.bodies.scan.directions import ScanAzimuth
 from seisblock.bodies.scan.scan import Scanned
 from seisblock.present.files import write_table
-from seisblock.present.text.tables import acceleration, acceleration_unit, fixed, line, number, table
+from seisblock.present.scales import acceleration_unit, length_cell, length_unit, told_length
+from seisblock.present.text.tables import acceleration, fixed, line, number, table
 from seisblock.words import noted, tell
 
 PLANE = noted(
@@ -34,16 +35,16 @@ def tables(found: Scanned, directions: Sequence[ScanAzimuth], *, gal: bool) -> I
         ),
         "bold",
     )
-    yield table("", ["", ""], [[tell(what), *cells] for what, cells in _whole(found)])
-    unit = acceleration_unit(gal=gal)
+    yield table("", ["", ""], [[tell(what), *cells] for what, cells in _whole(found, gal=gal)])
+    level, arm = acceleration_unit(gal=gal), length_unit((each.arm_m for each in directions), gal=gal)
     headings = (
-        tell("azimuth (deg)"), tell("b (mm)"), tell("alpha (deg)"), tell("R (m)"), tell("I_O (kg m²)"), tell("p (rad/s)"),
-        f"g b/h ({unit})",
+        tell("azimuth (deg)"), f"b ({arm.name})", tell("alpha (deg)"), tell("R (m)"), tell("I_O (kg m²)"), tell("p (rad/s)"),
+        f"g b/h ({level.name})",
     )  # fmt: skip
     rows = [
         [
             f"{each.azimuth_deg:g}",
-            fixed(each.arm_m * 1e3, 1),
+            length_cell(each.arm_m, arm),
             f"{math.degrees(each.slenderness_rad):.2f}",
             number(each.radius_m),
             number(each.pivot_inertia_kg_m2),
@@ -55,7 +56,7 @@ def tables(found: Scanned, directions: Sequence[ScanAzimuth], *, gal: bool) -> I
     yield table(tell("Towards each azimuth"), headings, rows, caption=tell(PLANE))
 
 
-def _whole(found: Scanned) -> Iterator[tuple[str, list[str]]]:
+def _whole(found: Scanned, *, gal: bool) -> Iterator[tuple[str, list[str]]]:
     """Yield what is the same in all directions."""
     body = found.body
     yield noted("volume (m³)"), [number(found.volume)]
@@ -64,7 +65,8 @@ def _whole(found: Scanned) -> Iterator[tuple[str, list[str]]]:
     yield noted("inertia about it xx, yy, zz (kg m²)"), [", ".join(number(body.inertia[i][i]) for i in range(3))]
     yield noted("  xy, xz, yz (kg m²)"), [", ".join(number(body.inertia[i][k]) for i, k in ((0, 1), (0, 2), (1, 2)))]
     yield noted("base: corners, points that touch"), [f"{len(body.base)}, {found.touching}"]
-    yield noted("  inset, tolerance (mm)"), [f"{fixed(body.inset_m * 1e3, 1)}, {fixed(found.tolerance * 1e3, 2)}"]
+    unit = length_unit([body.inset_m, found.tolerance], gal=gal)
+    yield noted("  inset, tolerance"), [f"{told_length(body.inset_m, unit)}, {told_length(found.tolerance, unit)}"]
 
 
 def write(path: Path, directions: Sequence[ScanAzimuth]) -> None:

@@ -11,13 +11,13 @@ from rich.text import Text
 from seisblock.bodies.library import edges
 from seisblock.criteria.card import ACCELERATION, Row, once_each
 from seisblock.present.files import write_table
+from seisblock.present.scales import acceleration_unit, velocity_unit
 from seisblock.present.text.agreement import agreement_line
 from seisblock.present.text.respond import verdict as fate
 from seisblock.present.text.rock import verdict
-from seisblock.present.text.tables import acceleration_unit, answered, line, number, table
+from seisblock.present.text.tables import answered, line, number, table
 from seisblock.studies.criteria_card import Card
 from seisblock.studies.standing.governing import Governing
-from seisblock.units import GAL, KINE
 from seisblock.words import noted, tell
 
 HEADINGS = {"pga_pgv": "PGA/2πPGV", "fourier": "Fourier", "pulse_width": noted("pulse")}
@@ -27,7 +27,7 @@ DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": 
 
 def tables(cards: Sequence[Card], *, gal: bool) -> Iterator[Any]:
     """Yield the record's line, then per component the simulated outcome, the tables, and how far the models of it are apart."""
-    for opening, part in answered(cards, lambda card: card.record, _happens):
+    for opening, part in answered(cards, lambda card: card.record, lambda card: _happens(card, gal=gal)):
         yield from opening
         for card in part:
             yield from _tables(card, gal=gal)
@@ -36,11 +36,11 @@ def tables(cards: Sequence[Card], *, gal: bool) -> Iterator[Any]:
             yield line()
 
 
-def _happens(card: Card) -> Iterator[Text]:
+def _happens(card: Card, *, gal: bool) -> Iterator[Text]:
     """Yield what the simulation says, and what governs."""
     yield line(simulated(card))
     if card.governing is not None:
-        yield line(whole(card, card.governing))
+        yield line(whole(card, card.governing, gal=gal))
 
 
 def simulated(card: Card) -> str:
@@ -55,7 +55,7 @@ def simulated(card: Card) -> str:
     )
 
 
-def whole(card: Card, found: Governing) -> str:
+def whole(card: Card, found: Governing, *, gal: bool) -> str:
     """Return what the body does with all of its motions together, and how many criteria say so, each counted once."""
     counted = once_each(card.rows)
     outcome, mu = found.response.outcome, found.response.options["mu"]
@@ -64,28 +64,27 @@ def whole(card: Card, found: Governing) -> str:
         text = noted("With all motions and friction {mu:g} (respond): {verdict} {right} of {all} criteria agree.")
     else:
         text = noted("With all motions and feet that hold, friction {mu:.2f} (respond): {verdict} {right} of {all} criteria agree.")
-    return tell(text, mu=mu, verdict=fate(found.response), right=right, all=len(counted))
+    return tell(text, mu=mu, verdict=fate(found.response, gal=gal), right=right, all=len(counted))
 
 
 def _tables(card: Card, *, gal: bool) -> Iterator[Any]:
     """Yield the criteria that ask for no frequency, then those that do, with a column per equivalent frequency."""
     m = card.measures
-    units = (acceleration_unit(gal=gal), "kine" if gal else "m/s")
-    factors = (GAL, KINE) if gal else (1.0, 1.0)
+    shaking, speed = acceleration_unit(gal=gal), velocity_unit(gal=gal)
     title = tell(
         "{name}: {body} {width:g} x {height:g} m, PGA {pga}, PGV {pgv}",
         name=card.component,
         body=tell(card.block.name),
         width=card.block.width,
         height=card.block.height,
-        pga=f"{m.pga_m_s2 / factors[0]:.4g} {units[0]}",
-        pgv=f"{m.pgv_m_s / factors[1]:.4g} {units[1]}",
+        pga=f"{m.pga_m_s2 / shaking.size:.4g} {shaking.name}",
+        pgv=f"{m.pgv_m_s / speed.size:.4g} {speed.name}",
     ) + (f"\n{tell(worn)}" if (worn := edges(card.block)) else "")
     plain = [row for row in card.rows if row.frequency is None]
     cells = []
     for row in plain:
-        kind = 0 if row.unit == ACCELERATION else 1
-        shown = f"{number(row.threshold / factors[kind])} {units[kind]}"
+        size, unit = shaking if row.unit == ACCELERATION else speed
+        shown = f"{number(row.threshold / size)} {unit}"
         cells.append([tell(row.criterion), _formula(row), shown, f"{row.demand / row.threshold:.2f}", _verdict(row, card)])
     yield table(title, [tell("criterion"), tell("formula"), tell("falls above"), tell("ratio"), tell("says")], cells)
 

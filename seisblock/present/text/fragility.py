@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from seisblock.present.scales import length_unit
 from seisblock.present.text.tables import NOTHING, line, number, table
 from seisblock.studies.fragility.answer import Fragility, FragilityStudy, Interval
 from seisblock.studies.fragility.estimate import CLOUD, IDA, STRIPES
@@ -29,7 +30,9 @@ def limit_name(name: str) -> str:
     if kind == LEAN:
         return tell("leans {share} alpha", share=threshold)
     if kind == SLIP:
-        return tell("moved {length:g} cm", length=float(threshold.removesuffix("m")) * 100.0)
+        far = float(threshold.removesuffix("m"))
+        size, unit = length_unit([far], gal=True)
+        return tell("moved {length}", length=f"{round(far / size, 6):g} {unit}")
     return tell(_LIMITS[kind])
 
 

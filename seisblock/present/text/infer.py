@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, answered, line, number, table
+from seisblock.present.scales import acceleration_unit, length_cell, length_unit, told_length, velocity_unit
+from seisblock.present.text.tables import NOTHING, acceleration, answered, line, number, table, told_acceleration
 from seisblock.records import Record
 from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.estimate import Interval, ShakingEstimate, place_and_kind
 from seisblock.studies.inverse.joint import JointEstimate
-from seisblock.units import GAL, KINE
 from seisblock.words import noted, tell
 
 if TYPE_CHECKING:
@@ -30,15 +30,15 @@ def estimate_tables(
                 "{names} together: PGA {pga} {unit} ({low} to {high}).",
                 names=list(each.names),
                 pga=acceleration(each.pga_m_s2, gal=gal),
-                unit=acceleration_unit(gal=gal),
+                unit=acceleration_unit(gal=gal).name,
                 low=low,
                 high=high,
             )
         )
     if not joint:
         yield from (line(sentence) for sentence in verdicts(name, estimates, gal=gal, level=level))
-    speed, unit = (KINE, "kine") if gal else (1.0, "m/s")
-    head = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal)})", "", f"PGV ({unit})", "", "H/B", tell("JMA intensity"))
+    speed, unit = velocity_unit(gal=gal)
+    head = ("f (Hz)", f"PGA ({acceleration_unit(gal=gal).name})", "", f"PGV ({unit})", "", "H/B", tell("JMA intensity"))
     caption = tell("median and {level:g%} interval; H/B: stones more slender than this fell", level=level)
     for stones in dict.fromkeys(each.stones for each in estimates):
         group = [each for each in estimates if each.stones == stones]
@@ -54,7 +54,7 @@ def estimate_tables(
             (
                 "0.5-3" if each.frequency_hz is None else f"{each.frequency_hz:.3g}",
                 acceleration(each.pga_m_s2, gal=gal),
-                _range(each.pga_interval_m_s2, GAL if gal else 1.0),
+                _range(each.pga_interval_m_s2, acceleration_unit(gal=gal).size),
                 NOTHING if each.pgv_m_s is None else number(each.pgv_m_s / speed, 3),
                 _range(each.pgv_interval_m_s, speed),
                 NOTHING if each.threshold_ratio is None else f"{each.threshold_ratio:.2f}",
@@ -82,8 +82,10 @@ def verdicts(name: str, estimates: Sequence[ShakingEstimate], *, gal: bool, leve
         place, kind = place_and_kind(stones)
         who = (place or name) if len(firsts) == 1 else tell("{cemetery}, stones {stones}", cemetery=place or name, stones=tell(kind))
         at = tell("0.5 to 3 Hz") if each.frequency_hz is None else f"{each.frequency_hz:.3g} Hz"
-        pga = acceleration(each.pga_m_s2, gal=gal) if each.bound is None else _range(each.pga_interval_m_s2, GAL if gal else 1.0)
-        values = {"who": who, "pga": f"{pga} {acceleration_unit(gal=gal)}", "at": at, "intensity": _intensity(each)}
+        pga = (
+            acceleration(each.pga_m_s2, gal=gal) if each.bound is None else _range(each.pga_interval_m_s2, acceleration_unit(gal=gal).size)
+        )
+        values = {"who": who, "pga": f"{pga} {acceleration_unit(gal=gal).name}", "at": at, "intensity": _intensity(each)}
         if each.bound is not None:
             yield tell("{who}: PGA {pga} at {at}; JMA intensity {intensity}.", **values)
             continue
@@ -126,30 +128,36 @@ def factor_tables(found: Sequence[tuple[Record, ScaleFactors]], *, gal: bool, mo
     for opening, part in answered(found, lambda each: each[0], lambda each: [line(_needs(each[1], moved, gal=gal))]):
         yield from opening
         for _, each in part:
+            unit = length_unit((f.displacement_m for f in each.scale_factors), gal=gal)
             rows = [
-                (f"{f.scale:.4f}", acceleration(f.pga_m_s2, gal=gal), number(f.displacement_m), tell("leaps across") if f.leaps else "")
+                (
+                    f"{f.scale:.4f}",
+                    acceleration(f.pga_m_s2, gal=gal),
+                    length_cell(f.displacement_m, unit),
+                    tell("leaps across") if f.leaps else "",
+                )
                 for f in each.scale_factors
             ]
             if rows:
-                headings = (tell("factor"), f"PGA ({acceleration_unit(gal=gal)})", tell("moved (m)"), "")
+                headings = (tell("factor"), f"PGA ({acceleration_unit(gal=gal).name})", tell("moved ({unit})", unit=unit.name), "")
                 yield table(each.component if len(part) > 1 else "", headings, rows)
 
 
 def _needs(each: ScaleFactors, moved: str, *, gal: bool) -> str:
     """Return what the observed displacement needs, in words; `moved` is a word for it."""
-    told = [f"{factor.scale:.3g} ({acceleration(factor.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)})" for factor in each.scale_factors]
-    values = {"name": each.component, "size": each.observed_m * 100, "moved": tell(moved), "alone": each.displacement_at_1_m * 100}
+    told = [f"{factor.scale:.3g} ({told_acceleration(factor.pga_m_s2, gal=gal)})" for factor in each.scale_factors]
+    size, alone, most = (told_length(far, gal=gal) for far in (each.observed_m, each.displacement_at_1_m, each.largest_displacement_m))
+    values = {"name": each.component, "size": size, "moved": tell(moved), "alone": alone}
     if not told:
         text = noted(
-            "{name}: {size:.4g} cm of {moved}: no factor up to {limit:g} moves it so far (at most {most:.3g} cm, at {at:g}); as recorded "
-            "it is {alone:.3g} cm."
+            "{name}: {size} of {moved}: no factor up to {limit:g} moves it so far (at most {most}, at {at:g}); as recorded it is {alone}."
         )
-        return tell(text, **values, limit=each.limit, most=each.largest_displacement_m * 100, at=each.largest_at_scale)
+        return tell(text, **values, limit=each.limit, most=most, at=each.largest_at_scale)
     if len(told) == 1:
-        text = noted("{name}: {size:.4g} cm of {moved} needs {factor:.3g} times this record ({pga}); as recorded it is {alone:.3g} cm.")
-        pga = f"{acceleration(each.scale_factors[0].pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)}"
+        text = noted("{name}: {size} of {moved} needs {factor:.3g} times this record ({pga}); as recorded it is {alone}.")
+        pga = told_acceleration(each.scale_factors[0].pga_m_s2, gal=gal)
         return tell(text, **values, factor=each.scale_factors[0].scale, pga=pga)
-    text = noted("{name}: {size:.4g} cm of {moved} needs this record times one of {factors}; as recorded it is {alone:.3g} cm.")
+    text = noted("{name}: {size} of {moved} needs this record times one of {factors}; as recorded it is {alone}.")
     return tell(text, **values, factors=told)
 
 

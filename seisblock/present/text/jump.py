@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from seisblock.present.directions import moved as moved_to
-from seisblock.present.directions import side
-from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, seconds, side_by_side
+from seisblock.present.directions import moved_by, side
+from seisblock.present.scales import length_cell, length_unit, told_length
+from seisblock.present.text.tables import answered, line, seconds, side_by_side, told_acceleration
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
 from seisblock.solvers.jump.solve import JumpOutcome
@@ -31,10 +31,10 @@ _ROWS: tuple[tuple[str, str], ...] = (
 
 
 _LENGTHS: tuple[tuple[str, str], ...] = (
-    (noted("rise in jump (mm)"), "max_rise_m"),
-    (noted("jump distance (mm)"), "jump_displacement_m"),
-    (noted("rock-slide distance (mm)"), "rock_slide_displacement_m"),
-    (noted("total distance (mm)"), "total_displacement_m"),
+    (noted("rise in jump ({unit})"), "max_rise_m"),
+    (noted("jump distance ({unit})"), "jump_displacement_m"),
+    (noted("rock-slide distance ({unit})"), "rock_slide_displacement_m"),
+    (noted("total distance ({unit})"), "total_displacement_m"),
 )
 
 
@@ -44,7 +44,7 @@ MOST_SHOWN = 6
 
 def tables(responses: Jumps, *, gal: bool, tenon: float | None) -> Iterator[Any]:
     """Yield, per component, what became of the block, and a table with a column per chain as in [Sugimoto2017]_ table 1."""
-    for opening, part in answered(responses, lambda each: each.motion.record, lambda each: [line(verdict(each))]):
+    for opening, part in answered(responses, lambda each: each.motion.record, lambda each: [line(verdict(each, gal=gal))]):
         yield from opening
         for response in part:
             yield from _details(response, gal=gal, tenon=tenon)
@@ -59,12 +59,11 @@ def _details(response: Response[JumpOutcome], *, gal: bool, tenon: float | None)
             "{name}: {body}, rocks above {threshold}",
             name=response.motion.name,
             body=tell(response.body.name),
-            threshold=f"{acceleration(outcome.rocking_threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}",
+            threshold=told_acceleration(outcome.rocking_threshold_m_s2, gal=gal),
         )
-        yield side_by_side(
-            title, [tell("chain"), *(str(i + 1) for i in shown)], _cells([outcome.chains[i] for i in shown], response.motion.name)
-        )
-    for sentence in sentences(response, tenon):
+        cells = _cells([outcome.chains[i] for i in shown], response.motion.name, gal=gal)
+        yield side_by_side(title, [tell("chain"), *(str(i + 1) for i in shown)], cells)
+    for sentence in sentences(response, tenon, gal=gal):
         yield line(sentence)
     yield line()
 
@@ -75,21 +74,22 @@ def _shown(chains: Sequence[Chain]) -> list[int]:
     return sorted(by_size[:MOST_SHOWN])
 
 
-def _cells(chains: Sequence[Chain], name: str) -> Iterator[list[str]]:
+def _cells(chains: Sequence[Chain], name: str, *, gal: bool) -> Iterator[list[str]]:
     """Yield the rows of the table."""
     yield [tell("direction"), *(side(name, chain.direction) for chain in chains)]
     for heading, key in _ROWS:
         yield [tell(heading), *(seconds(getattr(chain, key)) for chain in chains)]
     yield [tell("largest tilt (deg)"), *(f"{math.degrees(chain.max_rotation_rad):.2f}" for chain in chains)]
     yield [tell("impact velocity (rad/s)"), *(_or_dash(chain.impact_velocity_rad_s, "{:z.3f}") for chain in chains)]
+    unit = length_unit((getattr(chain, key) for chain in chains for _, key in _LENGTHS), gal=gal)
     for heading, key in _LENGTHS:
-        yield [tell(heading), *(_or_dash(getattr(chain, key), "{:z.1f}", 1e3) for chain in chains)]
+        yield [tell(heading, unit=unit.name), *(length_cell(getattr(chain, key), unit) for chain in chains)]
     yield [tell("friction its landing needs"), *(_friction(chain.friction_needed_at_landing) for chain in chains)]
 
 
-def _or_dash(value: float | None, form: str, factor: float = 1.0) -> str:
+def _or_dash(value: float | None, form: str) -> str:
     """Return a number in a form, in which z leaves zero no sign, or a dash."""
-    return "-" if value is None else form.format(value * factor)
+    return "-" if value is None else form.format(value)
 
 
 def _friction(needed: float | None) -> str:
@@ -97,7 +97,7 @@ def _friction(needed: float | None) -> str:
     return "-" if needed is None else f"{needed:.2f}" if math.isfinite(needed) else tell("none does")
 
 
-def verdict(response: Response[JumpOutcome]) -> str:
+def verdict(response: Response[JumpOutcome], *, gal: bool = True) -> str:
     """Return what became of the block in the end, and what friction that takes."""
     outcome, name = response.outcome, response.motion.name or "x"
     if not outcome.chains:
@@ -111,15 +111,9 @@ def verdict(response: Response[JumpOutcome]) -> str:
         text = noted("{name}: jumped, and in the end stands {moved} from where it stood.")
     else:
         text = noted("{name}: jumped {jumps} times in {count} chains of motion, and in the end stands {moved} from where it stood.")
-    moved = _moved(outcome.final_displacement_m, name)
+    moved = moved_by(outcome.final_displacement_m, name, gal=gal)
     told = tell(text, name=name, outcome=tell(outcome.outcome), moved=moved, count=len(outcome.chains), jumps=jumps)
     return strung([told, *_held(response)])
-
-
-def _moved(length: float, name: str) -> str:
-    """Return a displacement in mm, and its direction."""
-    told = f"{round(abs(length) * 1e3)} mm"
-    return moved_to(tell("less than 1 mm") if told == "0 mm" and length != 0.0 else told, name, length)
 
 
 def _held(response: Response[JumpOutcome]) -> Iterator[str]:
@@ -133,7 +127,7 @@ def _held(response: Response[JumpOutcome]) -> Iterator[str]:
         yield tell("Its landings need a friction of {needed}, mu is {mu:g}.", needed=_friction(needed), mu=mu)
 
 
-def sentences(response: Response[JumpOutcome], tenon: float | None = None) -> Iterator[str]:
+def sentences(response: Response[JumpOutcome], tenon: float | None = None, *, gal: bool = True) -> Iterator[str]:
     """Yield what happened in words, one sentence per chain that the table shows."""
     chains, name = response.outcome.chains, response.motion.name
     shown = _shown(chains)
@@ -143,17 +137,19 @@ def sentences(response: Response[JumpOutcome], tenon: float | None = None) -> It
                 "Chain {number}: jumped {moved}, after {rocking:.3f} s of rocking; the ground stayed above the threshold for "
                 "{above:.3f} s.",
                 number=number,
-                moved=_moved(chain.total_displacement_m, name),
+                moved=moved_by(chain.total_displacement_m, name, gal=gal),
                 rocking=chain.rocking_duration_s,
                 above=chain.time_above_threshold_s,
             )
         else:
             yield tell("Chain {number}: {outcome}.", number=number, outcome=tell(chain.outcome))
         if tenon is not None and chain.foot_rise_m is not None and chain.max_rise_m is not None:
-            yield _hole(chain.foot_rise_m, chain.max_rise_m, tenon)
+            yield _hole(chain.foot_rise_m, chain.max_rise_m, tenon, gal=gal)
     if len(shown) < len(chains):
         least = max(abs(chain.total_displacement_m or 0.0) for i, chain in enumerate(chains) if i not in shown)
-        yield tell("{count} more chains moved it by no more than {least:.1f} mm each.", count=len(chains) - len(shown), least=least * 1e3)
+        yield tell(
+            "{count} more chains moved it by no more than {least} each.", count=len(chains) - len(shown), least=told_length(least, gal=gal)
+        )
     left = [chain.end_angular_velocity_rad_s or 0.0 for chain in chains if chain.outcome == JUMPED]
     if left and response.outcome.landing == "paper":
         yield tell(
@@ -163,12 +159,13 @@ def sentences(response: Response[JumpOutcome], tenon: float | None = None) -> It
         )
 
 
-def _hole(foot: float, centroid: float, tenon: float) -> str:
+def _hole(foot: float, centroid: float, tenon: float, *, gal: bool) -> str:
     """Return whether a tenon of a length left its hole, given how far the lowest foot and the centroid rose, all in m."""
     if foot > tenon:
-        text = noted("The lowest foot rose {foot:.1f} mm (centroid {centroid:.1f} mm) against a tenon of {tenon:g} mm: it left its hole.")
+        text = noted("The lowest foot rose {foot} (centroid {centroid}) against a tenon of {tenon}: it left its hole.")
     else:
-        text = noted(
-            "The lowest foot rose {foot:.1f} mm (centroid {centroid:.1f} mm) against a tenon of {tenon:g} mm: it did not leave its hole."
-        )
-    return tell(text, foot=foot * 1e3, centroid=centroid * 1e3, tenon=tenon * 1e3)
+        text = noted("The lowest foot rose {foot} (centroid {centroid}) against a tenon of {tenon}: it did not leave its hole.")
+    unit = length_unit([foot, centroid, tenon], gal=gal)
+    # as precise as the table, for two that are nearly alike are compared
+    rose, middle, hole = (f"{length_cell(each, unit)} {unit.name}" for each in (foot, centroid, tenon))
+    return tell(text, foot=rose, centroid=middle, tenon=hole)

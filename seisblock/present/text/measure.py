@@ -11,11 +11,11 @@ from rich.text import Text
 from seisblock.limits import check_curves
 from seisblock.measures import FilterRange, RecordMeasures, ground_history
 from seisblock.present.files import BLOCK, of_records
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, answered, line, number, seconds, table
+from seisblock.present.scales import acceleration_unit, length_unit, velocity_unit
+from seisblock.present.text.tables import acceleration, answered, line, number, seconds, table, told_acceleration
 from seisblock.records import Record
 from seisblock.records.process import pick
 from seisblock.typing import FloatArray
-from seisblock.units import KINE
 from seisblock.words import tell
 
 
@@ -38,19 +38,19 @@ def tables(records: Sequence[Record], answers: Sequence[RecordMeasures], *, gal:
 
 def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
     """Return the table of peaks and energies."""
-    a = acceleration_unit(gal=gal)
-    v, d, speed, length = ("kine", "cm", KINE, 0.01) if gal else ("m/s", "m", 1.0, 1.0)
+    a, v = acceleration_unit(gal=gal), velocity_unit(gal=gal)
+    d = length_unit((m.pgd_m for m in answer.components), gal=gal)
     corner = answer.conventions.velocity_highpass_hz
     return table(
         tell("Peaks and energy"),
-        ("", f"PGA ({a})", tell("at (s)"), f"PGV ({v})", f"PGD ({d})", tell("Arias (m/s)"), "5-95 % (s)"),
+        ("", f"PGA ({a.name})", tell("at (s)"), f"PGV ({v.name})", f"PGD ({d.name})", tell("Arias (m/s)"), "5-95 % (s)"),
         [
             (
                 m.component,
                 acceleration(m.pga_m_s2, gal=gal),
                 seconds(m.time_of_pga_s),
-                number(m.pgv_m_s / speed),
-                number(m.pgd_m / length),
+                number(m.pgv_m_s / v.size),
+                number(m.pgd_m / d.size),
                 number(m.arias_m_s),
                 seconds(m.significant_duration_s),
             )
@@ -65,9 +65,9 @@ def _peaks(answer: RecordMeasures, *, gal: bool) -> Group:
 def _frequencies_and_durations(answer: RecordMeasures, *, gal: bool) -> Group:
     """Return the table of equivalent frequencies and of durations above the threshold."""
     side = {"both": "|a|", "positive": "a", "negative": "-a"}[answer.conventions.threshold_side]
-    level = acceleration(answer.components[0].duration.threshold_m_s2, gal=gal) if answer.components else NOTHING
+    level = told_acceleration(answer.components[0].duration.threshold_m_s2 if answer.components else None, gal=gal)
     return table(
-        tell("Equivalent frequency (Hz), and time with {side} above {level}", side=side, level=f"{level} {acceleration_unit(gal=gal)}"),
+        tell("Equivalent frequency (Hz), and time with {side} above {level}", side=side, level=level),
         ("", "PGA/2πPGV", "Fourier", tell("pulse"), tell("total (s)"), tell("longest (s)"), tell("times")),
         [
             (
@@ -93,7 +93,7 @@ def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
         yield tell("JMA intensity {value:.2f}, class {name}", value=answer.jma_intensity, name=tell(answer.jma_class or ""))
     worst = answer.horizontal
     if worst is not None:
-        size = f"{acceleration(worst.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)}"
+        size = told_acceleration(worst.pga_m_s2, gal=gal)
         told = tell("Largest horizontal vector {size} at {time:.3f} s", size=size, time=worst.time_s)
         if worst.azimuth_deg is not None:
             told += tell(" towards {azimuth:.0f}° (clockwise from north)", azimuth=worst.azimuth_deg)
@@ -109,7 +109,7 @@ def _remarks(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
 
 def usual_filters(found: FilterRange, *, gal: bool) -> str:
     """Return how far PGV and f move with the usual filters, in words."""
-    unit, speed = ("kine", KINE) if gal else ("m/s", 1.0)
+    speed, unit = velocity_unit(gal=gal)
     low, high = (number(v / speed, 3) for v in found.pgv_m_s)
     slow, fast = (number(f, 3) for f in found.pga_pgv_hz)
     return tell(

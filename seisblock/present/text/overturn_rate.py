@@ -7,9 +7,10 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.agreement import rates_line
 from seisblock.present.text.measure import usual_filters
-from seisblock.present.text.tables import NOTHING, acceleration, acceleration_unit, answered, line, number, table
+from seisblock.present.text.tables import NOTHING, acceleration, answered, line, number, table, told_acceleration
 from seisblock.records import Record
 from seisblock.studies.cemetery.judgement import CemeteryRate
 from seisblock.studies.cemetery.rate import CurvePoint
@@ -72,7 +73,7 @@ def verdicts(cemetery: str, results: Sequence[CemeteryRate], *, gal: bool) -> It
         yield tell(text, cemetery=cemetery, low=low, high=high, stones=own[0].stones)
         return
     for each in own:
-        shaking = f"{acceleration(each.pga_m_s2, gal=gal)} {acceleration_unit(gal=gal)}, {number(each.equivalent_frequency_hz, 3)} Hz"
+        shaking = f"{told_acceleration(each.pga_m_s2, gal=gal)}, {number(each.equivalent_frequency_hz, 3)} Hz"
         text = noted("{name}: {fallen} of {stones} stones fall ({share:.0%}).")
         yield tell(text, name=each.component or shaking, fallen=each.fallen, stones=each.stones, share=each.rate)
 
@@ -82,7 +83,7 @@ def half_falls(cemetery: str, curve: Sequence[CurvePoint], *, gal: bool) -> str:
     frequency = min((point.frequency_hz for point in curve), key=lambda f: abs(math.log(f / USUAL_HZ)))
     at = sorted((point for point in curve if point.frequency_hz == frequency), key=lambda point: point.pga_m_s2)
     half = next((point.pga_m_s2 for point in at if point.rate >= 0.5), None)
-    pga = f"{acceleration(at[-1].pga_m_s2 if half is None else half, gal=gal)} {acceleration_unit(gal=gal)}"
+    pga = told_acceleration(at[-1].pga_m_s2 if half is None else half, gal=gal)
     values = {"cemetery": cemetery, "pga": pga, "f": frequency}
     if half is None:
         return tell("{cemetery}: less than half of the stones fall up to {pga} of {f:g} Hz.", **values)
@@ -91,7 +92,7 @@ def half_falls(cemetery: str, curve: Sequence[CurvePoint], *, gal: bool) -> str:
 
 def _rates(title: str, results: Sequence[CemeteryRate], *, gal: bool, confidence: float) -> Any:
     """Return the table of rates, one row per shaking."""
-    unit = acceleration_unit(gal=gal)
+    unit = acceleration_unit(gal=gal).name
     head = ("", f"PGA ({unit})", "f (Hz)", tell("least H/B"), tell("fallen"), tell("rate"), percent(confidence, "g"))
     rows = [
         (
@@ -163,7 +164,7 @@ def _curve(title: str, curve: Sequence[CurvePoint], *, gal: bool) -> Any:
     levels = [pga for pga in dict.fromkeys(point.pga_m_s2 for point in curve) if abs(pga / SHOWN_EVERY - round(pga / SHOWN_EVERY)) < 1e-9]
     rows = [(acceleration(pga, gal=gal), *(f"{rate[pga, f]:.2f}" for f in frequencies)) for pga in levels]
     return table(
-        title, (f"PGA ({acceleration_unit(gal=gal)})", *(f"{f:g} Hz" for f in frequencies)), rows, caption=tell("overturning rate")
+        title, (f"PGA ({acceleration_unit(gal=gal).name})", *(f"{f:g} Hz" for f in frequencies)), rows, caption=tell("overturning rate")
     )
 
 

@@ -9,12 +9,12 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.present.directions import moved, side
+from seisblock.present.scales import Unit, acceleration_unit, length_cell, length_unit, told_length
 from seisblock.present.text.tables import NOTHING, answered, line, number, seconds, side_by_side, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.azimuths import AzimuthFate
 from seisblock.studies.standing.probability import Probability
-from seisblock.units import GAL
 from seisblock.words import listed, noted, roughly, tell
 
 Responds = Sequence[Response[RespondOutcome]]
@@ -29,7 +29,7 @@ FEWEST = 20
 def tables(responses: Responds, extras: Sequence[Mapping[str, Any]], *, gal: bool) -> Iterator[Any]:
     """Yield, per record, its line, what happened and how sure it is, a table with a column per component, and the notes."""
     both = zip(responses, extras, strict=True)
-    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: _happened(*each)):
+    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: _happened(*each, gal=gal)):
         yield from opening
         yield _table([r for r, _ in part], gal=gal)
         if any("probability" in extra for _, extra in part):
@@ -37,25 +37,25 @@ def tables(responses: Responds, extras: Sequence[Mapping[str, Any]], *, gal: boo
         yield line()
         for _, extra in part:
             if "directions" in extra:
-                yield _directions(extra["directions"])
+                yield _directions(extra["directions"], gal=gal)
 
 
-def _happened(response: Response[RespondOutcome], extra: Mapping[str, Any]) -> Iterator[Text]:
+def _happened(response: Response[RespondOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Text]:
     """Yield what happened, and how sure that is."""
-    yield line(verdict(response), "bold")
+    yield line(verdict(response, gal=gal), "bold")
     if "probability" in extra:
-        yield line("  " + share(extra["probability"]))
+        yield line("  " + share(extra["probability"], gal=gal))
     if "directions" in extra:
         yield line("  " + around(extra["directions"]))
 
 
-def verdict(response: Response[RespondOutcome]) -> str:
+def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
     """Return what happened, in words."""
     outcome, name = response.outcome, response.motion.name
     if outcome.overturned:
         at = outcome.overturning_time_s
         assert at is not None
-        slid = tell(", having slid {path}", path=length(outcome.slip_path_m)) if outcome.slip_path_m >= STIRS_M else ""
+        slid = tell(", having slid {path}", path=told_length(outcome.slip_path_m, gal=gal)) if outcome.slip_path_m >= STIRS_M else ""
         towards = side(name, outcome.overturned_towards)
         if at > response.motion.time[-1]:
             words = tell("overturns to {towards} at {time:.2f} s, after the record{slid}", towards=towards, time=at, slid=slid)
@@ -64,20 +64,21 @@ def verdict(response: Response[RespondOutcome]) -> str:
     elif outcome.outcome == "rests":
         words = tell("stands still")
     else:
-        words = listed(_stays(response))
+        words = listed(_stays(response, gal=gal))
     flag = tell("; a change of the input by a millionth changes this") if outcome.sensitive else ""
     return tell("{name}: {words}{flag}.", name=name or "x", words=words, flag=flag)
 
 
-def _stays(response: Response[RespondOutcome]) -> Iterator[str]:
+def _stays(response: Response[RespondOutcome], *, gal: bool) -> Iterator[str]:
     """Yield what a body did that has moved and not fallen."""
     outcome, name = response.outcome, response.motion.name
     time = outcome.time_in_mode_s
     rocks = bool(time["rock"] or time["slide_rock"])
+    unit = length_unit([outcome.slip_path_m, outcome.final_displacement_m], gal=gal)
     if rocks:
         yield tell("rocks to {share} of the way to alpha", share=roughly(outcome.max_rotation_ratio))
     if outcome.slip_path_m >= STIRS_M:
-        yield tell("slides {path} in all", path=length(outcome.slip_path_m))
+        yield tell("slides {path} in all", path=told_length(outcome.slip_path_m, unit))
     elif outcome.slip_path_m > 0.0 and not rocks:
         yield tell("slides less than half a millimetre")
     if outcome.flights and time["flight"] >= 1e-3:
@@ -88,19 +89,12 @@ def _stays(response: Response[RespondOutcome]) -> Iterator[str]:
     if not outcome.settled:
         yield tell("moves on")
     elif abs(end) >= STIRS_M:
-        yield tell("comes to rest {moved}", moved=moved(length(abs(end)), name, end))
+        yield tell("comes to rest {moved}", moved=moved(told_length(abs(end), unit), name, end))
     else:
         yield tell("comes to rest where it stood")
 
 
-def length(value_m: float) -> str:
-    """Return a length as a person says it: mm below 1 cm, cm below 1 m, else m."""
-    if value_m < 0.00995:
-        return f"{value_m * 1e3:.1f} mm"
-    return f"{value_m * 100:.1f} cm" if value_m < 0.9995 else f"{value_m:.2f} m"
-
-
-def share(found: Probability) -> str:
+def share(found: Probability, *, gal: bool = True) -> str:
     """Return how many versions fall and move, as a sentence; never as if it were the object's own probability."""
     fallen = round(found.overturned * found.runs)
     low, high = found.interval
@@ -119,26 +113,27 @@ def share(found: Probability) -> str:
             low=roughly(low),
             high=roughly(high),
         )
-    far = length(found.moved_m)
+    far = told_length(found.moved_m, gal=gal)
     if found.moved in (0.0, 1.0):
         moves = tell("all move more than {far}", far=far) if found.moved else tell("none moves more than {far}", far=far)
     else:
         moves = tell("{share} move more than {far}", share=roughly(found.moved), far=far)
     middle = ""
     if found.moved > 0.0 and found.runs - fallen >= FEWEST:
-        least, most = (signed(found.final_displacement_m[name]) for name in ("q05", "q95"))
-        if least == most == signed(0.0):
+        ends = [found.final_displacement_m[name] for name in ("q05", "q95")]
+        least, most = (signed(end, length_unit(ends, gal=gal)) for end in ends)
+        if least == most == "0":
             middle = tell("; nine in ten of those that stand end where they stood")
         else:
             middle = tell("; nine in ten of those that stand end between {low} and {high}", low=least, high=most)
     return tell("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
 
 
-def signed(value_m: float) -> str:
-    """Return a signed length; zero has no sign."""
-    if abs(value_m) < 5e-4:
+def signed(value_m: float, unit: Unit) -> str:
+    """Return a length with its sign; what has not moved has none."""
+    if abs(value_m) < STIRS_M:
         return "0"
-    return f"{value_m * 100:+.1f} cm"
+    return f"{'+' * (value_m > 0.0)}{told_length(value_m, unit)}"
 
 
 def around(found: Sequence[Any]) -> str:
@@ -147,18 +142,19 @@ def around(found: Sequence[Any]) -> str:
     return tell("falls in {fallen} of {all} directions; this is the worst.", fallen=fallen, all=len(found))
 
 
-def _directions(found: Sequence[AzimuthFate]) -> Any:
+def _directions(found: Sequence[AzimuthFate], *, gal: bool) -> Any:
     """Return the table of all directions, in their order."""
     rows = []
+    unit = length_unit((each.max_displacement_m for each in found), gal=gal)
     for each in sorted(found, key=lambda each: each.azimuth_deg):
         fell = falls_to(each.azimuth_deg, each.overturned_towards)
-        far = [f"{100.0 * value + 0.0:.2f}" for value in (each.max_displacement_m, _tidy(each.final_displacement_m))]
+        far = [length_cell(value, unit) for value in (each.max_displacement_m, each.final_displacement_m)]
         rows.append([f"{each.azimuth_deg:g}", f"{math.degrees(each.max_rotation_rad):.3f}", *far, fell, seconds(each.end_s)])
     headings = (
-        noted("azimuth (deg)"), noted("lean (deg)"), noted("furthest (cm)"), noted("ends at (cm)"), noted("falls to (deg)"),
+        noted("azimuth (deg)"), noted("lean (deg)"), noted("furthest ({unit})"), noted("ends at ({unit})"), noted("falls to (deg)"),
         noted("end (s)"),
     )  # fmt: skip
-    return table(tell("All azimuths"), [tell(heading) for heading in headings], rows)
+    return table(tell("All azimuths"), [tell(heading, unit=unit.name) for heading in headings], rows)
 
 
 def falls_to(azimuth: float, towards: str | None) -> str:
@@ -194,7 +190,8 @@ def _table(responses: Responds, *, gal: bool) -> Any:
     block, options, outcomes = first.body, first.options, [response.outcome for response in responses]
     own = any(response.body != block for response in responses)
     ratio = min(block.arms) / block.centre
-    onset = min(options["mu"], ratio) * options["gravity_m_s2"]
+    onset, level = min(options["mu"], ratio) * options["gravity_m_s2"], acceleration_unit(gal=gal)
+    unit = length_unit((far for o in outcomes for far in (o.max_displacement_m, o.slip_path_m)), gal=gal)
     each_title = tell("{name}: mu {mu:g}, kinetic {kinetic:g}", name=tell(block.name), mu=options["mu"], kinetic=options["mu_kinetic"])
     title = (
         each_title
@@ -206,7 +203,7 @@ def _table(responses: Responds, *, gal: bool) -> Any:
             mu=options["mu"],
             kinetic=options["mu_kinetic"],
             first=tell("slides") if options["mu"] <= ratio else tell("rocks"),
-            onset=f"{onset / GAL:.0f} gal" if gal else f"{onset:.2f} m/s²",
+            onset=f"{onset / level.size:.{0 if gal else 2}f} {level.name}",
         )
     )
     spent = [o.time_in_mode_s for o in outcomes]
@@ -215,17 +212,12 @@ def _table(responses: Responds, *, gal: bool) -> Any:
         (tell("outcome"), [tell(o.outcome) for o in outcomes]),
         (tell("largest lean (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
         (tell("  over alpha"), [number(o.max_rotation_ratio) for o in outcomes]),
-        (tell("ends at (cm)"), [f"{_tidy(o.final_displacement_m * 100):.2f}" for o in outcomes]),
-        (tell("furthest from start (cm)"), [f"{o.max_displacement_m * 100:.2f}" for o in outcomes]),
-        (tell("slip path (cm)"), [f"{o.slip_path_m * 100:.2f}" for o in outcomes]),
+        (tell("ends at ({unit})", unit=unit.name), [length_cell(o.final_displacement_m, unit) for o in outcomes]),
+        (tell("furthest from start ({unit})", unit=unit.name), [length_cell(o.max_displacement_m, unit) for o in outcomes]),
+        (tell("slip path ({unit})", unit=unit.name), [length_cell(o.slip_path_m, unit) for o in outcomes]),
         (tell("flights, impacts"), [f"{o.flights}, {o.impacts}" for o in outcomes]),
         (tell("  slides, rocks (s)"), [f"{seconds(s['slide'])}, {seconds(s['rock'])}" for s in spent]),
         (tell("  both, in flight (s)"), [f"{seconds(s['slide_rock'])}, {seconds(s['flight'])}" for s in spent]),
         (tell("lost to friction, impacts (J)"), [f"{number(o.energy_friction_j)}, {number(o.energy_impacts_j)}" for o in outcomes]),
     ]
     return side_by_side(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
-
-
-def _tidy(value: float) -> float:
-    """Return a number without the sign of a zero, to two decimals."""
-    return 0.0 if abs(value) < 0.005 else value

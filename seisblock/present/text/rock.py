@@ -10,9 +10,10 @@ import numpy as np
 
 from seisblock.bodies.library import edges
 from seisblock.present.directions import side
+from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.agreement import agreement_line, chance_lines
 from seisblock.present.text.respond import around, falls_to
-from seisblock.present.text.tables import acceleration, acceleration_unit, answered, line, number, seconds, side_by_side, table
+from seisblock.present.text.tables import acceleration, answered, line, number, seconds, side_by_side, table, told_acceleration
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome, friction_suffices
 from seisblock.studies.rocking.azimuths import RockAzimuth
@@ -60,11 +61,11 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
             alpha=first.slenderness_rad,
             p=first.frequency_parameter_rad_s,
             restitution=first.restitution,
-            threshold=f"{acceleration(first.threshold_m_s2, gal=gal)} {acceleration_unit(gal=gal)}",
+            threshold=told_acceleration(first.threshold_m_s2, gal=gal),
         ) + (f"\n{tell(worn)}" if (worn := edges(body)) else "")
     rows: list[tuple[str, list[Any]]] = _own(outcomes, gal=gal) if own else []
     rows += [
-        (f"PGA ({acceleration_unit(gal=gal)})", [acceleration(float(np.abs(r.motion.horizontal).max()), gal=gal) for r in responses]),
+        (f"PGA ({acceleration_unit(gal=gal).name})", [acceleration(float(np.abs(r.motion.horizontal).max()), gal=gal) for r in responses]),
         (tell("rocking starts (s)"), [seconds(o.rocking_start_s) for o in outcomes]),
         (tell("largest lean (deg)"), [f"{math.degrees(o.max_rotation_rad):.3f}" for o in outcomes]),
         (tell("  over alpha"), [number(o.max_rotation_ratio) for o in outcomes]),
@@ -82,7 +83,7 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
 
 def _own(outcomes: Sequence[RockOutcome], *, gal: bool) -> list[tuple[str, list[Any]]]:
     """Return the rows of a body that is another block in each direction."""
-    unit = acceleration_unit(gal=gal)
+    unit = acceleration_unit(gal=gal).name
     return [
         (tell("alpha (rad)"), [f"{o.slenderness_rad:.4f}" for o in outcomes]),
         (tell("p (rad/s)"), [f"{o.frequency_parameter_rad_s:.3f}" for o in outcomes]),

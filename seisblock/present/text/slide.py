@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.present.directions import moved
-from seisblock.present.text.tables import NOTHING, answered, fixed, line, seconds, table
+from seisblock.present.scales import Unit, length_cell, length_unit, told_length
+from seisblock.present.text.tables import answered, line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
 from seisblock.studies.sliding import SlidePoint
@@ -15,31 +16,29 @@ from seisblock.words import listed, noted, tell
 Slides = Sequence[Response[SlideOutcome]]
 
 
-COLUMNS = ("", *map(noted, ("slips", "from (s)", "to (s)", "max (mm)", "residual (mm)", "final (mm)")))
+COLUMNS = tuple(map(noted, ("slips", "from (s)", "to (s)", "max ({unit})", "residual ({unit})", "final ({unit})")))
 
 RESIDUAL = noted("residual: at the record's last sample, final: once at rest on still ground")
 """What two of the columns are."""
 
 
-def millimetres(value: float | None) -> str:
-    """Return a length in millimetres, to the hundredth."""
-    return NOTHING if value is None else fixed(value * 1e3, 2)
-
-
-def tables(responses: Slides, sweep: Sequence[SlidePoint] = ()) -> Iterator[Any]:
+def tables(responses: Slides, sweep: Sequence[SlidePoint] = (), *, gal: bool = True) -> Iterator[Any]:
     """Yield, for each record, its line and one row per direction; then the sweep of directions when there was one."""
-    for opening, mine in answered(responses, lambda response: response.motion.record, lambda response: [line(sentence(response))]):
+    for opening, mine in answered(responses, lambda each: each.motion.record, lambda each: [line(sentence(each, gal=gal))]):
         yield from opening
+        unit = length_unit((length for response in mine for length in _lengths(response)), gal=gal)
         yield table(
             tell("Sliding, {setting}", setting=setting(mine[0])),
-            [tell(heading) for heading in COLUMNS],
-            [_row(response) for response in mine],
+            ["", *(tell(heading, unit=unit.name) for heading in COLUMNS)],
+            [_row(response, unit) for response in mine],
             caption=tell("{first}; {second}", first=_axis(mine[0]), second=tell(RESIDUAL)),
         )
     if sweep:
         yield line()
-        rows = [[point.component, millimetres(point.max_slip_m), millimetres(point.residual_slip_m)] for point in sweep]
-        yield table(tell("All azimuths"), (tell("azimuth (deg)"), tell("max (mm)"), tell("residual (mm)")), rows)
+        unit = length_unit((point.max_slip_m for point in sweep), gal=gal)
+        rows = [[point.component, length_cell(point.max_slip_m, unit), length_cell(point.residual_slip_m, unit)] for point in sweep]
+        headings = noted("azimuth (deg)"), noted("max ({unit})"), noted("residual ({unit})")
+        yield table(tell("All azimuths"), [tell(heading, unit=unit.name) for heading in headings], rows)
 
 
 def setting(response: Response[SlideOutcome]) -> str:
@@ -57,25 +56,31 @@ def setting(response: Response[SlideOutcome]) -> str:
     return listed(parts)
 
 
-def sentence(response: Response[SlideOutcome]) -> str:
+def _lengths(response: Response[SlideOutcome]) -> tuple[float | None, ...]:
+    """Return the displacements of one direction that the table shows, m."""
+    outcome = response.outcome
+    return outcome.max_slip_m, outcome.residual_slip_m, outcome.final_slip_m
+
+
+def sentence(response: Response[SlideOutcome], *, gal: bool = True) -> str:
     """Say what happened."""
     outcome, name = response.outcome, response.motion.name
     if not outcome.slips:
         return tell("{name}: stays where it is, static friction holds throughout.", name=name)
-    words = {"name": name, "most": millimetres(outcome.max_slip_m), "path": millimetres(outcome.path_m)}
+    unit = length_unit([outcome.max_slip_m, outcome.path_m], gal=gal)
+    words = {"name": name, "most": told_length(outcome.max_slip_m, unit), "path": told_length(outcome.path_m, unit)}
     if outcome.final_slip_m is None:
-        told = tell("{name}: slides up to {most} mm, over a path of {path} mm, and does not come to rest", **words)
+        told = tell("{name}: slides up to {most}, over a path of {path}, and does not come to rest", **words)
     elif outcome.final_slip_m != outcome.residual_slip_m:
-        final = moved(f"{millimetres(abs(outcome.final_slip_m))} mm", name, outcome.final_slip_m)
+        final = moved(told_length(abs(outcome.final_slip_m), unit), name, outcome.final_slip_m)
         told = tell(
-            "{name}: slides up to {most} mm, over a path of {path} mm, while the record lasts, and comes to rest {final} from where it "
-            "stood",
+            "{name}: slides up to {most}, over a path of {path}, while the record lasts, and comes to rest {final} from where it stood",
             final=final,
             **words,
         )
     else:
-        final = moved(f"{millimetres(abs(outcome.final_slip_m))} mm", name, outcome.final_slip_m)
-        told = tell("{name}: slides up to {most} mm, and ends {final} from where it stood, after a path of {path} mm", final=final, **words)
+        final = moved(told_length(abs(outcome.final_slip_m), unit), name, outcome.final_slip_m)
+        told = tell("{name}: slides up to {most}, and ends {final} from where it stood, after a path of {path}", final=final, **words)
     if outcome.fell_off_slope:
         told += tell(", past the foot of the slope")
     if outcome.lifted_off:
@@ -90,7 +95,7 @@ def _axis(response: Response[SlideOutcome]) -> str:
     return tell("relative to the base, + in the component's positive direction")
 
 
-def _row(response: Response[SlideOutcome]) -> list[Any]:
+def _row(response: Response[SlideOutcome], unit: Unit) -> list[Any]:
     """Return the row of one direction."""
     outcome = response.outcome
     return [
@@ -98,7 +103,5 @@ def _row(response: Response[SlideOutcome]) -> list[Any]:
         outcome.slip_count,
         seconds(outcome.slip_start_s),
         seconds(outcome.slip_end_s),
-        millimetres(outcome.max_slip_m),
-        millimetres(outcome.residual_slip_m),
-        millimetres(outcome.final_slip_m),
+        *(length_cell(length, unit) for length in _lengths(response)),
     ]

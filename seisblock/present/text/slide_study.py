@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from rich.text import Text
 
 from seisblock.present.documents.slide import SLIDE_POINT, point_entry
 from seisblock.present.files import of_records
-from seisblock.present.text.slide import millimetres
+from seisblock.present.scales import Unit, length_cell, length_unit, told_length
 from seisblock.present.text.tables import NOTHING, answered, line, table
 from seisblock.records import Record
 from seisblock.studies.sliding import SlidePoint
@@ -55,16 +56,18 @@ def study_columns(records: Sequence[Record], studies: Sequence[Points]) -> tuple
     return of_records(header, [[[getattr(entry, key) for key in header] for entry in map(point_entry, points)] for points in studies])
 
 
-def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any]:
+def tables(records: Sequence[Record], studies: Sequence[Points], *, gal: bool = True) -> Iterator[Any]:
     """Yield, for each record and direction, the largest slip and, with vertical motion, the ratio beta as in [Fujino1978]_ fig. 9."""
     arranged = [
         (record, arrangement, panels_of(points, arrangement))
         for record, points, arrangement in zip(records, studies, map(Arrangement.of, studies), strict=True)
     ]
-    for opening, ((_, arrangement, panels),) in answered(arranged, lambda each: each[0], lambda each: _verdicts(each[2])):
+    for opening, ((_, arrangement, panels),) in answered(arranged, lambda each: each[0], lambda each: _verdicts(each[2], gal=gal)):
         yield from opening
         for title, part in panels:
-            yield _pivot(tell("{name}: largest slip (mm)", name=title), part, arrangement, lambda point: millimetres(point.max_slip_m))
+            unit = length_unit((point.max_slip_m for point in part), gal=gal)
+            heading = tell("{name}: largest slip ({unit})", name=title, unit=unit.name)
+            yield _pivot(heading, part, arrangement, partial(_slip, unit=unit))
             if any(point.beta is not None for point in part):
                 yield _pivot(
                     tell("{name}: beta, largest slip with vertical motion over that without", name=title),
@@ -74,13 +77,18 @@ def tables(records: Sequence[Record], studies: Sequence[Points]) -> Iterator[Any
                 )
 
 
-def _verdicts(panels: Panels) -> Iterator[Text]:
+def _slip(point: SlidePoint, unit: Unit) -> str:
+    """Return the largest slip of a point."""
+    return length_cell(point.max_slip_m, unit)
+
+
+def _verdicts(panels: Panels, *, gal: bool) -> Iterator[Text]:
     """Yield how far the object slides, by direction."""
     for title, part in panels:
-        yield line(verdict(title, part))
+        yield line(verdict(title, part, gal=gal))
 
 
-def verdict(name: str, points: Points) -> str:
+def verdict(name: str, points: Points, *, gal: bool = True) -> str:
     """Return how far the object slides at most, with which parameters, and how often it holds."""
     known = [point for point in points if point.max_slip_m is not None]
     held = sum(point.max_slip_m == 0.0 for point in known)
@@ -91,8 +99,8 @@ def verdict(name: str, points: Points) -> str:
     # a ratio of frictions says the same as the second of them
     varied = [key for key in varied if key != "mu_kinetic" or "kappa" not in varied]
     where = [f"{tell(SYMBOLS[key]).split(' (')[0]} {getattr(most, key):g}" for key in varied]
-    text = noted("{name}: slides up to {most} mm, at {where}; {held} of {count} combinations stay where they are.")
-    return tell(text, name=name, most=millimetres(most.max_slip_m), where=where, held=held, count=len(known))
+    text = noted("{name}: slides up to {most}, at {where}; {held} of {count} combinations stay where they are.")
+    return tell(text, name=name, most=told_length(most.max_slip_m or 0.0, gal=gal), where=where, held=held, count=len(known))
 
 
 def panels_of(points: Points, arrangement: Arrangement) -> Panels:

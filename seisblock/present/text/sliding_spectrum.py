@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from seisblock.present.files import write_table
-from seisblock.present.text.tables import answered, line, number, table
+from seisblock.present.scales import length_cell, length_unit, told_length
+from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
 from seisblock.studies.sliding import SlidePoint
 from seisblock.words import noted, tell
@@ -30,11 +31,10 @@ def tables(curves: Curves) -> Iterator[Any]:
 def _slips(motion: Motion, points: Sequence[SlidePoint]) -> Iterator[Any]:
     """Yield the table of one component."""
     chosen = np.unique(np.linspace(0, len(points) - 1, min(len(points), MOST_ROWS)).round().astype(int))
-    rows = [
-        [f"{points[i].mu:.4g}", number(_millimetres(points[i].max_slip_m)), number(_millimetres(points[i].residual_slip_m))] for i in chosen
-    ]
+    unit = length_unit((point.max_slip_m for point in points), gal=True)
+    rows = [[f"{points[i].mu:.4g}", length_cell(points[i].max_slip_m, unit), length_cell(points[i].residual_slip_m, unit)] for i in chosen]
     title = tell("{name}: sliding against friction", name=motion.name)
-    yield table(title, ["μ", tell("largest slip (mm)"), tell("residual slip (mm)")], rows)
+    yield table(title, ["μ", tell("largest slip ({unit})", unit=unit.name), tell("residual slip ({unit})", unit=unit.name)], rows)
     yield line()
 
 
@@ -46,17 +46,10 @@ def verdict(name: str, points: Sequence[SlidePoint]) -> str:
     if not slides:
         return tell("{name}: holds at every friction from {mu:.4g} on.", name=name, mu=ordered[0].mu)
     holds = next((point.mu for point in ordered if point.mu > slides[-1]), None)
-    values = {"name": name, "most": number(_millimetres(most.max_slip_m)), "at": most.mu}
+    values = {"name": name, "most": told_length(most.max_slip_m or 0.0), "at": most.mu}
     if holds is None:
-        return tell("{name}: slides at every friction up to {mu:.4g}, at most {most} mm (at {at:.4g}).", mu=slides[-1], **values)
-    return tell(
-        noted("{name}: holds from a friction of {mu:.4g} on; below it slides, at most {most} mm (at {at:.4g})."), mu=holds, **values
-    )
-
-
-def _millimetres(value: float | None) -> float | None:
-    """Return millimetres of metres."""
-    return None if value is None else 1e3 * value
+        return tell("{name}: slides at every friction up to {mu:.4g}, at most {most} (at {at:.4g}).", mu=slides[-1], **values)
+    return tell(noted("{name}: holds from a friction of {mu:.4g} on; below it slides, at most {most} (at {at:.4g})."), mu=holds, **values)
 
 
 def write(path: Path, curves: Curves) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 from seisblock.bodies.pile.stone import GROUND
 from seisblock.present.directions import towards
+from seisblock.present.scales import Unit, length_cell, length_unit
 from seisblock.present.text.agreement import agreement_line
 from seisblock.present.text.tables import answered, fixed, line, seconds, table
 from seisblock.records import Motion
@@ -23,19 +24,21 @@ NOTICEABLE_TILT, NOTICEABLE_SLIP = 2e-3, 2e-4
 Stacks = Sequence[Response[StackOutcome]]
 
 
-def tables(responses: Stacks, agreements: Sequence[Agreement | None]) -> Iterator[Any]:
+def tables(responses: Stacks, agreements: Sequence[Agreement | None], *, gal: bool = True) -> Iterator[Any]:
     """Yield the record, a row per stone, a sentence per run, and how far the models of the top stone are apart."""
     both = zip(responses, agreements, strict=True)
     for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: [line(verdict(each[0]))]):
         yield from opening
-        yield from (shown for each in part for shown in _details(*each))
+        yield from (shown for each in part for shown in _details(*each, gal=gal))
 
 
-def _details(response: Response[StackOutcome], found: Agreement | None) -> Iterator[Any]:
+def _details(response: Response[StackOutcome], found: Agreement | None, *, gal: bool) -> Iterator[Any]:
     """Yield the table of one run, its energies, and how far the models of the top stone are apart."""
-    columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), tell("slip (mm)"), tell("turn (deg)")]
+    unit = length_unit((stone.residual_slip_m for stone in response.outcome.stones), gal=gal)
+    slip = tell("slip ({unit})", unit=unit.name)
+    columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), slip, tell("turn (deg)")]
     title = tell("{name}: {what}", name=f"+x = {response.motion.name}", what=tell(response.body.name))
-    yield table(title, columns, (_row(stone) for stone in reversed(response.outcome.stones)))
+    yield table(title, columns, (_row(stone, unit) for stone in reversed(response.outcome.stones)))
     yield line(books(response))
     if found is not None:
         top = tell("{stone}, {name}", stone=tell(response.body.names[-1]), name=response.motion.name)
@@ -43,14 +46,14 @@ def _details(response: Response[StackOutcome], found: Agreement | None) -> Itera
     yield line()
 
 
-def _row(stone: StoneFate) -> list[str]:
+def _row(stone: StoneFate, unit: Unit) -> list[str]:
     """Return what became of one stone."""
     return [
         tell(stone.name),
         tell(stone.state),
         seconds(stone.fell_at_s),
         fixed(math.degrees(stone.max_tilt_rad), 2),
-        fixed(stone.residual_slip_m * 1e3, 1),
+        length_cell(stone.residual_slip_m, unit),
         fixed(math.degrees(stone.residual_turn_rad), 2),
     ]
 

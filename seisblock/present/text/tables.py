@@ -13,10 +13,10 @@ from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
+from seisblock.present.scales import acceleration_unit
 from seisblock.present.wrap import breaks, fits, has_units, is_wide
 from seisblock.records import Record
 from seisblock.records.site import Earthquake, earthquake_of, site_of, told_time
-from seisblock.units import GAL
 from seisblock.words import listed, plain_text, tell
 
 Item = TypeVar("Item")
@@ -164,12 +164,12 @@ def seconds(value: float | None) -> str:
 
 def acceleration(value: float | None, *, gal: bool) -> str:
     """Return an acceleration given in m/s^2 in the unit asked for."""
-    return NOTHING if value is None else (f"{value / GAL:.1f}" if gal else f"{value:.4f}")
+    return NOTHING if value is None else f"{value / acceleration_unit(gal=gal).size:.{1 if gal else 4}f}"
 
 
-def acceleration_unit(*, gal: bool) -> str:
-    """Return the name of the unit in which accelerations are shown."""
-    return "gal" if gal else "m/s²"
+def told_acceleration(value: float | None, *, gal: bool) -> str:
+    """Return an acceleration given in m/s^2 with the unit asked for."""
+    return f"{acceleration(value, gal=gal)} {acceleration_unit(gal=gal).name}"
 
 
 def answered(

@@ -1,0 +1,96 @@
+"""The units in which people see things, chosen here and nowhere else: gal, kine and cm, or with ``--si`` m/s², m/s and m.
+
+Lengths are those that a surveyor reads off a tape: cm, and mm only where all that is shown together is below 1 cm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from seisblock.units import GAL, KINE, LENGTH_UNITS
+
+SMALL = 0.00995
+"""Lengths below this are told in mm, m: what is larger would be written as 1 cm."""
+
+IN_WORDS = {"mm": 2, "cm": 1, "m": 3}
+IN_TABLES = {"mm": 2, "cm": 2, "m": 4}
+"""Decimals of a length, by its unit: in a sentence, and in a table, where one compares."""
+
+
+class Unit(NamedTuple):
+    """A unit: what one of it is in SI, and its name."""
+
+    size: float
+    name: str
+
+
+def acceleration_unit(*, gal: bool) -> Unit:
+    """Return the unit in which accelerations are shown.
+
+    Examples
+    --------
+    >>> acceleration_unit(gal=True), acceleration_unit(gal=False).name
+    (Unit(size=0.01, name='gal'), 'm/s²')
+    """
+    return Unit(GAL, "gal") if gal else Unit(1.0, "m/s²")
+
+
+def velocity_unit(*, gal: bool) -> Unit:
+    """Return the unit in which velocities are shown.
+
+    Examples
+    --------
+    >>> velocity_unit(gal=True).name, velocity_unit(gal=False).name
+    ('kine', 'm/s')
+    """
+    return Unit(KINE, "kine") if gal else Unit(1.0, "m/s")
+
+
+def length_unit(lengths: Iterable[float | None], *, gal: bool) -> Unit:
+    """Return the one unit in which some displacements, m, are shown together; None among them is none.
+
+    Examples
+    --------
+    >>> [length_unit(each, gal=True).name for each in ([0.215, -0.004], [0.0005, None], [])], length_unit([0.2], gal=False).name
+    (['cm', 'mm', 'cm'], 'm')
+    """
+    if not gal:
+        return Unit(1.0, "m")
+    sizes = [abs(length) for length in lengths if length is not None]
+    name = "mm" if 0.0 < max(sizes, default=0.0) < SMALL else "cm"
+    return Unit(LENGTH_UNITS[name], name)
+
+
+def told_length(length: float, unit: Unit | None = None, *, gal: bool = True) -> str:
+    """Return a length, m, with its unit, as a sentence holds it; what rounds to nothing has no sign.
+
+    Parameters
+    ----------
+    length : float
+    unit : Unit, optional
+        That of the other lengths of the sentence.
+    gal : bool
+
+    Examples
+    --------
+    >>> told_length(0.2153), told_length(-0.0047), told_length(0.0047, length_unit([0.2], gal=True)), told_length(0.2153, gal=False)
+    ('21.5 cm', '-4.70 mm', '0.5 cm', '0.215 m')
+    """
+    size, name = unit or length_unit([length], gal=gal)
+    decimals = IN_WORDS[name]
+    return f"{round(length / size, decimals) + 0.0:.{decimals}f} {name}"
+
+
+def length_cell(length: float | None, unit: Unit) -> str:
+    """Return a length, m, as the cell of a table under a heading that names the unit; a dash for none.
+
+    Examples
+    --------
+    >>> length_cell(-0.21534, length_unit([-0.21534], gal=True)), length_cell(None, length_unit([], gal=True))
+    ('-21.53', '-')
+    """
+    if length is None:
+        return "-"
+    decimals = IN_TABLES[unit.name]
+    return f"{round(length / unit.size, decimals) + 0.0:.{decimals}f}"
