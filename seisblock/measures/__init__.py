@@ -4,6 +4,7 @@ from seisblock.measures.baseline import GroundHistory, ground_history
 from seisblock.measures.duration import Duration, block_threshold, duration_above, stretches_above
 from seisblock.measures.frequency import EquivalentFrequency, Pulse, dominant_frequency, peak_pulse, pga_pgv_frequency
 from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration
+from seisblock.measures.long_period import LongPeriodMotion, long_period_class, long_period_motion
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
 from seisblock.measures.spectra import ResponseSpectrum, default_periods, fourier_amplitude, response_spectrum
 from seisblock.measures.summary import ComponentMeasures, Conventions, RecordMeasures, measure
@@ -17,6 +18,7 @@ __all__ = [
     "FilterRange",
     "GroundHistory",
     "HorizontalPeak",
+    "LongPeriodMotion",
     "Pulse",
     "RecordMeasures",
     "ResponseSpectrum",
@@ -31,6 +33,8 @@ __all__ = [
     "ground_history",
     "jma_class",
     "jma_intensity",
+    "long_period_class",
+    "long_period_motion",
     "measure",
     "pga_pgv_frequency",
     "peak_acceleration",

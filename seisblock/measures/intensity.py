@@ -88,7 +88,7 @@ def significant_duration(acceleration: FloatArray, dt: float, *, between: tuple[
     return end - start
 
 
-def _perpendicular(record: Record) -> list[FloatArray]:
+def perpendicular(record: Record) -> list[FloatArray]:
     """Return the components at right angles to each other: as they are, unless two known azimuths lie askew."""
     known = [c.azimuth_deg for c in record.horizontals if c.azimuth_deg is not None]
     if len(known) == 2:
@@ -132,7 +132,7 @@ def jma_intensity(record: Record) -> float | None:
         return None
     weights = weights_of(record.samples, record.dt, _jma_filter)
     squared = np.zeros(record.samples)
-    for acceleration in _perpendicular(record):
+    for acceleration in perpendicular(record):
         add_filtered_square(squared, acceleration, weights)
     squared.partition(record.samples - needed)
     a0_squared = float(squared[record.samples - needed]) / GAL**2

@@ -16,6 +16,7 @@ from seisblock.measures.frequency import (
     pga_pgv_frequency,
 )
 from seisblock.measures.intensity import arias_intensity, jma_class, jma_intensity, significant_duration, why_no_intensity
+from seisblock.measures.long_period import LongPeriodMotion, long_period_motion
 from seisblock.measures.peaks import HorizontalPeak, peak_acceleration, peak_displacement, peak_horizontal, peak_velocity
 from seisblock.measures.spectra import SMOOTHING_HZ
 from seisblock.measures.usual_filters import FilterRange, filter_range
@@ -117,6 +118,8 @@ class RecordMeasures(Shown):
         In the order asked.
     jma_intensity, jma_class : float and str, or None, 1
         Instrumental intensity (not rounded) and its class.
+    long_period : LongPeriodMotion or None
+        JMA's class of long-period ground motion, and the floor velocity behind it.
     horizontal : HorizontalPeak or None
         The longest horizontal vector and its azimuth.
     conventions : Conventions
@@ -130,6 +133,7 @@ class RecordMeasures(Shown):
     components: tuple[ComponentMeasures, ...]
     jma_intensity: float | None
     jma_class: str | None
+    long_period: LongPeriodMotion | None
     horizontal: HorizontalPeak | None
     conventions: Conventions
     warnings: tuple[str, ...] = ()
@@ -184,6 +188,7 @@ def measure(
         components=measured,
         jma_intensity=intensity,
         jma_class=None if intensity is None else jma_class(intensity),
+        long_period=long_period_motion(record),
         horizontal=peak_horizontal(record),
         conventions=rules,
         warnings=(

@@ -23,7 +23,7 @@ SOFTWARE = Reference(
 """The program itself."""
 
 RESTS_ON: dict[str, tuple[str, ...]] = {
-    "measures": ("Furukawa2009", "JMA1996", "Arias1970", "TrifunacBrady1975", "Parzen1961"),
+    "measures": ("Furukawa2009", "JMA1996", "JMA2016", "Arias1970", "TrifunacBrady1975", "Parzen1961"),
     "response spectrum": ("NigamJennings1969",),
     "sliding": ("Fujino1978",),
     "one-way sliding": ("Newmark1965",),

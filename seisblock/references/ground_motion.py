@@ -70,5 +70,14 @@ GROUND_MOTION = (
         "Prentice Hall, 4th edition",
         kind="book",
     ),
+    Reference(
+        "JMA2016",
+        "Japan Meteorological Agency",
+        2016,
+        "Zettai sokudo outou keisan no kaizen ni tsuite (On the improved computation of absolute velocity responses), 7th meeting of the "
+        "panel on information on long-period ground motion, document 2",
+        "Tokyo (in Japanese)",
+        kind="techreport",
+    ),
 )
 """What synthetic records, the motion of storeys and long periods rest on."""

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from msgspec import Meta, Struct
 
 from seisblock.measures import ComponentMeasures, Conventions, RecordMeasures
+from seisblock.measures.long_period import LongPeriodMotion
 from seisblock.measures.peaks import HorizontalPeak
 from seisblock.present.documents.entry import entry_of, entry_type
 from seisblock.present.documents.kind import Document, Kind
@@ -45,6 +46,10 @@ class MeasureParameters(Struct, frozen=True, kw_only=True):
 BESIDE = {
     "jma_intensity": Annotated[float | list[float | None] | None, Meta(description="Instrumental intensity, not rounded.")],
     "jma_class": Annotated[str | list[str | None] | None, Meta(description="Class of that intensity.")],
+    "long_period": Annotated[
+        LongPeriodMotion | list[LongPeriodMotion | None] | None,
+        Meta(description="JMA's class of long-period ground motion, and the floor velocity behind it."),
+    ],
     "peak_horizontal": Annotated[HorizontalPeak | list[HorizontalPeak | None] | None, Meta(description="The longest horizontal vector.")],
 }
 """What belongs to a record, not to a component; lists where there are several records."""
@@ -61,6 +66,7 @@ def document(
     beside: dict[str, Any] = {
         "jma_intensity": [whole.jma_intensity for whole in measured],
         "jma_class": [whole.jma_class for whole in measured],
+        "long_period": [whole.long_period for whole in measured],
         "peak_horizontal": [whole.horizontal for whole in measured],
     }
     return MEASURE.document(
