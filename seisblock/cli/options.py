@@ -127,7 +127,11 @@ _RECORD_OPTIONS = (
     option(
         "--dt", type=float, callback=_positive, section="Record", metavar="S", help="Sampling interval, where the file does not say, s."
     ),
-    option("--station", section="Record", help="Station code, in a bundle that holds several; all takes each for itself."),
+    option(
+        "--station",
+        section="Record",
+        help="Station code, in a bundle that holds several, or place in a structure; all takes each for itself.",
+    ),
     option("--level", type=OneOf(["surface", "borehole"]), section="Record", help="Sensor of a KiK-net set. [default: surface]"),
     option("--strict", is_flag=True, section="Record", help="Refuse records about which there is any doubt, instead of warning."),
 )

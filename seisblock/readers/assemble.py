@@ -12,8 +12,11 @@ from seisblock.words import said
 
 LEVELS = ("surface", "borehole")
 _ORDER = {"NS": 0, "EW": 1, "UD": 3}  # anything else: before the vertical
+START_TOGETHER = {"AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET"}
+"""Formats whose components start together and end at will."""
+
 CUT_TOLERANCE = 0.05
-"""How much longer than the shortest, relatively, a component of a PEER set may be: they start together and end at will."""
+"""How much longer than the shortest, relatively, such a component may be."""
 
 
 def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, level: str | None = None) -> Record:
@@ -47,7 +50,7 @@ def assemble(name: str, parts: Sequence[Record], *, station: str | None = None, 
         raise RecordError("{name}: the sampling intervals differ ({found}): give files of one recording", name=name, found=found)
     components = [c for part in chosen for c in part.components]
     history = dict.fromkeys(line for part in chosen for line in part.history)
-    if chosen[0].format == "AT2":
+    if chosen[0].format in START_TOGETHER:
         components, cut = _cut_to_shortest(components)
         history.update(dict.fromkeys(cut))
     components.sort(key=lambda c: _ORDER.get(c.code, 2))

@@ -6,12 +6,25 @@ import codecs
 
 from seisblock.errors import RecordFormatError
 from seisblock.readers import bundle
-from seisblock.readers.formats import at2, generic, jma_csv, knet, knet_csv, plain_csv
+from seisblock.readers.formats import at2, cosmos, csmip, esm, generic, geonet, jma_csv, knet, knet_csv, plain_csv, smc
 from seisblock.readers.lines import lines_of
 from seisblock.readers.source import Blob
 
 BUNDLE = "BUNDLE"
 OBSPY = "OBSPY"
+
+_CLAIMS = (
+    (jma_csv.is_jma_csv, jma_csv.FORMAT),
+    (knet.is_knet, knet.FORMAT),
+    (knet_csv.is_knet_csv, knet_csv.FORMAT),
+    (geonet.is_geonet, geonet.FORMAT),
+    (cosmos.is_cosmos, cosmos.FORMAT),
+    (csmip.is_csmip, csmip.FORMAT),
+    (smc.is_smc, smc.FORMAT),
+    (esm.is_esm, esm.FORMAT),
+    (at2.is_at2, at2.FORMAT),
+)
+"""What tells a format by its first bytes, the most particular first."""
 
 
 def format_of(blob: Blob) -> str:
@@ -21,11 +34,9 @@ def format_of(blob: Blob) -> str:
         return BUNDLE
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         head = head[:4094].decode("utf-16", "replace").encode()
-    for claims, name in ((jma_csv.is_jma_csv, jma_csv.FORMAT), (knet.is_knet, knet.FORMAT), (knet_csv.is_knet_csv, knet_csv.FORMAT)):
+    for claims, name in _CLAIMS:
         if claims(head):
             return name
-    if at2.is_at2(head):
-        return at2.FORMAT
     if generic.is_gse(head):
         return OBSPY
     try:

@@ -10,17 +10,32 @@ from seisblock.readers.budget import Budget, budget
 from seisblock.readers.bundle import members_of
 from seisblock.readers.detect import BUNDLE, OBSPY, format_of
 from seisblock.readers.formats.at2 import read_at2
+from seisblock.readers.formats.cosmos import read_cosmos
+from seisblock.readers.formats.csmip import read_csmip
+from seisblock.readers.formats.esm import read_esm
 from seisblock.readers.formats.generic import read_generic
+from seisblock.readers.formats.geonet import read_geonet
 from seisblock.readers.formats.jma_csv import read_jma_csv
 from seisblock.readers.formats.knet import read_knet
 from seisblock.readers.formats.knet_csv import read_knet_csv
 from seisblock.readers.formats.plain_csv import read_plain_csv
+from seisblock.readers.formats.smc import read_smc
 from seisblock.readers.naming import normal_unit
 from seisblock.readers.source import Blob
 from seisblock.records import Record
 from seisblock.words import said
 
-_SELF_DESCRIBING: dict[str, Callable[[Blob], Record]] = {"JMA-CSV": read_jma_csv, "KNET": read_knet, "AT2": read_at2}
+_SELF_DESCRIBING: dict[str, Callable[[Blob], Record | list[Record]]] = {
+    "JMA-CSV": read_jma_csv,
+    "KNET": read_knet,
+    "KNET-CSV": read_knet_csv,
+    "GEONET": read_geonet,
+    "COSMOS": read_cosmos,
+    "CSMIP": read_csmip,
+    "SMC": read_smc,
+    "ESM": read_esm,
+    "AT2": read_at2,
+}
 _SPELLINGS = {"JMA": "JMA-CSV", "JMACSV": "JMA-CSV", "KIKNET": "KNET", "KNETCSV": "KNET-CSV", "K-NET": "KNET", "KIK-NET": "KNET"}
 
 
@@ -51,9 +66,8 @@ def _of_file(blob: Blob, found: str, options: Options) -> list[Record]:
     kind = found if options.format is None else options.format.upper()
     kind = _SPELLINGS.get(kind, kind)
     if kind in _SELF_DESCRIBING:
-        return [_checked(_SELF_DESCRIBING[kind](blob), options)]
-    if kind == "KNET-CSV":
-        return [_checked(part, options) for part in read_knet_csv(blob)]
+        found_in = _SELF_DESCRIBING[kind](blob)
+        return [_checked(part, options) for part in (found_in if isinstance(found_in, list) else [found_in])]
     if kind == "CSV":
         return [read_plain_csv(blob, units=options.units, dt=options.dt)]
     waveform = None if kind == OBSPY else kind.removeprefix(OBSPY + ":")
@@ -71,7 +85,10 @@ def _of_bundle(blob: Blob, options: Options) -> list[Record]:
     if not parts:
         held = [m.basename for m in members[:8]] or said("nothing but plots")
         raise RecordFormatError(
-            "{name}: no record in this bundle, only {held}: expected K-NET, KiK-net, JMA, AT2 or plain tables", name=blob.name, held=held
+            "{name}: no record in this bundle, only {held}: expected files of K-NET, KiK-net, JMA, AT2, CSMIP, COSMOS, SMC, ESM or GeoNet, "
+            "or plain tables",
+            name=blob.name,
+            held=held,
         )
     return parts
 

@@ -21,7 +21,7 @@ from seisblock.readers.detect import OBSPY, format_of
 from seisblock.readers.dispatch import Options
 from seisblock.readers.formats.at2 import set_name
 from seisblock.readers.read import read, record_of_blobs
-from seisblock.readers.siblings import knet_set
+from seisblock.readers.siblings import channel_set, knet_set
 from seisblock.readers.source import Blob, fetch, locate
 from seisblock.records import Record
 
@@ -199,6 +199,9 @@ def _set_of(name: str) -> _Set:
     knet = knet_set(path.name)
     if knet is not None:
         return _Set((str(path.parent), knet[0].upper()), knet[1])
+    channels = channel_set(path.name)
+    if channels is not None:
+        return _Set((str(path.parent), channels.upper()), 3)
     at2 = set_name(path.name) if path.suffix.lower() == ".at2" else None
     return _Set((name,), 1) if at2 is None else _Set((str(path.parent), at2[0].upper()), 3)
 

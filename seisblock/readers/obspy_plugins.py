@@ -1,8 +1,8 @@
-"""JMA CSV, K-NET CSV and AT2 as waveform formats of obspy, by entry points, in anyone's script.
+"""JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM and GeoNet as waveform formats of obspy, by entry points, in anyone's script.
 
 Samples of these streams are accelerations in m/s^2 and ``stats.calib`` is 1; obspy's own K-NET reader gives counts and a ``calib`` to
-m/s^2, so that ``data * calib`` is in m/s^2 for all of them. What else the header says stands under ``stats.jmacsv``, ``stats.knetcsv``
-and ``stats.at2``.
+m/s^2, so that ``data * calib`` is in m/s^2 for all of them. What else the header says stands under ``stats.jmacsv``, ``stats.knetcsv``,
+``stats.at2``, ``stats.csmip``, ``stats.cosmos``, ``stats.smc``, ``stats.esm`` and ``stats.geonet``.
 """
 
 from __future__ import annotations
@@ -13,10 +13,20 @@ from typing import Any, BinaryIO
 
 from seisblock.readers.formats.at2 import is_at2 as _claims_at2
 from seisblock.readers.formats.at2 import read_at2 as _parse_at2
+from seisblock.readers.formats.cosmos import is_cosmos as _claims_cosmos
+from seisblock.readers.formats.cosmos import read_cosmos as _parse_cosmos
+from seisblock.readers.formats.csmip import is_csmip as _claims_csmip
+from seisblock.readers.formats.csmip import read_csmip as _parse_csmip
+from seisblock.readers.formats.esm import is_esm as _claims_esm
+from seisblock.readers.formats.esm import read_esm as _parse_esm
+from seisblock.readers.formats.geonet import is_geonet as _claims_geonet
+from seisblock.readers.formats.geonet import read_geonet as _parse_geonet
 from seisblock.readers.formats.jma_csv import is_jma_csv as _claims_jma_csv
 from seisblock.readers.formats.jma_csv import read_jma_csv as _parse_jma_csv
 from seisblock.readers.formats.knet_csv import is_knet_csv as _claims_knet_csv
 from seisblock.readers.formats.knet_csv import read_knet_csv as _parse_knet_csv
+from seisblock.readers.formats.smc import is_smc as _claims_smc
+from seisblock.readers.formats.smc import read_smc as _parse_smc
 from seisblock.readers.source import Blob
 from seisblock.records import Record
 
@@ -70,6 +80,86 @@ def read_at2(filename: str | Path | BinaryIO, **_: Any) -> Any:
         If the file breaks its format.
     """
     return _stream([_parse_at2(_blob(filename))], "at2")
+
+
+def is_csmip(filename: str | Path | BinaryIO) -> bool:
+    """Return whether a file is a CSMIP file: its title stands in the first line."""
+    return _claims_csmip(_head(filename))
+
+
+def read_csmip(filename: str | Path | BinaryIO, **_: Any) -> Any:
+    """Return an obspy Stream, m/s^2, of the channels in a CSMIP file of volume 1 or 2.
+
+    Raises
+    ------
+    RecordFormatError
+        If the file breaks its format, or holds no even accelerations.
+    """
+    return _stream(_parse_csmip(_blob(filename)), "csmip")
+
+
+def is_cosmos(filename: str | Path | BinaryIO) -> bool:
+    """Return whether a file is a COSMOS file: its first line tells the format and how many lines of text follow."""
+    return _claims_cosmos(_head(filename))
+
+
+def read_cosmos(filename: str | Path | BinaryIO, **_: Any) -> Any:
+    """Return an obspy Stream, m/s^2, of the channels in a COSMOS file of volume 1 or 2.
+
+    Raises
+    ------
+    RecordFormatError
+        If the file breaks its format, or holds no even accelerations.
+    """
+    return _stream(_parse_cosmos(_blob(filename)), "cosmos")
+
+
+def is_smc(filename: str | Path | BinaryIO) -> bool:
+    """Return whether a file is an SMC file of the U.S. Geological Survey."""
+    return _claims_smc(_head(filename))
+
+
+def read_smc(filename: str | Path | BinaryIO, **_: Any) -> Any:
+    """Return an obspy Stream, m/s^2, of the one component in a corrected SMC file.
+
+    Raises
+    ------
+    RecordFormatError
+        If the file breaks its format, or holds no even accelerations.
+    """
+    return _stream([_parse_smc(_blob(filename))], "smc")
+
+
+def is_esm(filename: str | Path | BinaryIO) -> bool:
+    """Return whether a file is an ASCII file of ESM: the event's name and identifier stand in its first lines."""
+    return _claims_esm(_head(filename))
+
+
+def read_esm(filename: str | Path | BinaryIO, **_: Any) -> Any:
+    """Return an obspy Stream, m/s^2, of the one component in an ASCII file of ESM.
+
+    Raises
+    ------
+    RecordFormatError
+        If the file breaks its format, or holds no even accelerations.
+    """
+    return _stream([_parse_esm(_blob(filename))], "esm")
+
+
+def is_geonet(filename: str | Path | BinaryIO) -> bool:
+    """Return whether a file is an accelerogram of GeoNet: its first line says so."""
+    return _claims_geonet(_head(filename))
+
+
+def read_geonet(filename: str | Path | BinaryIO, **_: Any) -> Any:
+    """Return an obspy Stream, m/s^2, of the components in a GeoNet file of volume 1 or 2.
+
+    Raises
+    ------
+    RecordFormatError
+        If the file breaks its format, or holds no even accelerations.
+    """
+    return _stream(_parse_geonet(_blob(filename)), "geonet")
 
 
 def _head(filename: str | Path | BinaryIO) -> bytes:

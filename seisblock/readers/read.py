@@ -38,16 +38,17 @@ def read(
     Parameters
     ----------
     source : path, or sequence of paths
-        A file of any format told below, or the name of a bundled sample. One component of a three-file set (K-NET, KiK-net, PEER AT2)
-        stands for its siblings beside it. Several paths are read as ONE record.
+        A file of any format told below, or the name of a bundled sample. One component of a three-file set (K-NET, KiK-net, PEER AT2,
+        SMC, ESM, COSMOS) stands for its siblings beside it. Several paths are read as ONE record.
     format : str or None
-        ``JMA-CSV``, ``KNET``, ``KIKNET``, ``KNET-CSV``, ``AT2``, ``CSV``, or ``OBSPY:`` and a format of obspy. None: the content decides.
+        ``JMA-CSV``, ``KNET``, ``KIKNET``, ``KNET-CSV``, ``AT2``, ``CSMIP``, ``COSMOS``, ``SMC``, ``ESM``, ``GEONET``, ``CSV``, or
+        ``OBSPY:`` and a format of obspy. None: the content decides.
     units : {"gal", "m/s2", "mm/s2", "g"} or None
         Of files that do not name theirs.
     dt : float or None, s
         Sampling interval of files that do not tell theirs.
     station : str or None
-        Code of the station to take from a bundle of several; `read_all` takes ``all``, a record for each.
+        Code of the station to take from a bundle of several, or of the place in a structure; `read_all` takes ``all``, a record for each.
     level : {"surface", "borehole"} or None
         Sensor of a KiK-net station; the surface by default.
 

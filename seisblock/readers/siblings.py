@@ -8,10 +8,21 @@ from pathlib import Path
 from seisblock.errors import RecordError
 from seisblock.readers.budget import Budget
 from seisblock.readers.formats.at2 import is_at2, orientation, set_name
+from seisblock.readers.formats.cosmos import is_cosmos
+from seisblock.readers.formats.esm import is_esm
 from seisblock.readers.formats.knet import is_knet
+from seisblock.readers.formats.smc import is_smc
 from seisblock.readers.source import Blob, read_bytes
 
 _KNET_NAME = re.compile(r"^(?P<stem>.+)\.(?P<code>NS|EW|UD)(?P<sensor>[12]?)\Z", re.IGNORECASE)
+_CHANNEL_NAMES = (
+    # HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC, AKBMR--n.1000hyfh.BNZ.--.acc.V2c
+    re.compile(r"^(?P<before>.+\.[FGDCESHBML][NGHL])(?P<code>[ENZ123])(?P<after>\..+)\Z", re.IGNORECASE),
+    # 0111a.smc, np01002p_4225b_a.smc
+    re.compile(r"^(?P<before>.*\d)(?P<code>[A-Z])(?P<after>(?:_[ACPU])?\.SMC)\Z", re.IGNORECASE),
+)
+"""How files of one component each are named, in which one letter tells the component."""
+
 _SENSORS = {"borehole": "1", "surface": "2"}
 _ORDER = {"NS": 0, "EW": 1, "UD": 2}
 
@@ -27,6 +38,8 @@ def with_siblings(blob: Blob, budget: Budget, level: str | None = None) -> list[
         return _of_knet(blob, blob.path, level, budget)
     if is_at2(blob.held[:4096]):
         return _of_at2(blob, blob.path, budget)
+    if is_smc(blob.held[:4096]) or is_esm(blob.held[:4096]) or is_cosmos(blob.held[:4096]):
+        return _of_channels(blob, blob.path, budget)
     return [blob]
 
 
@@ -40,6 +53,44 @@ def knet_set(basename: str) -> tuple[str, int] | None:
     """
     match = _KNET_NAME.match(basename)
     return None if match is None else (match["stem"], 6 if match["sensor"] else 3)
+
+
+def channel_set(basename: str) -> str | None:
+    """Return what the names of files of one station share of which each holds a channel, or None for any other name.
+
+    Examples
+    --------
+    >>> channel_set("0111a.smc"), channel_set("HI.ARS1..HNE.D.20190728.160908.C.ACC.ASC"), channel_set("CE36456.V2")
+    ('0111?.smc', 'HI.ARS1..HN?.D.20190728.160908.C.ACC.ASC', None)
+    """
+    match = next((found for pattern in _CHANNEL_NAMES if (found := pattern.match(basename))), None)
+    return None if match is None else f"{match['before']}?{match['after']}"
+
+
+def _of_channels(blob: Blob, path: Path, budget: Budget) -> list[Blob]:
+    """Return the files whose names differ in the letter of the channel only and whose headers tell the same recording."""
+    own = channel_set(path.name)
+    if own is None:
+        return [blob]
+    alike = [p for p in _neighbours(path) if (channel_set(p.name) or "").lower() == own.lower()]
+    return [found for found in (_load(p, blob, budget) for p in alike) if _recording(found) == _recording(blob)]
+
+
+def _recording(blob: Blob) -> tuple[object, ...]:
+    """Return what the headers of the channels of one recording share: format, station, place and time."""
+    head = blob.held[:8192]
+    text = head.decode("latin-1")
+    if is_smc(head):
+        lines = text.splitlines()
+        return ("SMC", lines[0].strip(), lines[3].split(), lines[5].lower().partition("component")[0].split(), lines[11].split()[1:7])
+    if is_esm(head):
+        keys = ("STATION_CODE", "LOCATION", "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS", "UNITS", "DATA_TYPE")
+        return ("ESM", *(re.findall(rf"^{key}:(.*)$", text, re.MULTILINE) for key in keys))
+    if is_cosmos(head):
+        lines = [*text.splitlines(), *[""] * 9]
+        begun = re.sub(r"\s*RcrdId.*", "", lines[7])
+        return ("COSMOS", lines[0][:40], lines[4], begun, lines[8].partition("Location:")[2].strip())
+    return (None,)
 
 
 def _of_knet(blob: Blob, path: Path, level: str | None, budget: Budget) -> list[Blob]:

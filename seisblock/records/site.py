@@ -7,7 +7,18 @@ from datetime import datetime, timedelta
 
 from seisblock.records.record import Record
 
-CLOCKS = {"JST": timedelta(hours=9)}
+CLOCKS = {
+    "UTC": timedelta(0),
+    "GMT": timedelta(0),
+    "JST": timedelta(hours=9),
+    "PST": timedelta(hours=-8),
+    "PDT": timedelta(hours=-7),
+    "MST": timedelta(hours=-7),
+    "MDT": timedelta(hours=-6),
+    "AKST": timedelta(hours=-9),
+    "AKDT": timedelta(hours=-8),
+    "HST": timedelta(hours=-10),
+}
 """Clocks of the networks whose files tell local time, ahead of UTC; a reader names it in ``metadata["clock"]``."""
 
 

@@ -14,6 +14,7 @@ import numpy as np
 import obspy
 
 from seisblock.records import Record
+from tests.readers import layouts
 from tests.readers.files import JMA_HEADER, KNET_CSV, knet, tar
 
 RNG = np.random.default_rng(11)
@@ -81,6 +82,16 @@ def judge_at2(data: bytes, record: Record) -> str:
     """Compare the count with NPTS."""
     stated = re.search(rb"NPTS\s*=\s*(\d+)", data, re.IGNORECASE)
     return "" if stated and int(stated[1]) == record.samples else f"{record.samples} samples, NPTS is another number"
+
+
+_PROMISES = rb"(?:NDATA:|NO. OF POINTS =|Number of points)\s*(\d+)|(\d+) (?: acceleration pts|POINTS OF INSTRUMENT)"
+
+
+def judge_promised(data: bytes, record: Record) -> str:
+    """Compare the count with the one that the header of the first component promises."""
+    stated = re.search(_PROMISES, data, re.IGNORECASE)
+    found = record.samples if stated is None else int(stated[1] or stated[2])
+    return "" if found == record.samples else f"{record.samples} samples where the header promises {found}"
 
 
 def judge_jma(data: bytes, record: Record) -> str:
@@ -202,6 +213,13 @@ WRITERS: dict[str, Writer] = {
     "kiknet": _knet(1, direction="5", station="NGNH31"),
     "knet-csv": _knet_csv,
     "at2": _at2,
+    "csmip-v1": lambda rows: layouts.csmip(rows, volume=1).encode(),
+    "csmip-v2": lambda rows: layouts.csmip(rows).encode(),
+    "cosmos": lambda rows: layouts.cosmos(rows[0]).encode(),
+    "smc": lambda rows: layouts.smc(rows[0]).encode(),
+    "esm": lambda rows: layouts.esm(rows[0]).encode(),
+    "geonet-v1": lambda rows: layouts.geonet(rows).encode(),
+    "geonet-v2": lambda rows: layouts.geonet(rows, volume=2).encode(),
     "comma": _table(",", "time,NS (gal),EW (gal),UD (gal)"),
     "blank": _table(" ", "t(s) ns_gal ew_gal ud_gal"),
     "semicolon": _table(";", "time;N10E (m/s2);N80W (m/s2);UD (m/s2)", "{:.5f}", 100.0),
@@ -223,6 +241,12 @@ JUDGES: dict[str, Callable[[bytes, Record], str]] = {
     "kiknet": judge_knet,
     "knet-csv": judge_knet_csv,
     "at2": judge_at2,
+    "csmip-v1": judge_promised,
+    "csmip-v2": judge_promised,
+    "cosmos": judge_promised,
+    "esm": judge_promised,
+    "geonet-v1": judge_promised,
+    "geonet-v2": judge_promised,
     "comma": judge_clock,
     "blank": judge_clock,
     "semicolon": judge_clock,

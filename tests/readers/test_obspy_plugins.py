@@ -1,4 +1,4 @@
-"""obspy reads JMA CSV, K-NET CSV and AT2 through the plugins, and they claim nothing else."""
+"""obspy reads JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM and GeoNet through the plugins, and they claim nothing else."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import pytest
 from obspy.core.util.base import ENTRY_POINTS, buffered_load_entry_point
 
 from seisblock.readers import obspy_plugins, read, sample_path
+from tests.fuzz.formats import FORMATS
 from tests.readers.files import JMA_BODY, JMA_HEADER, KIK_CSV, KNET_CSV, KOBE, knet
 
 AT2 = "PEER\nEvent, 1/1/2000, Place, 90\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=  3, DT= .0100 SEC\n.1 .2 .3\n"
@@ -22,8 +23,13 @@ OURS = {
     "knet-csv": (KNET_CSV.encode(), obspy_plugins.is_knet_csv, obspy_plugins.read_knet_csv),
     "kik-csv": (KIK_CSV.encode(), obspy_plugins.is_knet_csv, obspy_plugins.read_knet_csv),
     "at2": (AT2.encode(), obspy_plugins.is_at2, obspy_plugins.read_at2),
+    "csmip": (FORMATS["csmip-v2"].data, obspy_plugins.is_csmip, obspy_plugins.read_csmip),
+    "cosmos": (FORMATS["cosmos"].data, obspy_plugins.is_cosmos, obspy_plugins.read_cosmos),
+    "smc": (FORMATS["smc"].data, obspy_plugins.is_smc, obspy_plugins.read_smc),
+    "esm": (FORMATS["esm"].data, obspy_plugins.is_esm, obspy_plugins.read_esm),
+    "geonet": (FORMATS["geonet-v1"].data, obspy_plugins.is_geonet, obspy_plugins.read_geonet),
 }
-CLAIMS = {obspy_plugins.is_jma_csv, obspy_plugins.is_knet_csv, obspy_plugins.is_at2}
+CLAIMS = {claims for _, claims, _ in OURS.values()}
 
 
 @pytest.mark.parametrize("kind", OURS)
