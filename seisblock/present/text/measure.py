@@ -93,12 +93,12 @@ def _sentences(answer: RecordMeasures, *, gal: bool) -> Iterator[str]:
         yield tell("JMA intensity {value:.2f}, class {name}", value=answer.jma_intensity, name=tell(answer.jma_class or ""))
     slow = answer.long_period
     if slow is not None:
-        unit, speed = ("kine", KINE) if gal else ("m/s", 1.0)
+        v = velocity_unit(gal=gal)
         yield tell(
             "JMA class of long-period motion {name}: floors of tall buildings at up to {velocity} {unit} (period {period:g} s)",
             name=slow.long_period_class,
-            velocity=number(slow.floor_velocity_m_s / speed),
-            unit=unit,
+            velocity=number(slow.floor_velocity_m_s / v.size),
+            unit=v.name,
             period=slow.period_s,
         )
     worst = answer.horizontal
