@@ -63,6 +63,14 @@ GROUND_MOTION = (
         kind="book",
     ),
     Reference(
+        "FEMAP58",
+        "Applied Technology Council",
+        2018,
+        "Seismic performance assessment of buildings, volume 3: supporting electronic materials, fragility database 3.1.2",
+        "FEMA P-58-3, Federal Emergency Management Agency, Washington, D.C.",
+        kind="techreport",
+    ),
+    Reference(
         "Chopra2012",
         "Chopra, A. K.",
         2012,
@@ -80,4 +88,4 @@ GROUND_MOTION = (
         kind="techreport",
     ),
 )
-"""What synthetic records, the motion of storeys and long periods rest on."""
+"""What synthetic records, the motion of storeys, long periods and shelves rest on."""

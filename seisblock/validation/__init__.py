@@ -18,6 +18,7 @@ PAPERS: tuple[str, ...] = (
     "furukawa",
     "furukawa_field",
     "furukawa_pile",
+    "fema_p58",
 )
 """Modules of this package that export CASES."""
 
