@@ -18,6 +18,7 @@ from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
 from seisblock.errors import OutputError, ParameterError
 from seisblock.present.documents.fragility import document
+from seisblock.present.exports.knet import write_knet
 from seisblock.present.exports.openquake import nrml
 from seisblock.present.exports.pelicun import pelicun_metadata, pelicun_rows
 from seisblock.present.files import refuse_collisions, write_records, write_table, write_text
@@ -116,7 +117,7 @@ def _records(source: Source, asked: Mapping[str, Any]) -> tuple[list[Record], tu
     say("{count} synthetic records, no recordings: of one source, path and site, they differ less than records do", count=len(made))
     if asked["suite_out"] is not None:
         with progress("writing the records"):
-            write_records(asked["suite_out"], made)
+            (write_knet if asked["suite_format"] == "knet" else write_records)(asked["suite_out"], made)
         say("wrote {path}", path=asked["suite_out"])
     return made, (), suite
 

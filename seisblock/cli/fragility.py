@@ -39,7 +39,15 @@ METHODS = ("stripes", "ida", "cloud")
     type=click.Path(path_type=Path, file_okay=False),
     metavar="FOLDER",
     section="Output",
-    help="Write the synthetic records to this folder, as CSV in m/s^2 with all their digits.",
+    help="Write the synthetic records to this folder, as --suite-format says.",
+)
+@option(
+    "--suite-format",
+    type=click.Choice(["csv", "knet"]),
+    default="csv",
+    show_default=True,
+    section="Output",
+    help="CSV in m/s^2 with all their digits, or three files each in the layout of K-NET ASCII (counts of 1e-4 gal).",
 )
 @block_options
 @option(

@@ -154,6 +154,22 @@ def write_text(path: Path | str, text: str) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
+def made_folder(folder: Path) -> None:
+    """Make a folder, unless it is there.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be made, or is a file.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise OutputError("cannot write into {directory}: it is a file; give a directory", directory=folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError("cannot make the directory {directory}: {reason}", directory=folder, reason=reason(error)) from error
+
+
 def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
     """Write records as CSV with all their digits, one file each, into a folder that is made if need be; return the files.
 
@@ -162,12 +178,7 @@ def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
     OutputError
         If the folder cannot be made, or a file not be written.
     """
-    if folder.exists() and not folder.is_dir():
-        raise OutputError("cannot write into {directory}: it is a file; give a directory", directory=folder)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError("cannot make the directory {directory}: {reason}", directory=folder, reason=reason(error)) from error
+    made_folder(folder)
     written = []
     for record in records:
         path = folder / f"{record.source}.csv"

@@ -6,6 +6,7 @@ import json
 from itertools import pairwise
 
 import numpy as np
+import obspy
 import pytest
 from click.testing import CliRunner
 
@@ -13,6 +14,8 @@ import seisblock
 from seisblock.cli import main
 from seisblock.errors import InputError, ParameterError
 from seisblock.measures.spectra import response_spectrum
+from seisblock.present.exports.knet import write_knet
+from seisblock.records import process
 from seisblock.records.synthetic.point_source import PointSource
 from seisblock.records.synthetic.suite import named_suite, synthetic_suite
 
@@ -174,6 +177,37 @@ class TestCommand:
         assert [{**r, "efficiency": None} for r in document["results"]] == [{**r, "efficiency": None} for r in read["results"]]
         assert document["parameters"]["suite"] == "synthetic:M6.5:R15:4" and read["parameters"]["suite"] is None
         assert any("Boore" in text for text in document["citations"]) and not any("Boore" in text for text in read["citations"])
+
+    def test_files_in_the_layout_of_knet_are_read_back(self, run, tmp_path):
+        """Three to a record, to the last bit, by our reader without a doubt and by obspy; the study of the folder is that of the suite."""
+        made = run("--suite", "synthetic:M6.5:R15:4", "--suite-out", "made", "--suite-format", "knet", "--seed", 3, "--json")
+        assert made.exit_code == 0, made.stderr
+        files = sorted((tmp_path / "made").iterdir())
+        assert [path.name for path in files[:3]] == [f"SYN0010001010000.{code}" for code in ("EW", "NS", "UD")] and len(files) == 12
+        for number, record in enumerate(synthetic_suite(6.5, 15.0, 4, seed=3), start=1):
+            path = tmp_path / "made" / f"SYN{number:03d}0001010000.EW"
+            back = seisblock.read(path)
+            assert back.format == "KNET" and not back.doubts and back.metadata["memo"] == "synthetic, no recording"
+            assert {c.code: c.acceleration.tolist() for c in back.components} == {
+                c.code: c.acceleration.tolist() for c in record.components
+            }
+            trace = obspy.read(path, format="KNET")[0]
+            found = trace.data * trace.stats.calib
+            assert np.allclose(found, record.component("EW").acceleration, rtol=0, atol=1e-9)
+        document, read = (json.loads(each.stdout)["results"] for each in (made, run("made", "--seed", 3, "--no-demean", "--json")))
+        assert [{**r, "efficiency": None} for r in document] == [{**r, "efficiency": None} for r in read]
+
+    def test_strong_shaking_gets_coarser_counts(self, tmp_path):
+        """Beyond 999 gal a count is a thousandth: within half of it, and in its column."""
+        (record,) = synthetic_suite(7.0, 20.0, 1)
+        strong = process.scale(record, 20.0 / np.abs(record.component("NS").acceleration).max())
+        for path in write_knet(tmp_path, [strong]):
+            lines = path.read_text().splitlines()
+            assert max(map(len, lines[17:])) == 72
+        back = seisblock.read(tmp_path / "SYN0010001010000.NS")
+        for c in strong.components:
+            quantum = 1e-5 if np.abs(c.acceleration).max() > 9.999 else 1e-6
+            assert np.abs(back.component(c.code).acceleration - c.acceleration).max() <= quantum * 0.5001
 
     def test_what_is_no_recording_is_said_to_be_none(self, run, monkeypatch):
         """Without RECORD it says which records it takes, and that they are synthetic."""
