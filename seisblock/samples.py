@@ -10,7 +10,10 @@ from pathlib import Path
 from seisblock.errors import RecordNotFoundError
 
 DEFAULT_SAMPLE = "synthetic_jma.csv"
-"""The sample that commands use when no record is named."""
+"""The sample that commands use when no record is named: no bundled recording is strong enough to let what they are about happen."""
+
+REAL_SAMPLE = "hanmer_springs_2016.V1A.gz"
+"""The sample that stands for none where a recording shows more: what it is, where it was made, and of what earthquake."""
 
 MANIFEST = "MANIFEST.toml"
 

@@ -13,7 +13,7 @@ from seisblock.errors import ComponentError, ParameterError
 from seisblock.records import Motion, Preparation, Record, motion_of
 
 
-def load(source: Source, *, vertical_counts: bool = False, whole: bool = False) -> list[Record]:
+def load(source: Source, *, vertical_counts: bool = False, whole: bool = False, real: bool = False) -> list[Record]:
     """Read the records a command was given and prepare them as its options ask.
 
     Parameters
@@ -24,13 +24,18 @@ def load(source: Source, *, vertical_counts: bool = False, whole: bool = False) 
         Whether the vertical component is among those a command looks at by default.
     whole : bool
         Whether the record stays whole, because its windows are the solver's.
+    real : bool
+        Whether a recording stands for none, instead of the synthetic sample.
     """
     if not whole:
         refuse_windows(source)
-    from seisblock.readers import DEFAULT_SAMPLE, read_all
+    from seisblock.readers import DEFAULT_SAMPLE, REAL_SAMPLE, read_all
 
     names: tuple[str, ...] = source.record
-    if not names:
+    if not names and real:
+        names = (REAL_SAMPLE,)
+        say("no RECORD given: using the bundled sample {name}", name=REAL_SAMPLE)
+    elif not names:
         names = (DEFAULT_SAMPLE,)
         say("no RECORD given: using the bundled sample {name} (synthetic)", name=DEFAULT_SAMPLE)
     with progress("reading {names}", names=[Path(name).name for name in names]):

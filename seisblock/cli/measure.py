@@ -10,7 +10,7 @@ import click
 from seisblock.cli.bodies.options import side_option, two_layer_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.meant import OneOf
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
 from seisblock.cli.types import LENGTH
@@ -47,7 +47,7 @@ def _corner(ctx: click.Context, param: click.Parameter, value: float) -> float |
     cls=Command,
     examples=("seisblock measure", "seisblock measure record.csv --width 24cm --height 72cm --plot record.png"),
 )
-@record_options
+@real_record_options
 @option(
     "--threshold",
     callback=_acceleration,
@@ -97,7 +97,7 @@ def measure(
 
     rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=SIDES[direction], gravity_m_s2=gravity)
     level, origin = _threshold(gravity=gravity, **threshold)
-    records = load(source, vertical_counts=True)
+    records = load(source, vertical_counts=True, real=True)
     answers = [measured(r, components(r, source, vertical_counts=True), threshold=level, conventions=rules) for r in records]
     answer = document(records, answers, rules, threshold=level, threshold_from=origin)
 

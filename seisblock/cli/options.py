@@ -65,15 +65,14 @@ def _components(ctx: click.Context, param: click.Parameter, value: tuple[str, ..
     return tuple(part.strip() for text in value for part in text.split(",") if part.strip())
 
 
+def _record(told: str) -> Callable[[Function], Function]:
+    """Return the argument RECORD, of which the help says what stands for none."""
+    return argument("record", nargs=-1, metavar="[RECORD]...", section="Record", shell_complete=offered.records, help=told)
+
+
+_RECORD = _record(noted("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]"))
+_REAL_RECORD = _record(noted("Files, or names of bundled samples; - is stdin. [default: hanmer_springs_2016, bundled]"))
 _RECORD_OPTIONS = (
-    argument(
-        "record",
-        nargs=-1,
-        metavar="[RECORD]...",
-        section="Record",
-        shell_complete=offered.records,
-        help="Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]",
-    ),
     option(
         "--component",
         multiple=True,
@@ -194,12 +193,17 @@ _QUIET = option("--quiet", is_flag=True, section="Output", help="Nothing on stde
 
 def record_options(function: Function) -> Function:
     """Give a command RECORD and the options that select and prepare it; it receives one ``source``."""
-    return _collected(function, _RECORD_OPTIONS, Source, "source")
+    return _collected(function, (_RECORD, *_RECORD_OPTIONS), Source, "source")
+
+
+def real_record_options(function: Function) -> Function:
+    """Give a command the same, where a recording stands for none."""
+    return _collected(function, (_REAL_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def preparing_options(function: Function) -> Function:
     """Give a command the options that prepare records that it is told of otherwise; it receives one ``source``, of no record."""
-    return _collected(function, _RECORD_OPTIONS[1:], Source, "source", record=())
+    return _collected(function, _RECORD_OPTIONS, Source, "source", record=())
 
 
 def output_options(*, histories: bool = True, film: bool = True, accelerations: bool = True) -> Callable[[Function], Function]:

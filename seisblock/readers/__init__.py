@@ -1,6 +1,6 @@
 """How a record is read: formats of JMA, NIED and PEER, plain tables, and whatever obspy knows."""
 
 from seisblock.readers.read import read, read_all
-from seisblock.samples import DEFAULT_SAMPLE, Sample, list_samples, sample_path
+from seisblock.samples import DEFAULT_SAMPLE, REAL_SAMPLE, Sample, list_samples, sample_path
 
-__all__ = ["DEFAULT_SAMPLE", "Sample", "list_samples", "read", "read_all", "sample_path"]
+__all__ = ["DEFAULT_SAMPLE", "REAL_SAMPLE", "Sample", "list_samples", "read", "read_all", "sample_path"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import datetime, timedelta
+from math import asin, cos, radians, sin, sqrt
 
 from seisblock.records.record import Record
 
@@ -23,6 +24,9 @@ CLOCKS = {
 
 
 HALF_A_SECOND = timedelta(seconds=0.5)
+
+EARTH_KM = 6371.0
+"""Mean radius of the Earth."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +67,8 @@ class Earthquake:
         Epicentre, degrees north and east.
     depth_km : float or None
     magnitude : float or None
+    name : str
+        As the file calls it, empty where it does not.
     """
 
     origin_time: datetime | None = None
@@ -70,12 +76,15 @@ class Earthquake:
     longitude_deg: float | None = None
     depth_km: float | None = None
     magnitude: float | None = None
+    name: str = ""
 
 
 def site_of(record: Record) -> Site:
     """Return where a record was made."""
     name = record.metadata.get("station_name")
     latitude, longitude, height = (_number(record, f"station_{key}") for key in ("latitude_deg", "longitude_deg", "height_m"))
+    if not latitude and not longitude:
+        latitude = longitude = None  # zeros for both are how some networks say that they do not know
     return Site(record.station, name if isinstance(name, str) else "", latitude, longitude, height)
 
 
@@ -86,7 +95,33 @@ def earthquake_of(record: Record) -> Earthquake | None:
     magnitude = _number(record, "magnitude")
     if not any((latitude, longitude, depth, magnitude)):
         return None
-    return Earthquake(origin if isinstance(origin, datetime) else None, latitude, longitude, depth, magnitude)
+    name = record.metadata.get("event_name")
+    moment = origin if isinstance(origin, datetime) else None
+    return Earthquake(moment, latitude, longitude, depth, magnitude, name if isinstance(name, str) else "")
+
+
+def epicentral_distance_km(record: Record) -> float | None:
+    """Return how far the station is from the epicentre, km: as the file says, else along the great circle between their coordinates."""
+    told = _number(record, "epicentral_distance_km")
+    if told is not None:
+        return told
+    site, earthquake = site_of(record), earthquake_of(record)
+    if earthquake is None or None in (site.latitude_deg, site.longitude_deg, earthquake.latitude_deg, earthquake.longitude_deg):
+        return None
+    return great_circle_km((site.latitude_deg, site.longitude_deg), (earthquake.latitude_deg, earthquake.longitude_deg))  # type: ignore[arg-type]
+
+
+def great_circle_km(one: tuple[float, float], other: tuple[float, float]) -> float:
+    """Return how far two places are apart on a sphere of the Earth's mean radius, km; places are latitude and longitude, degrees.
+
+    Examples
+    --------
+    >>> round(great_circle_km((0.0, 0.0), (0.0, 90.0)))
+    10008
+    """
+    (north, east), (further, beyond) = ([radians(degrees) for degrees in place] for place in (one, other))
+    half = sin((further - north) / 2.0) ** 2 + cos(north) * cos(further) * sin((beyond - east) / 2.0) ** 2
+    return 2.0 * EARTH_KM * asin(min(sqrt(half), 1.0))
 
 
 def told_time(record: Record, moment: datetime | None) -> str:

@@ -55,8 +55,13 @@ def test_nothing_moves_where_there_is_no_motion():
 def test_measure_says_it(monkeypatch):
     """EW of the sample: 183 to 237 kine, 0.65 to 0.84 Hz, in the table and in the document with units in the keys."""
     monkeypatch.setenv("COLUMNS", "200")
-    assert "EW: PGV 183 to 237 kine and f 0.648 to 0.836 Hz with the usual high-passes" in CliRunner().invoke(main, ["measure"]).stdout
-    found = json.loads(CliRunner().invoke(main, ["measure", "--json", "--component", "EW"]).stdout)["results"][0]["usual_highpass"]
+    assert (
+        "EW: PGV 183 to 237 kine and f 0.648 to 0.836 Hz with the usual high-passes"
+        in CliRunner().invoke(main, ["measure", "synthetic_jma"]).stdout
+    )
+    found = json.loads(CliRunner().invoke(main, ["measure", "synthetic_jma", "--json", "--component", "EW"]).stdout)["results"][0][
+        "usual_highpass"
+    ]
     assert found["highpass_hz"] == [0.05, 0.1]
     assert found["pgv_m_s"] == pytest.approx([1.83, 2.37], abs=0.01)
     assert found["pga_pgv_hz"] == pytest.approx([0.648, 0.836], abs=0.001)

@@ -171,11 +171,11 @@ def test_the_standard_input_is_a_record():
 
 def test_a_table_goes_to_stdout():
     """``--csv -`` writes the table to stdout and nothing else; what would also go there is refused."""
-    found = CliRunner().invoke(main, ["measure", "--csv", "-", "--quiet", "--component", "NS"])
+    found = CliRunner().invoke(main, ["measure", "synthetic_jma", "--csv", "-", "--quiet", "--component", "NS"])
     assert found.stdout.splitlines()[0] == "time_s,NS_acceleration_m_s2,NS_velocity_m_s,NS_displacement_m"
     assert len(found.stdout.splitlines()) == 6001
     for words in (["--json"], ["--plot", "-"]):
-        both = CliRunner().invoke(main, ["measure", "--csv", "-", *words])
+        both = CliRunner().invoke(main, ["measure", "synthetic_jma", "--csv", "-", *words])
         assert both.exit_code == 3
         assert "writes to stdout, and nothing else: leave" in both.stderr
 

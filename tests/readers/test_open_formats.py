@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from seisblock.errors import ComponentError, RecordError, RecordFormatError, UnitError
-from seisblock.readers import read, read_all
+from seisblock.readers import list_samples, read, read_all
 from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import gather
 from seisblock.records import motion_of
@@ -223,3 +223,16 @@ def test_numbers_that_touch_are_numbers_of_their_own(tmp_path):
     assert read(path).samples == 600
     with pytest.raises(RecordFormatError, match="expected 8 numbers of 10 characters each"):
         read(written(tmp_path, text.replace(line, line[:30] + line[31:])))
+
+
+@pytest.mark.parametrize(("name", "start"), [("hanmer_springs_2016", "2016-11-13T11:02:20"), ("shafter_1989", "1989-10-18T00:04:00")])
+def test_bundled_recordings_are_read_to_their_headers_peak(name, start):
+    """GeoNet's Hanmer Springs and the Shafter record of the USGS: no doubt about their headers, the peaks that the manifest tells."""
+    record = read(name)
+    told = next(sample.pga_gal for sample in list_samples() if sample.name.startswith(name))
+    assert {code: 100.0 * float(np.abs(record.component(code).acceleration).max()) for code in record.codes} == pytest.approx(
+        told, abs=5e-4
+    )
+    assert not any(doubt.kind == "header" for doubt in record.doubts)
+    assert record.start.isoformat().startswith(start)
+    assert len(record.horizontals) == 2 and record.vertical is not None

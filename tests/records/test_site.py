@@ -5,11 +5,14 @@ from datetime import UTC, datetime
 
 import pytest
 from click.testing import CliRunner
+from obspy.geodetics import gps2dist_azimuth
 
 from seisblock.cli import main
+from seisblock.present.figures.heading import heading
+from seisblock.present.text.whereabouts import whereabouts
 from seisblock.readers import read
 from seisblock.records import Component, Record
-from seisblock.records.site import Earthquake, Site, earthquake_of, site_of, told_time
+from seisblock.records.site import Earthquake, Site, earthquake_of, epicentral_distance_km, great_circle_km, site_of, told_time
 
 JMA = """SITE CODE=  47772大阪市中央区,32.7417,130.8083,12,7.3,42476.0593171296,2.1,3.4
 LAT.=   34.6819
@@ -58,4 +61,32 @@ def test_tables_and_documents_tell_it(jma):
     entry = json.loads(CliRunner().invoke(main, ["slide", str(jma), "--mu", "0.4", "--json"]).stdout)["record"]
     assert entry["station_name"] == "大阪市中央区" and entry["latitude_deg"] == 34.6819 and entry["longitude_deg"] == 135.5183
     assert entry["start"] == "2016-04-15T16:25:00+00:00" and entry["local_start"] == "2016-04-16 01:25:00 JST"
+    assert entry["epicentral_distance_km"] == pytest.approx(486.1, abs=0.1) and "486 km away" in " ".join(told.stdout.split())
+    assert "station at 34.6819 N 135.518 E" in told.stdout
     assert entry["earthquake"]["magnitude"] == 7.3 and entry["earthquake"]["origin_time"].startswith("2016-04-15T16:25:2")
+
+
+def test_a_real_record_tells_where_and_of_what_earthquake_everywhere(tmp_path):
+    """Station, hemispheres, name of the earthquake and the file's own distance: in tables, documents, figures and reports."""
+    told = " ".join(CliRunner().invoke(main, ["measure", "--json", "--window", "45:60"]).stdout.split())
+    entry = json.loads(told)["record"]
+    assert (entry["station"], entry["station_name"]) == ("HSES", "Hanmer Springs Emergency Centre")
+    assert entry["earthquake"]["name"] == "5 km south-west of Waiau"
+    assert (entry["epicentral_distance_km"], entry["latitude_deg"]) == (25.0, -42.52333)
+    shown = " ".join(CliRunner().invoke(main, ["measure", "--window", "45:60"]).stdout.split())
+    assert "station at 42.5233 S 172.831 E" in shown
+    assert "earthquake of magnitude 7.82, 5 km south-west of Waiau, 15 km deep, 42.6925 S 173.022 E, 25 km away" in shown
+    record = read("hanmer_springs_2016")
+    assert "M 7.8, 25 km" in heading(record)
+    assert whereabouts(record)[0] == "station at 42.5233 S 172.831 E"
+
+
+def test_distances_on_the_sphere():
+    """Within the flattening of the Earth of the geodesic; zeros for a place are no place."""
+    for one, other in (((35.681, 139.767), (34.702, 135.496)), ((0.0, 179.5), (0.0, -179.5)), ((-42.523, 172.831), (-42.693, 173.022))):
+        assert great_circle_km(one, other) == pytest.approx(gps2dist_azimuth(*one, *other)[0] / 1000.0, rel=0.005)
+    nowhere = Record(
+        (Component("NS", [0.0, 1.0]),), 0.01, metadata={"station_latitude_deg": 0.0, "station_longitude_deg": 0.0, "magnitude": 6.0}
+    )
+    assert site_of(nowhere).latitude_deg is None
+    assert epicentral_distance_km(nowhere) is None

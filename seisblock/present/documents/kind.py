@@ -15,7 +15,7 @@ from seisblock import __version__
 from seisblock.present.documents.versions import schema_name
 from seisblock.records import Doubt, Record
 from seisblock.records.doubtful import sentences
-from seisblock.records.site import earthquake_of, site_of, told_time
+from seisblock.records.site import earthquake_of, epicentral_distance_km, site_of, told_time
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
@@ -49,6 +49,8 @@ class EarthquakeEntry(Struct, frozen=True, kw_only=True):
         Epicentre, degrees north and east.
     depth_km : float or None
     magnitude : float or None
+    name : str
+        Empty where the file has none.
     """
 
     origin_time: str | None
@@ -56,6 +58,7 @@ class EarthquakeEntry(Struct, frozen=True, kw_only=True):
     longitude_deg: float | None
     depth_km: float | None
     magnitude: float | None
+    name: str
 
 
 def _earthquake_entry(record: Record) -> EarthquakeEntry | None:
@@ -69,6 +72,7 @@ def _earthquake_entry(record: Record) -> EarthquakeEntry | None:
         longitude_deg=told.longitude_deg,
         depth_km=told.depth_km,
         magnitude=told.magnitude,
+        name=told.name,
     )
 
 
@@ -87,6 +91,8 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
     local_start : str
         The same as the network's own clock tells it, with the name of the clock; empty where it is unknown.
     earthquake : Earthquake or None
+    epicentral_distance_km : float or None
+        From the epicentre to the station.
     dt_s : float
         Sampling interval.
     samples : int
@@ -112,6 +118,7 @@ class RecordEntry(Struct, frozen=True, kw_only=True):
     start: str | None
     local_start: str
     earthquake: EarthquakeEntry | None
+    epicentral_distance_km: float | None
     dt_s: float
     samples: int
     sha256: str
@@ -134,6 +141,7 @@ def record_entry(record: Record) -> RecordEntry:
         longitude_deg=site.longitude_deg,
         local_start=told_time(record, record.start),
         earthquake=_earthquake_entry(record),
+        epicentral_distance_km=epicentral_distance_km(record),
         start=record.start.isoformat() if record.start else None,
         dt_s=record.dt,
         samples=record.samples,

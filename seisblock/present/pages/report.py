@@ -15,6 +15,7 @@ from seisblock.present.page import page
 from seisblock.present.pages import report_words as words
 from seisblock.present.scales import acceleration_unit, length_unit, velocity_unit
 from seisblock.present.text.tables import NOTHING, acceleration, history, number, seconds, told_acceleration
+from seisblock.present.text.whereabouts import whereabouts
 from seisblock.records.doubtful import sentences as doubts
 from seisblock.records.site import site_of, told_time
 from seisblock.references import REFERENCES
@@ -44,7 +45,7 @@ def report(found: Assessment, *, command: str = "") -> str:
     return page(
         "report.html",
         tell("What {name} does to what stands there", name=site_of(record).label or record.source or tell("record")),
-        subtitles=[about],
+        subtitles=[about, *whereabouts(record)],
         processed=history(record) if record.history else "",
         foot=", ".join(found.citations),
         contents=_contents(found),

@@ -14,10 +14,11 @@ from rich.table import Table
 from rich.text import Text
 
 from seisblock.present.scales import acceleration_unit
+from seisblock.present.text.whereabouts import whereabouts
 from seisblock.present.wrap import breaks, fits, has_units, is_wide
 from seisblock.records import Record
-from seisblock.records.site import Earthquake, earthquake_of, site_of, told_time
-from seisblock.words import listed, plain_text, tell
+from seisblock.records.site import site_of, told_time
+from seisblock.words import plain_text, tell
 
 Item = TypeVar("Item")
 
@@ -210,27 +211,12 @@ def record_line(record: Record) -> Text:
         format=record.format,
     )
     shown = line(told, "bold")
-    earthquake = earthquake_of(record)
-    if earthquake is not None:
-        shown.append(f"\n{plain_text(_earthquake_line(record, earthquake))}", style="not bold")
+    for told in whereabouts(record):
+        shown.append(f"\n{plain_text(told)}", style="not bold")
     shown.append(f"\n{plain_text(history(record))}", style="dim not bold")
     for doubt in record.doubts:
         shown.append("\n" + tell("doubtful: {doubt}", doubt=doubt.message), style="yellow not bold")
     return shown
-
-
-def _earthquake_line(record: Record, earthquake: Earthquake) -> str:
-    """Return what shook: magnitude, depth, epicentre and origin time, as far as they are known."""
-    parts = []
-    if earthquake.magnitude is not None:
-        parts.append(tell("earthquake of magnitude {magnitude:g}", magnitude=earthquake.magnitude))
-    if earthquake.depth_km is not None:
-        parts.append(tell("{depth:g} km deep", depth=earthquake.depth_km))
-    if earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
-        parts.append(tell("{north:g} N {east:g} E", north=earthquake.latitude_deg, east=earthquake.longitude_deg))
-    if earthquake.origin_time is not None:
-        parts.append(told_time(record, earthquake.origin_time))
-    return listed(parts)
 
 
 def history(record: Record) -> str:
