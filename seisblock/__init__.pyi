@@ -10,6 +10,7 @@ from .bodies.pile.contact import PileContact
 from .bodies.pile.pile import Pile
 from .bodies.pile.stone import PileStone
 from .bodies.pile.toml import load_pile
+from .bodies.ranges import Ranges
 from .bodies.roster import ListedBody, read_bodies
 from .bodies.scan.body import ScannedBody
 from .bodies.scan.scan import Scanned, scan_body
@@ -174,6 +175,7 @@ __all__ = [
     "PileContact",
     "PileStone",
     "Probability",
+    "Ranges",
     "Rate",
     "rate_curve",
     "read",

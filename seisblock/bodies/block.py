@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, TypeVar
 
 from seisblock import checks
 from seisblock.bodies.inset import Inset
+from seisblock.bodies.ranges import Ranges
 from seisblock.errors import BodyError
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted, said
@@ -59,6 +60,8 @@ class Block:
     inset : float, m
         How far in from each side of its base the worn block turns, see :meth:`worn`; its mass, centre and inertia stay as they are.
     name : str
+    ranges : Ranges or None
+        Within which limits bodies of its kind lie: its plausible versions do, instead of differing by shares.
 
     Raises
     ------
@@ -82,12 +85,15 @@ class Block:
     centroid_inertia: float | None = None
     name: str = noted("block")
     inset: float = 0.0
+    ranges: Ranges | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         for key, (what, unit) in _POSITIVE.items():
             value = getattr(self, key)
             if value is not None:
                 checks.positive("{name}: {what}", value, unit, error=BodyError, name=self.name, what=what)
+        if self.ranges is not None:
+            checks.instance(self.ranges, Ranges)
         if not 0.0 <= self.inset < self.width / 2:
             raise BodyError(
                 "{name}: the inset must lie between 0 and half the width, {half:g} m; found {inset} m",
@@ -196,7 +202,12 @@ class Block:
         >>> round(Block(0.24, 0.72).worn(0.1).rocking_threshold(9.0), 6)
         2.4
         """
-        return replace(self, inset=(inset if isinstance(inset, Inset) else Inset(share=inset)).of(self.width))
+        deep = (inset if isinstance(inset, Inset) else Inset(share=inset)).of(self.width)
+        return replace(self.known("inset_m"), inset=deep)
+
+    def known(self, *names: str) -> Block:
+        """Return the block as one of which some sizes are known: without the ranges of these."""
+        return self if self.ranges is None else replace(self, ranges=self.ranges.without(*names))
 
     def rocking_threshold(self, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the horizontal ground acceleration above which it rocks, g b/h, m/s^2 ([Furukawa2009]_ eq. (2))."""
@@ -281,6 +292,7 @@ def resized(block: Block, *, size: float = 1.0, slenderness: float = 1.0) -> Blo
         centroid_offset=block.centroid_offset * size * slenderness,
         centroid_inertia=None,
         inset=block.inset * size * slenderness,
+        ranges=None,
     )
     if block.centroid_inertia is None:
         return bare

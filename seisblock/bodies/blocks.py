@@ -10,6 +10,7 @@ import numpy as np
 
 from seisblock.bodies.block import Block, lever_ratio, resized, restitution_onto
 from seisblock.bodies.inset import SHARP, Inset
+from seisblock.bodies.ranges import Ranges, within
 from seisblock.typing import ArrayLike, FloatArray, IntArray
 
 MOST_WORN = 0.8
@@ -131,6 +132,29 @@ def versions(block: Block, *, size: ArrayLike, slenderness: ArrayLike, inset_sha
         depth = float(inset[row]) / float(width[row])
         replace(resized(sharp, size=float(larger[row]), slenderness=float(wider[row])).worn(depth), centroid_offset=float(offset[row]))
     return Blocks(right, left, centre, gyration)
+
+
+def versions_within(
+    block: Block, known: Ranges, *, tall: FloatArray, wide: FloatArray, worn: FloatArray, size: float, inset: FloatArray
+) -> Blocks:
+    """Return versions of a block within the ranges of its kind, their width, height and edges drawn independently of each other.
+
+    Parameters
+    ----------
+    block : Block
+    known : Ranges
+    tall, wide, worn : (m,) arrays
+        In [-1, 1]: the height, the width and the worn edges of each version within their ranges.
+    size : float
+        How far, a share, a width or height differs for which there is no range.
+    inset : (m,) array
+        Edges where there is no range for them, a share of the width per side.
+    """
+    heights = block.height * (1.0 + size * tall) if known.height_m is None else within(known.height_m, tall)
+    widths = block.width * (1.0 + size * wide) if known.width_m is None else within(known.width_m, wide)
+    larger = heights / block.height
+    share = inset if known.inset_m is None else within(known.inset_m, worn) / widths
+    return versions(block, size=larger, slenderness=widths / block.width / larger, inset_share=share)
 
 
 def wear_within(block: Block, share: float) -> float:

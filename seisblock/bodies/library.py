@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.bodies.pile.toml import load_pile
+from seisblock.bodies.ranges import ranges_of
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.scan.toml import scanned_body
 from seisblock.bodies.toml import length, mass, number, read_table, refuse_unknown, shown, source_of, text
@@ -22,7 +24,7 @@ AnyBody = TypeVar("AnyBody")
 _LENGTHS = ("width", "height", "depth", "centroid_height", "centroid_offset")
 _NUMBERS = ("density", "centroid_inertia")
 _FRICTION = ("mu", "mu_kinetic")
-_KEYS = {"kind", "name", "mass", "restitution", "inset", *_FRICTION, *_LENGTHS, *_NUMBERS}
+_KEYS = {"kind", "name", "mass", "restitution", "inset", "ranges", *_FRICTION, *_LENGTHS, *_NUMBERS}
 
 
 def load_block(name: str | Path, *, side: str = "short") -> Block:
@@ -69,7 +71,9 @@ def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
     if "mass" in table:
         given["mass"] = mass(table, "mass")
     block = Block(**given, name=text(table, "name", where))
-    return block.worn(_inset(table)) if "inset" in table else block
+    worn = block.worn(_inset(table)) if "inset" in table else block
+    known = ranges_of(table, {"width": worn.width, "height": worn.height, "inset": worn.inset, "mu": number(table, "mu")})
+    return worn if known is None else replace(worn, ranges=known)
 
 
 def body_of(table: Mapping[str, Any], *, side: str = "short") -> Block | ScannedBody:

@@ -37,7 +37,7 @@ LIKE_NOTHING = (
     ("slide", "--blok", "gravestone"),  # not --plot
     ("criteria", "--slow", "2"),
     ("report", "--html", "x.html"),
-    ("rock", "--body", "gravestone"),
+    ("rock", "--corpse", "gravestone"),
     ("batch", "--solver", "falling"),
     ("rate",),
 )

@@ -38,6 +38,8 @@ _REST = (
     ),
     option(
         "--block",
+        "--body",
+        "block",
         metavar="NAME|FILE",
         shell_complete=offered.bodies(),
         section="Body",
@@ -54,7 +56,7 @@ _REST = (
 
 def two_layer_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Return ``--block`` of a two-layer block; one text says what it is there for."""
-    return option("--block", metavar="NAME|FILE", shell_complete=offered.bodies("two-layer"), section="Body", help=text)
+    return option("--block", "--body", "block", metavar="NAME|FILE", shell_complete=offered.bodies("two-layer"), section="Body", help=text)
 
 
 def side_option(text: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:

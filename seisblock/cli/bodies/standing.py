@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from seisblock.bodies.block import Block
 from seisblock.bodies.friction import SURFACES, surface
 from seisblock.bodies.library import friction_of
 from seisblock.bodies.toml import read_table
@@ -82,6 +83,7 @@ def choose_standing(asked: Mapping[str, Any]) -> StandingChoice:
     """
     chosen = choose_block({**asked, "restitution": None})
     mu, kinetic, origin = asked.get("mu"), asked.get("mu_kinetic"), said("as given")
+    body = chosen.body
     if asked.get("surface"):
         if mu is not None:
             raise BodyError("give either --mu or --surface, not both")
@@ -93,10 +95,12 @@ def choose_standing(asked: Mapping[str, Any]) -> StandingChoice:
         mu, own = friction_of(read_table(asked["block"]), asked["block"])
         kinetic = own if kinetic is None else kinetic
         origin = said("from {file}", file=asked["block"])
+    if isinstance(body, Block) and (asked.get("mu") is not None or asked.get("surface")):
+        body = body.known("mu")
     if mu is None:
         raise BodyError(
             "how rough is it under the body? Give --mu, the static friction coefficient, or --surface with a pair: {pairs}",
             pairs=list(SURFACES),
         )
     told = said("mu {mu:g}", mu=mu) if kinetic is None else said("mu {mu:g}, kinetic {kinetic:g}", mu=mu, kinetic=kinetic)
-    return StandingChoice(chosen.body, mu, kinetic, said("{body}; {friction} ({origin})", body=chosen.says, friction=told, origin=origin))
+    return StandingChoice(body, mu, kinetic, said("{body}; {friction} ({origin})", body=chosen.says, friction=told, origin=origin))

@@ -127,4 +127,6 @@ def chance_lines(found: Perturbation) -> tuple[str, str]:
         azimuth=s.azimuth_deg,
         inset=s.inset,
     )
+    if found.ranges is not None:
+        varied = strung([varied, tell("Instead of shares, the body's own ranges: {ranges}.", ranges=found.ranges.says)])
     return tell(text, **values, low=chance(low), high=chance(high)), varied

@@ -171,7 +171,7 @@ def falls_to(azimuth: float, towards: str | None) -> str:
 def varied(found: Probability) -> str:
     """Return what was varied, and what the share is worth."""
     by = found.versions
-    return tell(
+    told = tell(
         "of this model's scatter alone: size ±{size}, edges worn by 0 to {inset} of the width, friction ±{mu}, restitution up to "
         "+{restitution:g}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees; on shaking tables 3 % of two granite rocks fell where "
         "none of 20 versions did, and 2 % stood where all fell",
@@ -182,6 +182,9 @@ def varied(found: Probability) -> str:
         amplitude=roughly(by.amplitude),
         azimuth=by.azimuth_deg,
     )
+    if found.ranges is None:
+        return told
+    return tell("{told}; instead of shares, the body's own ranges: {ranges}", told=told, ranges=found.ranges.says)
 
 
 def _table(responses: Responds, *, gal: bool) -> Any:

@@ -167,7 +167,10 @@ def _own(listed: ListedBody, *names: str) -> dict[str, Any]:
 def _standing(listed: ListedBody, options: Told) -> Placed:
     """Place a free-standing block."""
     own = _own(listed, "restitution", "rocking_restitution", "tenon")
-    return Placed(listed.name, _rigid(listed), {**options, **own, **_friction(listed, options)})
+    body, friction = _rigid(listed), _friction(listed, options)
+    if isinstance(body, Block) and ("mu" in listed.told or "surface" in listed.told):
+        body = body.known("mu")
+    return Placed(listed.name, body, {**options, **own, **friction})
 
 
 def _rocking(listed: ListedBody, options: Told) -> Placed:

@@ -67,6 +67,7 @@ def _respond(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) 
     options = dict(placed.options)
     unit = np.array([1.0, 0.0, vertical_gain(motion, options.pop("vertical", None))])
     settle = options.pop("settle_s", 60.0)
+    alphas: float | FloatArray = min(stand(placed.body).slendernesses)
     if draws is None:
         settings: Any = [make_setting(placed.body, **options)] * factors.size
     else:
@@ -74,10 +75,11 @@ def _respond(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) 
             raise ParameterError("{name}: versions are made of blocks alone; leave `perturb` out", name=placed.name)
         every = np.tile(draws, (factors.size, 1))
         settings = changed_settings(placed.body, VERSIONS, every, **options)
+        alphas = settings.blocks.slendernesses.min(axis=1)
     gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
     fates = respond_many(settings, motion, gains=gains, settle_s=settle)
     slip = np.where(fates.overturned, np.inf, np.abs(fates.final_displacement_m))
-    return Ends(fates.overturned, fates.max_rotation_rad / min(stand(placed.body).slendernesses), slip)
+    return Ends(fates.overturned, fates.max_rotation_rad / alphas, slip)
 
 
 def _slide(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) -> Ends:

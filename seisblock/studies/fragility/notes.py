@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from seisblock.studies.batch.models import Placed
 from seisblock.studies.fragility.answer import Fragility
 from seisblock.studies.fragility.estimate import CLOUD, IDA, Rules
 from seisblock.studies.fragility.intensity import factors_for
@@ -64,3 +65,9 @@ def _of(curve: Fragility, values: FloatArray, rules: Rules, *, several: bool) ->
             size, unit = measure.shown()
             text = "{curve}: at the median, {median}, half of the records are scaled by {factor:.3g} and more: take stronger ones"
             yield said(text, curve=what, median=f"{curve.median / size:.4g} {unit}".strip(), factor=factor)
+
+
+def ranges_noted(bodies: Sequence[Placed]) -> list[Said]:
+    """Return a sentence for each body whose versions lie within the ranges of its own kind."""
+    known = ((placed.name, getattr(placed.body, "ranges", None)) for placed in bodies)
+    return [said("{body}: its versions lie within its own ranges: {ranges}", body=name, ranges=told.says) for name, told in known if told]

@@ -23,7 +23,7 @@ from seisblock.studies.fragility.followers import FOLLOWERS, PERTURBED, Draws, v
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for, intensity_measure
 from seisblock.studies.fragility.levels import STEPS, chosen_levels, levels_of
 from seisblock.studies.fragility.limits import LimitState, limit_states
-from seisblock.studies.fragility.notes import notes_on
+from seisblock.studies.fragility.notes import notes_on, ranges_noted
 from seisblock.studies.fragility.suite import Suite, read_suite, suite_of
 from seisblock.studies.intervals import CONFIDENCE
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
@@ -174,7 +174,7 @@ def run_fragility(
         raise ParameterError("{body}, {limit}: {why}", body=curves[0].body, limit=curves[0].limit, why=curves[0].problem)
     factors = [factors_for(grid, value[0][:, None], measures[0]) for grid, value in zip(grids, values, strict=True)]
     range_ = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
-    notes = (*left_out, *notes_on(curves, [value[0] for value in values], rules))
+    notes = (*left_out, *notes_on(curves, [value[0] for value in values], rules), *(ranges_noted(stand) if perturb else []))
     return FragilityStudy(curves, measures[0], solver, method, confidence, bands, range_, suite.records, notes)
 
 

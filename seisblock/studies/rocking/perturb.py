@@ -9,8 +9,9 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import versions, wear_within
+from seisblock.bodies.blocks import versions, versions_within, wear_within
 from seisblock.bodies.inset import HALF
+from seisblock.bodies.ranges import Ranges
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import check_call
@@ -75,6 +76,8 @@ class Perturbation:
         Wilson's interval at 95 %: what so few runs leave open of this model's own scatter, and no more.
     spread : Spread
     seed : int
+    ranges : Ranges or None
+        Of the body's own kind, where its file tells them: in these lie its versions, instead of the spread of size, slenderness and edges.
     """
 
     runs: int
@@ -84,6 +87,7 @@ class Perturbation:
     spread: Spread
     seed: int
     interval_of: str = OWN_SCATTER
+    ranges: Ranges | None = None
 
 
 def perturb(
@@ -138,13 +142,15 @@ def perturb(
     gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * some.vertical])
     found = all_verdicts(some, motion, gains, progress=progress)
     count = int(found.overturned.sum())
-    return Perturbation(runs, count, count / runs, wilson_interval(count, runs), spread, seed)
+    return Perturbation(
+        runs, count, count / runs, wilson_interval(count, runs), spread, seed, ranges=block.ranges and block.ranges.without("mu")
+    )
 
 
 def draws_of(runs: int, seed: int) -> FloatArray:
-    """Return what tells so many versions of a block and its shaking apart: five numbers in [-1, 1] and one in [0, 1] each, (runs, 6)."""
+    """Return what tells so many versions of a block and its shaking apart, (runs, 7): in [-1, 1], but for the sixth, in [0, 1]."""
     dice = np.random.default_rng(seed)
-    return np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs)])
+    return np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs), dice.uniform(-1.0, 1.0, runs)])
 
 
 def changed_rockers(block: Block, motion: Motion, spread: Spread, draws: FloatArray, **options: Unpack[RockOptions]) -> Rockers:
@@ -154,16 +160,21 @@ def changed_rockers(block: Block, motion: Motion, spread: Spread, draws: FloatAr
     ----------
     block, motion, spread, options
         As of :func:`perturb`.
-    draws : (m, 6) array
+    draws : (m, 7) array
         Of :func:`draws_of`.
     """
-    size, slenderness, bounce, _, _, wear = draws.T
+    size, slenderness, bounce, _, _, wear, _ = draws.T
     deepest = max(wear_within(block, spread.inset), block.inset / block.width) if spread.inset else None
-    changed = versions(
-        block,
-        size=1.0 + spread.size * size,
-        slenderness=1.0 + spread.slenderness * slenderness,
-        inset_share=None if deepest is None else deepest * wear,
-    )
+    if block.ranges is not None:
+        worn = np.full(len(draws), block.inset / block.width) if deepest is None else deepest * wear
+        drawn = {"tall": size, "wide": slenderness, "worn": 2.0 * wear - 1.0}
+        changed = versions_within(block, block.ranges, **drawn, size=spread.size, inset=worn)
+    else:
+        changed = versions(
+            block,
+            size=1.0 + spread.size * size,
+            slenderness=1.0 + spread.slenderness * slenderness,
+            inset_share=None if deepest is None else deepest * wear,
+        )
     some = rockers(changed, motion, **options)
     return replace(some, onto=np.minimum(some.onto * (1.0 + spread.restitution * bounce[:, None]), 1.0))

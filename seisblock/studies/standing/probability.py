@@ -14,9 +14,10 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import Blocks, wear_within
+from seisblock.bodies.blocks import Blocks, versions_within, wear_within
 from seisblock.bodies.blocks import versions as resized_versions
 from seisblock.bodies.inset import HALF
+from seisblock.bodies.ranges import Ranges, within
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
@@ -95,6 +96,8 @@ class Probability:
     versions : Versions
         What was varied, and how far.
     seed : int
+    ranges : Ranges or None
+        Of the body's own kind, where its file tells them: in these lie its versions, instead of differing by shares.
     """
 
     runs: int
@@ -105,6 +108,7 @@ class Probability:
     final_displacement_m: dict[str, float]
     versions: Versions
     seed: int
+    ranges: Ranges | None = None
 
 
 def respond_probability(
@@ -130,7 +134,8 @@ def respond_probability(
     Parameters
     ----------
     block, motion, mu, mu_kinetic, restitution, rocking_restitution, vertical, gravity, settle_s, tenon
-        As in :func:`~seisblock.solvers.respond.solve.solve_respond`; the middle of the versions.
+        As in :func:`~seisblock.solvers.respond.solve.solve_respond`; the middle of the versions, but where the body knows the ranges of
+        its kind.
     runs : int
         How many versions, at least 1.
     moved_m : float, m
@@ -168,7 +173,8 @@ def respond_probability(
         gravity=gravity,
         tenon=tenon,
     )
-    draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, 6))
+    dice = np.random.default_rng(checks.seed(seed))
+    draws = np.column_stack([dice.uniform(-1.0, 1.0, (runs, 6)), dice.uniform(-1.0, 1.0, runs)])
     settings = changed_settings(
         block,
         versions,
@@ -201,6 +207,7 @@ def respond_probability(
         {f"q{round(100 * share):02d}": float(value) for share, value in zip(QUANTILES, standing, strict=False)},
         versions,
         seed,
+        block.ranges,
     )
 
 
@@ -222,10 +229,12 @@ def changed_settings(
     ----------
     block, versions, mu, mu_kinetic, restitution, rocking_restitution, gravity, tenon
         As of :func:`respond_probability`.
-    draws : (m, 6) array
+    draws : (m, 7) array
         In [-1, 1].
     """
     rough = 1.0 + versions.mu * draws[:, 2]
+    if block.ranges is not None and block.ranges.mu is not None:
+        rough = within(block.ranges.mu, draws[:, 2]) / mu
     bouncy = restitution + versions.restitution * 0.5 * (1.0 + draws[:, 3])
     return Settings(
         _bodies(block, versions, draws),
@@ -245,6 +254,9 @@ def _bodies(block: Block, versions: Versions, draws: FloatArray) -> Blocks:
     half = deepest / 2
     middle = half if share <= deepest else share
     worn = np.maximum(middle + half * draws[:, 1], 0.0)
+    if block.ranges is not None:
+        drawn = {"tall": draws[:, 0], "wide": draws[:, 6], "worn": draws[:, 1]}
+        return versions_within(block, block.ranges, **drawn, size=versions.size, inset=worn)
     return resized_versions(block, size=1.0 + versions.size * draws[:, 0], slenderness=np.ones(len(draws)), inset_share=worn)
 
 
