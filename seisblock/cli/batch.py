@@ -83,7 +83,9 @@ def batch(
     """Follow many bodies through many records: one table, a row for each record, component and body.
 
     RECORD may be a folder, a pattern, a list (@records.txt) or a bundle, each station of which is a record. What cannot be read or
-    followed is a row with its reason. Finished records are kept in FILE.journal until the table is whole: --resume goes on.
+    followed is a row with its reason. --component all-azimuths looks in every direction, in steps of 5 degrees, and has one row for each
+    record and body: that of the direction which is worst for it. Finished records are kept in FILE.journal until the table is whole:
+    --resume goes on.
     """
     from seisblock.cli.batching import Asked, run
 

@@ -26,6 +26,7 @@ from seisblock.present.text import batch as shown
 from seisblock.readers import DEFAULT_SAMPLE
 from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import expand, recordings
+from seisblock.studies.batch.azimuths import around
 from seisblock.studies.batch.cluster import connected
 from seisblock.studies.batch.run import each_record, make_plan
 from seisblock.studies.batch.table import REASON, Row, cells_of, columns_of
@@ -68,7 +69,7 @@ def run(
         files = expand(names, plan.reading)
         keys = list(dict.fromkeys(recording.key for recording in recordings(files, plan.reading)))
     _check_files(out)  # once more: now it is known what was read
-    tally, columns, reasons = Tally(plan.model), columns_of(plan.model, runs=plan.runs), dict[str, str]()
+    tally, columns, reasons = Tally(plan.model), _columns(plan), dict[str, str]()
     if resume and out.exists() and not journal_path(out).exists():
         for rows in _whole(out, columns, plan, [path for path, _ in keys]):
             tally.counted(rows)
@@ -134,7 +135,7 @@ def _plan(source: Source, asked: Asked) -> tuple[Plan, tuple[str, ...]]:
         read_bodies(asked.bodies),
         asked.solver,
         components=components,
-        preparation=preparation_of(source, components),
+        preparation=preparation_of(source, () if around(components) else components),
         reading=Options(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level),
         runs=asked.runs,
         seed=asked.seed,
@@ -144,6 +145,11 @@ def _plan(source: Source, asked: Asked) -> tuple[Plan, tuple[str, ...]]:
     for note in notes:
         warn(note)
     return plan, notes
+
+
+def _columns(plan: Plan) -> dict[str, type]:
+    """Return the columns of the table."""
+    return columns_of(plan.model, runs=plan.runs, around=around(plan.components))
 
 
 def _default() -> str:

@@ -26,6 +26,7 @@ from seisblock.present.text import fragility as shown
 from seisblock.readers.dispatch import Options
 from seisblock.records import Record
 from seisblock.records.synthetic.suite import DEFAULT_SUITE, named_suite
+from seisblock.studies.batch.azimuths import around
 from seisblock.studies.fragility.answer import FragilityStudy
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -73,7 +74,7 @@ def run(
             steps=asked["steps"],
             perturb=asked["perturb"] or 0,
             components=components,
-            preparation=preparation_of(source, components),
+            preparation=preparation_of(source, () if around(components) else components),
             confidence=asked["confidence"],
             bootstrap=asked["bootstrap"],
             seed=asked["seed"],

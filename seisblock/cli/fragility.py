@@ -149,7 +149,8 @@ def fragility(
     """Tell how likely an object falls, slides or rocks, against the intensity of the shaking: a lognormal curve with its intervals.
 
     RECORD may be a folder, a pattern, a list (@records.txt) or a bundle: a suite of ten and more. Each component of each record is scaled
-    to every level (stripes, ida), or taken as it is (cloud); vertical motion is scaled along.
+    to every level (stripes, ida), or taken as it is (cloud); vertical motion is scaled along. With --component all-azimuths each record
+    counts once, in the direction that is worst for the object, and its intensity is the largest of all directions.
     """
     from seisblock.cli.fragilities import run
 

@@ -16,7 +16,7 @@ COMPONENTS = ("NS", "EW", "UD", "all")
 
 ALL_AZIMUTHS = "all-azimuths"
 
-SWEEPING = {"respond", "rock", "slide", "spectrum"}
+SWEEPING = {"batch", "fragility", "respond", "rock", "slide", "spectrum"}
 """Commands that look in every direction when they are asked to."""
 
 

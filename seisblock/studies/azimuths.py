@@ -10,6 +10,7 @@ import numpy as np
 from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.bodies.scan.body import ScannedBody
+from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.limits import check_budget
 from seisblock.records import Motion, Record, motion_of
 from seisblock.records.given import Factor, vertical_gain
@@ -18,6 +19,9 @@ from seisblock.words import noted
 
 STEP_DEG = 5.0
 """Between directions, unless told otherwise."""
+
+ALL_AZIMUTHS = "all-azimuths"
+"""What asks for every direction in the place of a component."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +44,22 @@ class Sweep:
     blocks: tuple[Block, ...]
     motion: Motion
     gains: FloatArray
+
+
+def azimuths_of(body: object, step_deg: float = STEP_DEG) -> FloatArray:
+    """Return the directions in which a body is looked at, (m,), degrees: all of the circle where its two sides differ, else half of it.
+
+    Examples
+    --------
+    >>> azimuths_of(Block(0.24, 0.72), 45.0).tolist()
+    [0.0, 45.0, 90.0, 135.0]
+    """
+    checks.positive("the step between directions", step_deg, "degrees")
+    lopsided = isinstance(body, Block) and body.centroid_offset != 0.0
+    one_sided = isinstance(body, SlidingBase) and (body.one_way or body.slope_deg != 0.0)
+    around = 360.0 if lopsided or one_sided else 180.0
+    check_budget(noted("directions"), math.ceil(around / step_deg), "SEISBLOCK_RUNS")
+    return np.arange(0.0, around, step_deg)
 
 
 def sweep(body: Block | ScannedBody, record: Record, *, step_deg: float = STEP_DEG, vertical: Factor | None = None) -> Sweep:
@@ -72,11 +92,7 @@ def sweep(body: Block | ScannedBody, record: Record, *, step_deg: float = STEP_D
     """
     checks.instance(body, ScannedBody if isinstance(body, ScannedBody) else Block)
     checks.instance(record, Record)
-    checks.positive("the step between directions", step_deg, "degrees")
-    two_sided = isinstance(body, Block) and body.centroid_offset != 0.0
-    around = 360.0 if two_sided else 180.0
-    check_budget(noted("directions"), math.ceil(around / step_deg), "SEISBLOCK_RUNS")
-    azimuths = np.arange(0.0, around, step_deg)
+    azimuths = azimuths_of(body, step_deg)
     motion = motion_of(record, "0")
     turn = np.radians(azimuths)
     gains = np.column_stack([np.cos(turn), -np.sin(turn), np.full(turn.size, vertical_gain(motion, vertical))])

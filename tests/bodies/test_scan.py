@@ -81,6 +81,14 @@ def test_a_box_is_a_block_towards_each_of_its_sides(boxed):
         assert found.frequency_parameter() == pytest.approx(math.sqrt(3.0 * 9.80665 / (4.0 * math.hypot(width, 0.9) / 2.0)), rel=EXACT)
 
 
+@pytest.mark.parametrize("sides", [4, 12])
+def test_products_of_inertia_that_are_zero_are_zero(sides, tmp_path):
+    """Sums over triangles leave 1e-18 of them, which was told as a number."""
+    path = write_ply(tmp_path / "body.ply", *frustum(sides, 0.3, 0.1, 0.9))
+    inertia = np.array(scan_body(path).body.inertia)
+    assert (inertia[~np.eye(3, dtype=np.bool_)] == 0.0).all() and (np.diag(inertia) > 1.0).all()
+
+
 @pytest.mark.parametrize("azimuth", [13.0, 45.0, 100.0, 222.0, 359.0])
 def test_a_box_turns_about_its_corner_between_its_sides(boxed, azimuth):
     """The arm is the reach of the corner, the inertia that about a level line: of a box turned by an angle both are closed forms."""

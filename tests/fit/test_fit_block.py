@@ -30,7 +30,7 @@ def test_the_truth_lies_in_its_interval(slender):
     assert found.narrowed < 0.08 and found.identified
     assert slender.held_out.accuracy > 0.85 and slender.held_out.brier < 0.1
     assert slender.held_out.rate_brier > 2 * slender.held_out.brier
-    assert slender.block.slenderness == pytest.approx(found.median, rel=0.01)
+    assert slender.block.slenderness == pytest.approx(found.median, rel=1e-9)
     assert slender.block.frequency_parameter() == pytest.approx(4.0)
 
 
@@ -55,7 +55,7 @@ def test_worn_edges_are_found():
     low, high = found["turning_alpha"].interval
     assert low < 0.25 < high
     assert found.block.width == pytest.approx(drawing.width)
-    assert found.block.inset / drawing.width == pytest.approx(found["inset"].median, abs=0.01)
+    assert found.block.inset / drawing.width == pytest.approx(found["inset"].median, abs=1e-3)
 
 
 @pytest.mark.slow

@@ -27,6 +27,7 @@ from seisblock.studies.fragility.lognormal import Lognormal, curves, curves_toge
 from seisblock.studies.fragility.run import bodies_of, run_fragility
 from seisblock.studies.fragility.suite import suite_of
 from seisblock.units import STANDARD_GRAVITY
+from tests.batch.conftest import shaking
 from tests.motions import synthetic_suite
 
 INDEPENDENT = 1e-3
@@ -411,3 +412,27 @@ class TestScatter:
         for chance, fits in ((ndtr(np.log(x) / 0.8), True), (np.where(np.abs(np.log(x)) < 1.0, 0.5, x > 1.0), False)):
             fell = (dice.uniform(size=400) < chance).astype(float)
             assert goodness_of_cloud(fit_fragility(x, fell, 1), x, fell, 1.0, dice).fits is fits
+
+
+def test_every_direction_counts_where_they_are_asked_for():
+    """A record passes where the block falls in any of 36 directions, at the largest intensity of them; two-sided in 72; it is said."""
+    few = [
+        Record(tuple(Component(code, row) for code, row in zip(("NS", "EW", "UD"), shaking(seed)[1], strict=True)), 0.005 * (1 + seed))
+        for seed in range(3)
+    ]
+    for body in (SHELF, Block(0.3, 1.2, centroid_offset=0.03, name="lopsided")):
+        study = run_fragility(few, body, "rock", im="pga", levels=[4.0, 8.0, 12.0, 18.0], components="all-azimuths", bootstrap=20)
+        (curve,) = study.curves
+        assert (curve.records, curve.motions) == (3, 3)
+        assert any("in any direction" in note for note in study.notes)
+        for level in curve.levels:
+            falls = 0
+            for record in few:
+                largest = max(IM["pga"].of(motion_of(record, str(azimuth))) for azimuth in range(0, 180, 5))
+                scaled = seisblock.scale(record, level.im / largest)
+                falls += any(each.overturned for each in seisblock.rock_directions(body, scaled))
+            assert (level.exceeding, level.runs) == (falls, 3)
+    counts = [level.exceeding for level in curve.levels]
+    assert counts[0] < counts[-1]
+    with pytest.raises(ParameterError, match="stack does not look in every direction"):
+        run_fragility(few, seisblock.load_pile("wagata"), "stack", components="all-azimuths")

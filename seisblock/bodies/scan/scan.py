@@ -22,6 +22,10 @@ TOLERANCE = 0.002
 """How far above the ground a point may lie that carries, a share of the body's largest extent: what scanners leave of a plane."""
 
 
+ROUND_OFF = 1e-12
+"""A product of inertia below this share of the trace is what sums over triangles leave of zero."""
+
+
 @dataclass(frozen=True)
 class Scanned:
     """A body from a scan, and what the scan was like.
@@ -128,6 +132,7 @@ def scan_body(
         centre = on.turn @ solid.centre
         tensor = mass * on.turn @ solid.gyration @ on.turn.T
         tensor = 0.5 * (tensor + tensor.T)
+        tensor[np.abs(tensor) < ROUND_OFF * np.trace(tensor)] = 0.0
         top = float((mesh.vertices @ on.turn[2]).max())
         body = ScannedBody(
             called or Path(name).stem,

@@ -87,7 +87,7 @@ def tables(found: BlockFit, outcomes: Outcomes, name: str) -> Iterator[Any]:
         yield line(tell(text, first=tell(WORDS[pair.first]), second=tell(WORDS[pair.second]), coefficient=pair.coefficient), "dim")
     if found.held_out is not None:
         yield from _foretold(found, found.held_out, outcomes)
-    yield line(tell("To use it: {options}", options=as_options(found)))
+    yield line(tell("The block of these medians, for rock, respond, fragility and others: {options}", options=as_options(found)))
 
 
 def _row(each: Marginal) -> list[str]:
@@ -142,7 +142,7 @@ def _wrong(found: BlockFit) -> Any:
 
 
 def as_options(found: BlockFit) -> str:
-    """Return the options that describe the block in the middle to other commands."""
+    """Return the options that describe the block of the medians to other commands."""
     block = found.block
     options = [f"--width {block.width:.4g} --height {block.height:.4g}"]
     if block.centroid_height is not None:

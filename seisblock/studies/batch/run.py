@@ -16,6 +16,7 @@ from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import Recording, gather
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
+from seisblock.studies.batch.azimuths import around, check_around
 from seisblock.studies.batch.models import BatchModel, Placed, batch_model
 from seisblock.studies.batch.table import BatchTable, Row, columns_of
 from seisblock.studies.batch.task import Plan, placed, row_without_answer, rows_of
@@ -59,7 +60,8 @@ def run_batch(
     solver : str
         ``respond``, ``rock``, ``slide``, ``jump``, ``uplift`` or ``stack``.
     components : str, or sequence of str
-        Codes or azimuths; all horizontals of each record when left out.
+        Codes or azimuths; all horizontals of each record when left out. ``all-azimuths`` looks in every direction, in steps of 5 degrees,
+        and answers for the one that is worst for each body (``respond``, ``rock``, ``slide``).
     preparation : Preparation
         What is done to each record before.
     runs, seed : int
@@ -92,7 +94,7 @@ def run_batch(
     tasks = list(_tasks(records, plan.reading))
     found = each_record(tasks, plan, total=len(tasks), workers=workers, client=client, progress=progress)
     rows = [row for some in found for row in some]
-    return BatchTable(columns_of(plan.model, runs=runs), rows, notes)
+    return BatchTable(columns_of(plan.model, runs=runs, around=around(plan.components)), rows, notes)
 
 
 def make_plan(
@@ -117,6 +119,7 @@ def make_plan(
     model.refuse_unknown(options)
     listed = named(bodies, model)
     names = (components,) if isinstance(components, str) else tuple(components)
+    check_around(solver, names, options)
     plan = Plan(solver, placed(model, listed, options), names, preparation, reading, runs, checks.seed(seed), strict)
     return plan, unheard(model, listed)
 

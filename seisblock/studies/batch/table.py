@@ -21,10 +21,17 @@ REASON, WARNINGS = "failure", "warnings"
 """The columns that say why a row has no answer, and what to know before believing it."""
 
 
-def columns_of(model: BatchModel, *, runs: int = 0) -> dict[str, type]:
-    """Return the columns of a batch of one solver, with the types of their cells."""
+DIRECTIONS, FALLEN = "directions", "directions_overturned"
+"""The columns of all azimuths: in how many directions was looked, and in how many of them the body falls."""
+
+
+def columns_of(model: BatchModel, *, runs: int = 0, around: bool = False) -> dict[str, type]:
+    """Return the columns of a batch of one solver, of perturbed runs and of all directions where there are any, with their types."""
     chances = (model.chances or {}) if runs else {}
-    return {**KEYS, **model.scalars, **chances, WARNINGS: str, REASON: str}
+    directions: dict[str, type] = {DIRECTIONS: int} if around else {}
+    if around and model.happens == "overturned":
+        directions[FALLEN] = int
+    return {**KEYS, **directions, **model.scalars, **chances, WARNINGS: str, REASON: str}
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,8 @@ from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import Recording
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.doubtful import refuse_doubtful, sentences
+from seisblock.studies.azimuths import ALL_AZIMUTHS
+from seisblock.studies.batch.azimuths import around, worst_azimuth
 from seisblock.studies.batch.models import BATCH_MODELS, BatchModel, Placed
 from seisblock.studies.batch.table import REASON, WARNINGS, Row
 from seisblock.studies.batch.together import answers_together
@@ -39,7 +41,7 @@ class Plan:
     solver : str
     bodies : tuple of Placed or Unplaced
     components : tuple of str
-        Codes or azimuths; all horizontals when empty.
+        Codes or azimuths; all horizontals when empty; ``all-azimuths`` for the worst of all directions.
     preparation : Preparation
     reading : Options
         What the caller says of files that do not say it themselves.
@@ -110,6 +112,8 @@ def rows_of(recording: Recording | Record, plan: Plan) -> list[Row]:
         names = _components(prepared, plan.components)
     except SeisblockError as error:
         return [{**known, REASON: error.said}]
+    if around(plan.components):
+        return [{**known, **_of_the_worst(prepared, body, plan, doubts)} for body in plan.bodies]
     return [row for name in names for row in _of_component(prepared, name, plan, known, doubts)]
 
 
@@ -149,6 +153,19 @@ def _of_component(record: Record, name: str, plan: Plan, known: Row, doubts: lis
             yield {**row, **found, WARNINGS: "; ".join([*doubts, *told]) or None}
         else:
             yield {**row, **_answer(motion, body, plan, doubts)}
+
+
+def _of_the_worst(record: Record, body: Placed | Unplaced, plan: Plan, doubts: list[str]) -> Row:
+    """Return what a solver says of one body in the worst of all directions."""
+    row: Row = {"component": ALL_AZIMUTHS, "body": body.name}
+    if isinstance(body, Unplaced):
+        return {**row, REASON: body.reason}
+    try:
+        worst, seen = worst_azimuth(plan.solver, body, record)
+        motion = motion_of(record, worst)
+    except SeisblockError as error:
+        return {**row, REASON: error.said}
+    return {**row, "component": motion.name, **seen, **_answer(motion, body, plan, doubts)}
 
 
 def _answer(motion: Motion, body: Placed, plan: Plan, doubts: list[str]) -> Row:

@@ -22,7 +22,7 @@ from seisblock.studies.fit.likelihood import lapses, log_likelihood
 from seisblock.studies.fit.posterior import explore
 from seisblock.studies.fit.remarks import remarks_on
 from seisblock.studies.fit.runs import LEVELS
-from seisblock.studies.fit.summary import Correlation, Marginal, correlations, marginals
+from seisblock.studies.fit.summary import Correlation, Marginal, correlations, marginals, medians
 from seisblock.typing import FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted
@@ -58,7 +58,7 @@ class BlockFit:
     correlations : tuple of Correlation
         Of each two parameters.
     block : Block
-        In the middle of those that explain what was seen.
+        That of the medians.
     restitution : float or None, 1
         Of that block; None: that of angular momentum.
     probability : (n,) array, 1
@@ -215,7 +215,7 @@ def fit_block(
         held = scores(experiment, without, pgv, deal, fewest)
     known = marginals(family, sampled.places, weights, guessed, level)
     together = correlations(family, sampled.places, of_blocks)
-    middle = (of_blocks @ sampled.places)[None, :]
+    middle = medians(sampled.places, of_blocks)[None, :]
     chosen = np.random.default_rng([seed, 2]).choice(len(of_blocks), SHOWN, p=of_blocks)
     return BlockFit(
         experiment,

@@ -89,6 +89,11 @@ def quantiles(values: FloatArray, weights: FloatArray, shares: FloatArray) -> Fl
     return np.interp(shares, middles, values[order])
 
 
+def medians(places: FloatArray, weights: FloatArray) -> FloatArray:
+    """Return the point each of whose coordinates is in the middle, (d,), of weighted points, (n, d)."""
+    return np.array([float(quantiles(column, weights, np.array([0.5]))[0]) for column in places.T])
+
+
 def _marginal(name: str, values: FloatArray, weights: FloatArray, before: FloatArray, level: float, *, logarithmic: bool) -> Marginal:
     """Return what weighted values say, beside equally likely ones before."""
     tail = 0.5 * (1.0 - level)

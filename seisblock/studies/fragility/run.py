@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from seisblock import checks
+from seisblock.bodies.library import along
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
+from seisblock.studies.azimuths import STEP_DEG, azimuths_of
+from seisblock.studies.batch.azimuths import check_around
 from seisblock.studies.batch.models import Placed, batch_model
 from seisblock.studies.batch.run import AS_READ, Bodies, named
 from seisblock.studies.batch.task import Unplaced, placed
@@ -28,7 +31,12 @@ from seisblock.studies.fragility.suite import Suite, read_suite, suite_of
 from seisblock.studies.intervals import CONFIDENCE
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted
+from seisblock.words import noted, said
+
+AROUND = noted(
+    "each record counts once: it passes a limit where it does so in any direction, in steps of {step:g} degrees; intensities are the "
+    "largest of all directions"
+)
 
 BOOTSTRAP = 1000
 """Samples of records behind the intervals, unless another number is asked for."""
@@ -57,10 +65,13 @@ class Study:
     draws: Draws
 
     def passed(self, body: int, motion: int, factors: FloatArray, draws: Draws) -> BoolArray:
-        """Return which limits a body passes under a motion times some factors, (n, v, k)."""
-        ends = FOLLOWERS[self.solver](self.bodies[body], self.suite.motions[motion], factors, draws)
-        versions = 1 if draws is None else len(draws)
-        return np.stack([limit.passed(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
+        """Return which limits a body passes under a motion, in any of its directions, times some factors, (n, v, k)."""
+        versions, placed = 1 if draws is None else len(draws), self.bodies[body]
+        found = np.zeros((factors.size, versions, len(self.limits)), dtype=np.bool_)
+        for each in self.suite.directions(motion, placed.body):
+            ends = FOLLOWERS[self.solver](replace(placed, body=along(placed.body, each)), each, factors, draws)
+            found |= np.stack([limit.passed(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
+        return found
 
 
 def run_fragility(
@@ -107,7 +118,8 @@ def run_fragility(
     perturb : int
         Versions of each body, 0 for the body as it is.
     components, preparation
-        As of :func:`~seisblock.studies.batch.run.run_batch`.
+        As of :func:`~seisblock.studies.batch.run.run_batch`. With ``all-azimuths`` each record counts once: it passes a limit where it does
+        so in any direction, and its intensity is the largest of all directions.
     confidence : float, 1
         Level of the intervals.
     bootstrap, seed : int
@@ -159,6 +171,7 @@ def run_fragility(
     if not measures:
         raise ParameterError("no intensity measure is given: say pga, pgv, pgd, sa=0.5, arias or p*pgv")
     names = (components,) if isinstance(components, str) else tuple(components)
+    check_around(solver, names, options)
     stand = bodies_of(bodies, solver, options)
     found, left_out = read_suite(records)
     suite = suite_of(found, names, preparation)
@@ -174,7 +187,11 @@ def run_fragility(
         raise ParameterError("{body}, {limit}: {why}", body=curves[0].body, limit=curves[0].limit, why=curves[0].problem)
     factors = [factors_for(grid, value[0][:, None], measures[0]) for grid, value in zip(grids, values, strict=True)]
     range_ = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
+<<<<<<< HEAD
     notes = (*left_out, *notes_on(curves, [value[0] for value in values], rules), *(ranges_noted(stand) if perturb else []))
+=======
+    notes = (*left_out, *((said(AROUND, step=STEP_DEG),) if suite.around else ()), *notes_on(curves, [value[0] for value in values], rules))
+>>>>>>> f5ad36c (batch and fragility look in every direction and answer for the worst; a column that was always empty is gone; fit gives the block of its medians, body no products of inertia of 1e-18)
     return FragilityStudy(curves, measures[0], solver, method, confidence, bands, range_, suite.records, notes)
 
 
@@ -225,7 +242,8 @@ def _follow(study: Study, rules: Rules, grids: list[FloatArray], progress: Progr
     versions = 1 if study.draws is None else len(study.draws)
     each = grids[0].shape[1] * versions
     total = each * len(study.suite.motions) * len(study.bodies)
-    check_budget(noted("runs"), total, "SEISBLOCK_CELLS")
+    directions = max(azimuths_of(body.body).size for body in study.bodies) if study.suite.around else 1
+    check_budget(noted("runs"), total * directions, "SEISBLOCK_CELLS")
     found, done = [], 0
     for b, (body, grid, values) in enumerate(zip(study.bodies, grids, study.values, strict=True)):
         passed = []

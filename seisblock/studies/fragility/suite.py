@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -16,11 +15,12 @@ from seisblock.readers.gather import gather
 from seisblock.readers.source import Location
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.site import earthquake_of
+from seisblock.studies.azimuths import ALL_AZIMUTHS, azimuths_of
 from seisblock.studies.fragility.intensity import IntensityMeasure
 from seisblock.typing import FloatArray, IntArray
 from seisblock.words import said
 
-ALL = "all"
+ALL, NORTH = "all", "0"
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,22 +35,26 @@ class Suite:
         Which record each motion is of.
     magnitudes : (m,) array
         Of the earthquakes, NaN where the file does not say.
+    around : bool
+        Whether each record counts once, in the worst of its directions: then a motion is that to north, and the others are
+        :meth:`directions`.
     """
 
     records: tuple[Record, ...]
     motions: tuple[Motion, ...]
     owner: IntArray
     magnitudes: FloatArray
+    around: bool = False
 
     def intensities(self, measure: IntensityMeasure) -> FloatArray:
-        """Return the intensity of each motion as it is, (m,), without the share of a body.
+        """Return the intensity of each motion as it is, (m,), without the share of a body; the largest of all directions where they count.
 
         Raises
         ------
         ParameterError
             If there is no shaking in one of them.
         """
-        found = np.array([measure.of(motion) for motion in self.motions])
+        found = self._measured(measure)
         for row in np.flatnonzero(~(found > 0.0))[:1]:
             raise ParameterError(
                 "{record}, {name}: there is no shaking in it, so that no factor brings it to a level: leave it out",
@@ -63,7 +67,19 @@ class Suite:
     def shapes(self) -> FloatArray:
         """Logarithm of PGV over PGA of each motion, (m,), s: how slowly it shakes."""
         pgv, pga = IntensityMeasure("pgv"), IntensityMeasure("pga")
-        return np.array([math.log(pgv.of(motion) / pga.of(motion)) for motion in self.motions])
+        return np.log(self._measured(pgv) / self._measured(pga))
+
+    def directions(self, motion: int, body: object) -> Iterator[Motion]:
+        """Yield a motion in the directions in which a body has to pass a limit, one after another: its own, or all."""
+        if not self.around:
+            yield self.motions[motion]
+            return
+        for azimuth in azimuths_of(body).tolist():
+            yield motion_of(self.records[self.owner[motion]], f"{azimuth:g}")
+
+    def _measured(self, measure: IntensityMeasure) -> FloatArray:
+        """Return the intensity of each motion, (m,): where all directions count that of the largest."""
+        return np.array([max(map(measure.of, self.directions(row, None))) for row in range(len(self.motions))])
 
     def weights(self, samples: int, dice: np.random.Generator) -> FloatArray:
         """Return how often each motion counts in samples that draw whole records, (samples, m)."""
@@ -79,7 +95,7 @@ def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation
     records : sequence of Record
         As they were read.
     components : tuple of str
-        Codes or azimuths; all horizontals when empty.
+        Codes or azimuths; all horizontals when empty; ``all-azimuths`` for every direction of each record.
     preparation : Preparation
 
     Raises
@@ -96,6 +112,9 @@ def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation
         )
     prepared = tuple(preparation.apply(record) for record in records)
     motions, owner, magnitudes = [], [], []
+    around = any(name.lower() == ALL_AZIMUTHS for name in components)
+    if around:
+        components = (NORTH,)
     for index, record in enumerate(prepared):
         asked = components and not any(name.lower() == ALL for name in components)
         for name in components if asked else tuple(component.code for component in record.horizontals) or (ALL,):
@@ -103,7 +122,7 @@ def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation
             owner.append(index)
             shook = earthquake_of(record)
             magnitudes.append(np.nan if shook is None or shook.magnitude is None else shook.magnitude)
-    return Suite(prepared, tuple(motions), np.array(owner, dtype=np.int64), np.array(magnitudes, dtype=np.float64))
+    return Suite(prepared, tuple(motions), np.array(owner, dtype=np.int64), np.array(magnitudes, dtype=np.float64), around)
 
 
 def read_suite(
