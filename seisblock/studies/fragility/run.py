@@ -187,11 +187,9 @@ def run_fragility(
         raise ParameterError("{body}, {limit}: {why}", body=curves[0].body, limit=curves[0].limit, why=curves[0].problem)
     factors = [factors_for(grid, value[0][:, None], measures[0]) for grid, value in zip(grids, values, strict=True)]
     range_ = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
-<<<<<<< HEAD
-    notes = (*left_out, *notes_on(curves, [value[0] for value in values], rules), *(ranges_noted(stand) if perturb else []))
-=======
-    notes = (*left_out, *((said(AROUND, step=STEP_DEG),) if suite.around else ()), *notes_on(curves, [value[0] for value in values], rules))
->>>>>>> f5ad36c (batch and fragility look in every direction and answer for the worst; a column that was always empty is gone; fit gives the block of its medians, body no products of inertia of 1e-18)
+    directions = (said(AROUND, step=STEP_DEG),) if suite.around else ()
+    ranges = ranges_noted(stand) if perturb else []
+    notes = (*left_out, *directions, *notes_on(curves, [value[0] for value in values], rules), *ranges)
     return FragilityStudy(curves, measures[0], solver, method, confidence, bands, range_, suite.records, notes)
 
 
