@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import types
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from inspect import signature
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.friction import surface
@@ -34,6 +33,7 @@ from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.solvers.stack.solve import solve_stack
 from seisblock.solvers.uplift.outcome import UpliftOutcome
 from seisblock.solvers.uplift.solve import solve_uplift
+from seisblock.studies.batch.scalars import scalars_of
 from seisblock.studies.rocking.perturb import perturb
 from seisblock.studies.standing.probability import respond_probability
 
@@ -42,10 +42,6 @@ Row = dict[str, Any]
 
 _BLOCK = ("width", "height", "depth", "mass", "density", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "side")
 _SIZES = _BLOCK[:-2]
-_SCALARS = (bool, int, float, str)
-
-ON_REQUEST = ("verdict_flips_within_2_percent",)
-"""What an outcome tells where somebody looked for it, which takes forty more runs: no columns of a table."""
 
 
 @dataclass(frozen=True)
@@ -95,9 +91,7 @@ class BatchModel:
     @cached_property
     def scalars(self) -> Mapping[str, type]:
         """The scalar fields of the outcome, with their types."""
-        hints = get_type_hints(self.outcome)
-        found = {field.name: _scalar(hints[field.name]) for field in fields(self.outcome) if field.name not in ON_REQUEST}
-        return {name: kind for name, kind in found.items() if kind is not None}
+        return scalars_of(self.outcome)
 
     def refuse_unknown(self, options: Told) -> None:
         """Refuse options that neither the solver nor its bodies have.
@@ -115,12 +109,6 @@ class BatchModel:
     def unheard(self, listed: ListedBody) -> list[str]:
         """Return what is told of a body that this solver takes no notice of."""
         return [key for key in listed.told if key not in self.columns]
-
-
-def _scalar(hint: Any) -> type | None:
-    """Return the scalar type of an annotation, None alone or beside it; None where it is no scalar."""
-    kinds = [kind for kind in get_args(hint) if kind is not type(None)] if get_origin(hint) in (Union, types.UnionType) else [hint]
-    return kinds[0] if len(kinds) == 1 and kinds[0] in _SCALARS else None
 
 
 def _rigid(listed: ListedBody) -> Block | ScannedBody:
