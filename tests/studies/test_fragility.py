@@ -11,9 +11,12 @@ from scipy.stats import CensoredData, linregress, norm
 import seisblock
 from seisblock.bodies.block import Block
 from seisblock.errors import ParameterError
-from seisblock.records import Component, Motion, Preparation, Record, motion_of
+from seisblock.present.exports.pelicun import pelicun_rows
+from seisblock.records import Component, Motion, Preparation, Record, Storey, motion_of, process
+from seisblock.records.storey import on_storey
 from seisblock.solvers.respond.solve import solve_respond
 from seisblock.solvers.rock.solve import solve_rock
+from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.solvers.slide.solve import solve_slide
 from seisblock.solvers.stack.solve import solve_stack
 from seisblock.studies.fragility.capacities import capacities, moments
@@ -436,3 +439,22 @@ def test_every_direction_counts_where_they_are_asked_for():
     assert counts[0] < counts[-1]
     with pytest.raises(ParameterError, match="stack does not look in every direction"):
         run_fragility(few, seisblock.load_pile("wagata"), "stack", components="all-azimuths")
+
+
+def test_on_a_storey_the_intensity_is_that_of_the_ground():
+    """Of what stands on a storey: each run is that of the storey's motion times the same factor, at a level of the ground."""
+    storey = Storey(0.5, height=0.9)
+    records = synthetic_suite(3)
+    levels = np.geomspace(0.06, 0.4, 16)
+    on_it = run_fragility(records, Block(0.3, 1.2), "rock", im="pgv", levels=levels, bootstrap=2, preparation=Preparation(floor=storey))
+    for count, level in zip(on_it.curves[0].levels, levels, strict=True):
+        fell = 0
+        for record in records:
+            for component in record.horizontals:
+                factor = level / PGV.of(motion_of(record, component.code))
+                fell += rock_verdict(
+                    Block(0.3, 1.2), motion_of(on_storey(process.scale(record, factor), storey), component.code)
+                ).overturned
+        assert count.exceeding == fell
+    assert any("those of the ground" in note for note in on_it.notes)
+    assert pelicun_rows(on_it)[1][0][2] == "Peak Ground Velocity"

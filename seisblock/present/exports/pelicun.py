@@ -25,8 +25,14 @@ ALONG_ONE_DIRECTION = 1
 """The demand of one direction counts, as the object was shaken; the library's own shelves take the larger of both (0)."""
 
 
-def demand_of(measure: IntensityMeasure) -> tuple[str, str, float]:
+def demand_of(measure: IntensityMeasure, *, ground: bool = False) -> tuple[str, str, float]:
     """Return what pelicun calls a measure, its unit, and that unit in SI.
+
+    Parameters
+    ----------
+    measure : IntensityMeasure
+    ground : bool
+        Whether it is that of the ground under a storey, not that at the object's feet.
 
     Raises
     ------
@@ -36,6 +42,7 @@ def demand_of(measure: IntensityMeasure) -> tuple[str, str, float]:
     if measure.kind not in _DEMANDS:
         raise OutputError("pelicun knows no demand {im}: take pga, pgv, pgd or sa", im=measure.name)
     name, unit, size = _DEMANDS[measure.kind]
+    name = name.replace("Floor", "Ground") if ground else name
     return (name if measure.period_s is None else f"{name}|{measure.period_s:g}"), unit, size
 
 
@@ -51,7 +58,7 @@ def pelicun_rows(study: FragilityStudy) -> tuple[list[str], list[list[Any]]]:
     OutputError
         If pelicun has no such demand.
     """
-    demand, unit, size = demand_of(study.measure)
+    demand, unit, size = demand_of(study.measure, ground=study.floor is not None)
     bodies = _bodies(study)
     states = max(len(curves) for curves in bodies.values())
     header = ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional"]
@@ -81,11 +88,12 @@ def pelicun_metadata(study: FragilityStudy) -> str:
             "Version": __version__,
         }
     }
+    where = "at the object's feet" if study.floor is None else "of the ground under its storey"
     for plain, curves in _bodies(study).items():
         first = curves[0]
         told[plain] = {
             "Description": first.body,
-            "Comments": f"{first.records} records, {first.motions} motions; {name}; intensity at the object's feet, along one direction.",
+            "Comments": f"{first.records} records, {first.motions} motions; {name}; intensity {where}, along one direction.",
             "SuggestedComponentBlockSize": "1 EA",
             "RoundUpToIntegerQuantity": "True",
             "LimitStates": {

@@ -158,10 +158,10 @@ def _own(listed: ListedBody, *names: str) -> dict[str, Any]:
 def _standing(listed: ListedBody, options: Told) -> Placed:
     """Place a free-standing block."""
     own = _own(listed, "restitution", "rocking_restitution", "tenon")
-    body, friction = _rigid(listed), _friction(listed, options)
+    body = _rigid(listed)
     if isinstance(body, Block) and ("mu" in listed.told or "surface" in listed.told):
         body = body.known("mu")
-    return Placed(listed.name, body, {**options, **own, **friction})
+    return Placed(listed.name, body, {**options, **own, **_friction(listed, options)})
 
 
 def _rocking(listed: ListedBody, options: Told) -> Placed:

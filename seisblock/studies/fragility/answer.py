@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from seisblock.records import Record
+from seisblock.records import Record, Storey
 from seisblock.showing import Drawn
 from seisblock.studies.fragility.intensity import IntensityMeasure
 from seisblock.studies.fragility.lognormal import Lognormal
@@ -206,6 +206,8 @@ class FragilityStudy(Drawn):
         As they were used.
     notes : tuple of str
         What is to be known before believing the numbers.
+    floor : Storey or None
+        On which the bodies stand; the intensities are those of the ground under it.
     """
 
     curves: tuple[Fragility, ...]
@@ -217,3 +219,4 @@ class FragilityStudy(Drawn):
     factors: Interval
     records: tuple[Record, ...]
     notes: tuple[str, ...] = field(default=())
+    floor: Storey | None = None

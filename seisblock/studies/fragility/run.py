@@ -106,7 +106,8 @@ def run_fragility(
     limits : str, or several
         ``overturn``, ``rock``, ``slip=5cm``, ``lean=0.5``; several are states one beyond the other, and share one beta.
     im : str, or several
-        ``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``p*pgv``: of the component solved. The curve is drawn over the first; the
+        ``pga``, ``pgv``, ``pgd``, ``sa=0.5``, ``arias``, ``p*pgv``: of the component solved, of the ground also where the preparation has
+        a floor. The curve is drawn over the first; the
         others are compared with it.
     method : str
         ``stripes``: every record at every level, maximum likelihood; ``ida``: the level at which each record does it first; ``cloud``:
@@ -189,8 +190,9 @@ def run_fragility(
     range_ = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
     directions = (said(AROUND, step=STEP_DEG),) if suite.around else ()
     ranges = ranges_noted(stand) if perturb else []
-    notes = (*left_out, *directions, *notes_on(curves, [value[0] for value in values], rules), *ranges)
-    return FragilityStudy(curves, measures[0], solver, method, confidence, bands, range_, suite.records, notes)
+    upstairs = (said("the bodies stand on a storey; the intensities are those of the ground under it"),) if preparation.floor else ()
+    notes = (*left_out, *directions, *upstairs, *notes_on(curves, [value[0] for value in values], rules), *ranges)
+    return FragilityStudy(curves, measures[0], solver, method, confidence, bands, range_, suite.records, notes, preparation.floor)
 
 
 def bodies_of(bodies: Bodies, solver: str, options: Mapping[str, Any]) -> tuple[Placed, ...]:

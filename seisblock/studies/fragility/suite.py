@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
 
@@ -38,6 +38,8 @@ class Suite:
     around : bool
         Whether each record counts once, in the worst of its directions: then a motion is that to north, and the others are
         :meth:`directions`.
+    ground : Suite or None
+        Of the same records under the storey on which the bodies stand, where they do: its intensities count.
     """
 
     records: tuple[Record, ...]
@@ -45,6 +47,7 @@ class Suite:
     owner: IntArray
     magnitudes: FloatArray
     around: bool = False
+    ground: Suite | None = None
 
     def intensities(self, measure: IntensityMeasure) -> FloatArray:
         """Return the intensity of each motion as it is, (m,), without the share of a body; the largest of all directions where they count.
@@ -78,7 +81,9 @@ class Suite:
             yield motion_of(self.records[self.owner[motion]], f"{azimuth:g}")
 
     def _measured(self, measure: IntensityMeasure) -> FloatArray:
-        """Return the intensity of each motion, (m,): where all directions count that of the largest."""
+        """Return the intensity of each motion, (m,): where all directions count that of the largest; on a storey that of the ground."""
+        if self.ground is not None:
+            return self.ground._measured(measure)
         return np.array([max(map(measure.of, self.directions(row, None))) for row in range(len(self.motions))])
 
     def weights(self, samples: int, dice: np.random.Generator) -> FloatArray:
@@ -112,7 +117,7 @@ def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation
         )
     prepared = tuple(preparation.apply(record) for record in records)
     motions, owner, magnitudes = [], [], []
-    around = any(name.lower() == ALL_AZIMUTHS for name in components)
+    asked_for, around = components, any(name.lower() == ALL_AZIMUTHS for name in components)
     if around:
         components = (NORTH,)
     for index, record in enumerate(prepared):
@@ -122,7 +127,9 @@ def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation
             owner.append(index)
             shook = earthquake_of(record)
             magnitudes.append(np.nan if shook is None or shook.magnitude is None else shook.magnitude)
-    return Suite(prepared, tuple(motions), np.array(owner, dtype=np.int64), np.array(magnitudes, dtype=np.float64), around)
+    # a storey is linear: a factor on the ground is one on it
+    ground = None if preparation.floor is None else suite_of(records, asked_for, replace(preparation, floor=None))
+    return Suite(prepared, tuple(motions), np.array(owner, dtype=np.int64), np.array(magnitudes, dtype=np.float64), around, ground)
 
 
 def read_suite(

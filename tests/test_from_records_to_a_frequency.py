@@ -1,0 +1,58 @@
+"""Every line of docs/from_records_to_a_frequency.md runs, one after the other, and its files lead where the page says."""
+
+import json
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+
+PAGE = Path(__file__).parents[1] / "docs" / "from_records_to_a_frequency.md"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The folder in which the lines were run; answers that go into a file are there."""
+    there = tmp_path_factory.mktemp("frequency")
+    lines = re.findall(r"^    (seisblock .+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+    assert len(lines) == 8
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(there)
+        for line in lines:
+            words, _, into = line.partition(" > ")
+            answer = CliRunner().invoke(main, shlex.split(words)[1:])
+            assert answer.exit_code == 0, (line, answer.stderr)
+            if into:
+                (there / into).write_text(answer.stdout, encoding="utf-8")
+        for name in ("bookcase", "upstairs"):
+            answer = CliRunner().invoke(main, ["risk", "--fragility", f"{name}.json", "--hazard", "synthetic_hazard.csv", "--json"])
+            (there / f"{name}_risk.json").write_text(answer.stdout, encoding="utf-8")
+    return there
+
+
+def told(folder, name):
+    """Return the first result of a document."""
+    return json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))["results"][0]
+
+
+@pytest.mark.slow
+def test_the_lines_lead_to_a_frequency(folder):
+    """Upstairs it falls under weaker shaking of the ground, and more often; versions lie within the ranges of bookcases."""
+    here, upstairs = told(folder, "bookcase"), told(folder, "upstairs")
+    assert here["im"] == upstairs["im"] == "pgv" and here["records"] == 12
+    assert upstairs["median"] < here["median"]
+    assert told(folder, "upstairs_risk")["annual_rate"] > told(folder, "bookcase_risk")["annual_rate"] > 0.0
+    document = json.loads((folder / "upstairs.json").read_text(encoding="utf-8"))
+    assert "floor motion T 0.6 s" in document["record"][0]["history"][-1]
+    assert any("those of the ground" in text for text in document["warnings"])
+    assert any("within its own ranges" in text for text in document["warnings"])
+
+
+@pytest.mark.slow
+def test_the_files_are_there(folder):
+    """Thirty-six of K-NET, two figures, and those of other programs."""
+    assert len(list((folder / "knet").iterdir())) == 36
+    assert all((folder / name).stat().st_size > 0 for name in ("bookcase.png", "risk.png", "shelf.csv", "shelf.json", "shelf.xml"))
