@@ -93,6 +93,8 @@ from .studies.sliding import SlidePoint, slide_study
 from .studies.standing.azimuths import AzimuthFate, respond_directions
 from .studies.standing.mode_map import ModeMap, mode_map
 from .studies.standing.probability import Probability, Versions, respond_probability
+from .studies.stations.effects import StandingBody, StandingStones
+from .studies.stations.survey import StationAnswer, Stations, survey_stations
 
 __version__: str
 
@@ -241,11 +243,16 @@ __all__ = [
     "Spread",
     "SpringBlock",
     "StackOutcome",
+    "StandingBody",
+    "StandingStones",
+    "StationAnswer",
+    "Stations",
     "Status",
     "Stone",
     "Storey",
     "studies",
     "Survey",
+    "survey_stations",
     "synthetic_suite",
     "towards",
     "TwoLayerBlock",

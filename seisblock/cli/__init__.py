@@ -46,6 +46,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "infer": ("seisblock.cli.infer:infer", "Shaking read back from fallen gravestones or displaced objects."),
     "body": ("seisblock.cli.body:body", "The body of a scan: mass, inertia, base, and how easily it turns in each direction."),
     "batch": ("seisblock.cli.batch:batch", "Many records and many bodies: one table, on all cores or a cluster."),
+    "map": ("seisblock.cli.map:map", "An earthquake's stations, and what it did to a body or a cemetery at each."),
     "fragility": ("seisblock.cli.fragility:fragility", "How likely an object falls, slides or rocks, against the shaking's intensity."),
     "risk": ("seisblock.cli.risk:risk", "How often it happens at a site: a fragility and the hazard there."),
     "fit": ("seisblock.cli.fit:fit", "The block that explains which shakings made it fall, and how well it foretells others."),

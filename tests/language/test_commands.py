@@ -57,6 +57,9 @@ ANSWERS = (
     ("infer", *SHORT, "--slid", "5cm", "--mu", "0.3", "--limit", "1.5", "--steps", "30"),
     ("infer", *SHORT, "--jumped", "20cm", "--limit", "1.2", "--steps", "12", "--component", "EW"),
     ("batch", "synthetic_jma.csv", "gone.csv", "--bodies", "gravestone", "--solver", "rock", "--force", "--out", "FOLDER/table.csv"),
+    ("map", "shafter_1989", "synthetic_knet.EW", *BLOCK, "--mu", "0.5", "--runs", "2"),
+    ("map", "shafter_1989", "gone.csv", "--cemetery", "aoyama.csv"),
+    ("map", "shafter_1989"),
     (
         *("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", "--width", "30cm", "--height", "1.2", "--solver", "rock", "--im"),
         *("pgv,pga", "--limit", "rock,lean=0.5,overturn", "--steps", "8", "--perturb", "3", "--bootstrap", "20", "--compare", "50,0.4"),

@@ -55,6 +55,8 @@ EVERY = (
     "infer --slid 5cm --mu 0.3 --steps 3 --component EW",
     "infer --jumped 5cm --steps 2 --component EW",
     "batch --bodies gravestone --component EW --force --out FOLDER/table.csv",
+    "map synthetic_knet.EW --block gravestone --mu 0.5 --runs 3",
+    "map shafter_1989 --cemetery aoyama.csv",
     "fragility synthetic_jma elcentro_1940_ns.csv --width 30cm --height 1.2 --solver rock --im pgv,pga --limit rock,overturn --levels "
     "10,20,30,40,50,60,80,160 --perturb 4 --bootstrap 20 --compare 50,0.4",
     "fragility synthetic_jma elcentro_1940_ns.csv synthetic_knet.EW --mu 0.1 --solver slide --steps 16 --method ida --bootstrap 20",
@@ -75,6 +77,7 @@ PURE_NUMBERS = re.compile(
     | (size|slenderness|amplitude|inset|share|(rocking_)?restitution(_[xy])?)  # shares, and ratios of velocities
     | (alpha|beta|gamma|kappa|mu|mu_kinetic|damping|r|over_omega_v|height_over_width|b_over_h)
     | (common_error|stone_error|bias)_ln_pga | frequency_error_ln_f | momentum_error | jma_intensity | share_on_corners | counts_by_kind
+    | (latitude|longitude)  # degrees, under the names that maps and surveys have
     | (falls|models|runs|samples|seed|impacts|reversals|flights|jams|ratios_lowered|initial|year)
     | im | ((non_monotone|censored)_)?(records|motions) | exceeding | versions | without_curve  # of a fragility; the unit is its result's
     | beta_(interval|alone|record_to_record|parameter|sum) | perturb | bootstrap

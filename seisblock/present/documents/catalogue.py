@@ -27,6 +27,7 @@ KINDS: dict[str, tuple[str, ...]] = {
     "infer": ("infer:STONES", "infer:SLID", "infer:JUMPED"),
     "body": ("body:BODY",),
     "batch": ("batch:BATCH",),
+    "map": ("map:MAP",),
     "fragility": ("fragility:FRAGILITY",),
     "risk": ("risk:RISK",),
     "fit": ("fit:FIT",),

@@ -15,7 +15,7 @@ from seisblock import __version__
 from seisblock.present.documents.versions import schema_name
 from seisblock.records import Doubt, Record
 from seisblock.records.doubtful import sentences
-from seisblock.records.site import earthquake_of, epicentral_distance_km, site_of, told_time
+from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, site_of, told_time
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
@@ -64,8 +64,11 @@ class EarthquakeEntry(Struct, frozen=True, kw_only=True):
 def _earthquake_entry(record: Record) -> EarthquakeEntry | None:
     """Return what shook, or None where the file does not say."""
     told = earthquake_of(record)
-    if told is None:
-        return None
+    return None if told is None else entry_of_earthquake(told)
+
+
+def entry_of_earthquake(told: Earthquake) -> EarthquakeEntry:
+    """Return what shook, as documents tell it."""
     return EarthquakeEntry(
         origin_time=told.origin_time.isoformat() if told.origin_time else None,
         latitude_deg=told.latitude_deg,

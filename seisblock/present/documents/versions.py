@@ -14,6 +14,7 @@ VERSIONS = {
     "infer": 2,
     "body": 1,
     "batch": 1,
+    "map": 1,
     "fragility": 1,
     "risk": 1,
     "fit": 1,

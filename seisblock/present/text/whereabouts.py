@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seisblock.records import Record
-from seisblock.records.site import earthquake_of, epicentral_distance_km, site_of, told_time
+from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, site_of, told_time
 from seisblock.words import listed, tell
 
 
@@ -39,8 +39,27 @@ def _station(record: Record) -> str:
 def _earthquake(record: Record) -> str:
     """Return what shook, as far as it is known."""
     earthquake = earthquake_of(record)
-    if earthquake is None:
-        return ""
+    return (
+        "" if earthquake is None else earthquake_told(earthquake, told_time(record, earthquake.origin_time), epicentral_distance_km(record))
+    )
+
+
+def earthquake_told(earthquake: Earthquake, origin: str, distance_km: float | None = None) -> str:
+    """Return an earthquake in a line.
+
+    Parameters
+    ----------
+    earthquake : Earthquake
+    origin : str
+        Its time as a clock tells it, empty where it is unknown.
+    distance_km : float or None
+        From its epicentre to a station.
+
+    Examples
+    --------
+    >>> earthquake_told(Earthquake(None, 36.25, -120.28, 9.0, 6.5), "", 36.0)
+    'earthquake of magnitude 6.5, 9 km deep, 36.25 N 120.28 W, 36 km away'
+    """
     parts = []
     if earthquake.magnitude is not None:
         parts.append(tell("earthquake of magnitude {magnitude:g}", magnitude=earthquake.magnitude))
@@ -49,9 +68,7 @@ def _earthquake(record: Record) -> str:
         parts.append(tell("{depth:g} km deep", depth=earthquake.depth_km))
     if earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
         parts.append(place(earthquake.latitude_deg, earthquake.longitude_deg))
-    distance = epicentral_distance_km(record)
-    if distance is not None:
-        parts.append(tell("{distance:.3g} km away", distance=distance))
-    if earthquake.origin_time is not None:
-        parts.append(told_time(record, earthquake.origin_time))
+    if distance_km is not None:
+        parts.append(tell("{distance:.3g} km away", distance=distance_km))
+    parts += [origin] if origin else []
     return listed(parts)

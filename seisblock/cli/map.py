@@ -1,0 +1,135 @@
+"""``seisblock map``: an earthquake's stations, and what it did to what stands there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from seisblock.cli import offered
+from seisblock.cli.bodies.standing import choose_standing, standing_options
+from seisblock.cli.command import Command, option
+from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
+from seisblock.cli.output import Output
+from seisblock.cli.talk import say
+from seisblock.cli.types import Count
+from seisblock.words import noted, tell
+
+if TYPE_CHECKING:
+    from seisblock.studies.stations.effects import WhatStands
+
+SIZES = ("block", "width", "height")
+"""Options of which any names a body."""
+
+
+@click.command(
+    cls=Command,
+    examples=(
+        "seisblock map hanmer_springs_2016 --block gravestone --mu 0.5 --geojson stations.geojson",
+        "seisblock map hanmer_springs_2016 --cemetery aoyama.csv --csv stations.csv",
+    ),
+)
+@real_record_options
+@option(
+    "--cemetery",
+    metavar="FILE|NAME",
+    shell_complete=offered.cemeteries,
+    section="Body",
+    help="CSV of gravestones that stand at every station, instead of a body: which share falls. Bundled: aoyama.csv.",
+)
+@standing_options
+@option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: where the record has one]")
+@option(
+    "--runs",
+    type=Count(noted("versions"), "SEISBLOCK_RUNS", least=0),
+    default=50,
+    show_default=True,
+    help="Plausible versions behind a body's probability at each station; 0 for none.",
+)
+@option("--seed", type=int, default=0, show_default=True, help="Seed of the versions.")
+@option("--workers", type=click.IntRange(1, 1024), metavar="N", help="Threads on this machine. [default: as many as there are cores]")
+@gravity_option
+@option(
+    "--geojson", type=click.Path(path_type=Path), metavar="FILE", section="Output", help="Write the stations as points for maps (RFC 7946)."
+)
+@output_options(histories=False, film=False)
+def map(  # noqa: A001 - the command's name
+    source: Source,
+    output: Output,
+    gravity: float,
+    cemetery: str | None,
+    vertical: bool | None,
+    runs: int,
+    seed: int,
+    workers: int | None,
+    geojson: Path | None,
+    **given: Any,
+) -> None:
+    """Map an earthquake: what each station measured, and what that does to a body or a cemetery, the worst first.
+
+    RECORD may be a bundle, a folder, a pattern or a list (@records.txt) of one earthquake; of KiK-net stations the surface is taken unless
+    --level says otherwise. A body is followed in every direction, a cemetery judged in every direction; the worst counts. What cannot be
+    read is named, the others are answered; a station without coordinates is listed, and on no map.
+    """
+    from seisblock.cli.emit import emit
+    from seisblock.cli.inputs import preparation_of, refuse_windows
+    from seisblock.cli.progress import progress
+    from seisblock.present.documents.map import document
+    from seisblock.present.text import map as shown
+    from seisblock.readers import REAL_SAMPLE
+    from seisblock.readers.dispatch import Options
+    from seisblock.studies.stations.survey import survey_stations
+
+    refuse_windows(source)
+    subject = _subject(cemetery, given, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
+    if not source.record:
+        say("no RECORD given: using the bundled sample {name}", name=REAL_SAMPLE)
+    reading = Options(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
+    with progress("stations") as advance:
+        found = survey_stations(
+            source.record or (REAL_SAMPLE,),
+            subject,
+            preparation=preparation_of(source, source.component),
+            reading=reading,
+            strict=source.strict,
+            workers=workers,
+            progress=advance,
+        )
+    if geojson is not None:
+        from seisblock.present.exports.geojson import write_geojson
+
+        write_geojson(geojson, found)
+        say("wrote {path}", path=geojson)
+
+    def table(path: Path) -> None:
+        from seisblock.present.files import write_table
+        from seisblock.studies.stations.row import row_of
+
+        rows = [row_of(answer) for answer in found.answers]
+        write_table(path, list(rows[0]), (list(row.values()) for row in rows))
+
+    emit(document(found, subject), output, tables=lambda: shown.tables(found, subject, gal=output.gal), csv=table)
+
+
+def _subject(
+    cemetery: str | None, given: dict[str, Any], *, vertical: bool | None, runs: int, seed: int, gravity: float
+) -> WhatStands | None:
+    """Return what stands at each station: a cemetery, a body, or nothing."""
+    from seisblock.studies.stations.effects import StandingBody, StandingStones
+
+    named = [name for name in SIZES if given.get(name) is not None]
+    if cemetery is not None:
+        if named:
+            raise click.UsageError(tell("give either --cemetery or a body, not both"))
+        from seisblock.bodies.cemetery.table import read_cemetery
+        from seisblock.studies.cemetery.judgement import Method
+
+        return StandingStones(read_cemetery(cemetery), Method(gravity=gravity))
+    if not named:
+        return None
+    chosen = choose_standing(given)
+    say("body: {says}", says=chosen.says)
+    options = {"mu": chosen.mu, "mu_kinetic": chosen.mu_kinetic, "gravity": gravity}
+    options |= {name: given[name] for name in ("restitution", "rocking_restitution", "tenon")}
+    return StandingBody(chosen.body, options, vertical, runs, seed)

@@ -1,0 +1,62 @@
+"""Stations for maps: GeoJSON (RFC 7946), a point each, longitude before latitude."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from seisblock.present.files import replacing
+from seisblock.studies.stations.row import row_of
+from seisblock.studies.stations.survey import Stations
+
+DECIMALS = 6
+"""Of a degree: a tenth of a metre."""
+
+
+def feature_collection(found: Stations) -> dict[str, Any]:
+    """Return the stations whose place is known as a GeoJSON FeatureCollection; properties carry the keys of the document.
+
+    Parameters
+    ----------
+    found : Stations
+    """
+    features = [
+        {
+            "type": "Feature",
+            "geometry": {"type": "Point", "coordinates": _position(answer.longitude, answer.latitude)},
+            "properties": {key: value for key, value in row_of(answer).items() if key not in ("latitude", "longitude")},
+        }
+        for answer in found.mapped
+    ]
+    collection: dict[str, Any] = {"type": "FeatureCollection", "features": features}
+    earthquake = found.earthquake
+    if earthquake is not None:
+        # a member of our own, which RFC 7946 section 6.1 lets readers pass over
+        collection["earthquake"] = {
+            "name": earthquake.name,
+            "origin_time": earthquake.origin_time.isoformat() if earthquake.origin_time else None,
+            "magnitude": earthquake.magnitude,
+            "depth_km": earthquake.depth_km,
+            "coordinates": None if earthquake.latitude_deg is None else _position(earthquake.longitude_deg, earthquake.latitude_deg),
+        }
+    return collection
+
+
+def write_geojson(path: Path, found: Stations) -> None:
+    """Write the stations whose place is known as GeoJSON.
+
+    Parameters
+    ----------
+    path : Path
+    found : Stations
+    """
+    with replacing(path) as temporary:
+        text = json.dumps(feature_collection(found), ensure_ascii=False, allow_nan=False)
+        temporary.write_text(text + "\n", encoding="utf-8")
+
+
+def _position(longitude: float | None, latitude: float | None) -> list[float]:
+    """Return a position, longitudes from -180 to 180."""
+    east = float(longitude or 0.0)
+    return [round((east + 180.0) % 360.0 - 180.0 if abs(east) > 180.0 else east, DECIMALS), round(float(latitude or 0.0), DECIMALS)]

@@ -1,0 +1,103 @@
+"""How an earthquake's stations are told: the worst first, and what has no answer or no place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from seisblock.present.scales import Unit, acceleration_unit, length_cell, length_unit, velocity_unit
+from seisblock.present.text.tables import fixed, line, number, table
+from seisblock.present.text.whereabouts import earthquake_told
+from seisblock.studies.stations.effects import StandingBody, WhatStands
+from seisblock.studies.stations.survey import StationAnswer, Stations
+from seisblock.words import roughly, tell
+
+MOST = 40
+"""Stations that the table tells of; the files tell of all."""
+
+
+def tables(found: Stations, subject: WhatStands | None, *, gal: bool) -> Iterator[Any]:
+    """Yield what is printed: the verdict over all stations, the earthquake, the table of the worst, and what is missing.
+
+    Parameters
+    ----------
+    found : Stations
+    subject : StandingBody, StandingStones or None
+    gal : bool
+        Whether accelerations are shown in gal.
+    """
+    answered = [answer for answer in found.answers if answer.pga_m_s2 is not None]
+    yield line(_verdict(answered, subject), "bold")
+    if found.earthquake is not None:
+        yield line(earthquake_told(found.earthquake, found.origin_told))
+    shown = answered[:MOST]
+    if shown:
+        a, v = acceleration_unit(gal=gal), velocity_unit(gal=gal)
+        way = length_unit((answer.effect.max_slip_m or 0.0 for answer in shown), gal=gal)
+        heads = [tell("station"), "km", f"PGA ({a.name})", f"PGV ({v.name})", tell("JMA")]
+        rows = [[*_measured(answer, a, v), *_effect(answer, subject, way)] for answer in shown]
+        more = tell("and {count} more stations, in the files", count=len(answered) - MOST) if len(answered) > MOST else ""
+        yield table("", [*heads, *_effect_heads(subject, way)], rows, caption=more)
+    missing = [answer for answer in found.answers if answer.failure]
+    if missing:
+        yield line(tell("without an answer: {count}", count=len(missing)), "yellow")
+    unmapped = [answer for answer in answered if not answer.is_mapped]
+    if unmapped:
+        yield line(tell("listed, and on no map, for their files do not say where they are: {count}", count=len(unmapped)), "yellow")
+
+
+def _verdict(answered: list[StationAnswer], subject: WhatStands | None) -> str:
+    """Return what happened over all stations, in a sentence."""
+    count = len(answered)
+    if not answered:
+        return tell("no station has an answer")
+    worst = answered[0]
+    if subject is None:
+        return tell("{count} stations, the largest shaking at {station}", count=count, station=worst.label)
+    if isinstance(subject, StandingBody):
+        falls = sum(bool(answer.effect.overturned) for answer in answered)
+        text = "{subject} falls at {falls} of {count} stations, worst at {station}"
+        return tell(text, subject=tell(subject.name), falls=falls, count=count, station=worst.label)
+    rates = [answer.effect.rate or 0.0 for answer in answered]
+    return tell(
+        "{subject}: stones fall at {falls} of {count} stations, most at {station}, {rate}",
+        subject=tell(subject.name),
+        falls=sum(rate > 0.0 for rate in rates),
+        count=count,
+        station=worst.label,
+        rate=roughly(max(rates)),
+    )
+
+
+def _measured(answer: StationAnswer, a: Unit, v: Unit) -> list[str]:
+    """Return the cells of what was measured."""
+    intensity = answer.jma_intensity
+    return [
+        answer.label,
+        number(answer.epicentral_distance_km, 3),
+        number(None if answer.pga_m_s2 is None else answer.pga_m_s2 / a.size),
+        number(None if answer.pgv_m_s is None else answer.pgv_m_s / v.size, 3),
+        number(None) if intensity is None else fixed(intensity, 1),
+    ]
+
+
+def _effect_heads(subject: WhatStands | None, way: Unit) -> list[str]:
+    """Return the headings of what it did."""
+    if subject is None:
+        return []
+    if isinstance(subject, StandingBody):
+        return [tell("falls"), tell("share"), tell("moves ({unit})", unit=way.name), tell("worst to")]
+    return [tell("rate"), tell("worst to")]
+
+
+def _effect(answer: StationAnswer, subject: WhatStands | None, way: Unit) -> list[str]:
+    """Return the cells of what it did."""
+    if subject is None:
+        return []
+    effect = answer.effect
+    towards = number(None) if effect.azimuth_deg is None else f"{effect.azimuth_deg:g}°"
+    if not isinstance(subject, StandingBody):
+        return [number(None) if effect.rate is None else roughly(effect.rate), towards]
+    share = number(None) if effect.probability is None else roughly(effect.probability)
+    slip = number(None) if effect.max_slip_m is None else length_cell(effect.max_slip_m, way)
+    return [number(effect.overturned), share, slip, towards]

@@ -1,0 +1,278 @@
+"""Station by station: what was measured, what it did, and where that is; the worst first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from datetime import datetime, timedelta
+from functools import partial
+from itertools import groupby
+from os import PathLike
+from typing import Any, TypeAlias
+
+from seisblock import checks
+from seisblock.errors import KindError, ParameterError, SeisblockError
+from seisblock.measures.baseline import ground_history
+from seisblock.measures.intensity import jma_intensity
+from seisblock.measures.peaks import peak_acceleration, peak_velocity
+from seisblock.readers.dispatch import Options
+from seisblock.readers.gather import Recording, gather
+from seisblock.readers.source import Location
+from seisblock.records import Preparation, Record
+from seisblock.records.doubtful import refuse_doubtful, sentences
+from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, great_circle_km, site_of, told_time
+from seisblock.studies.runs import in_threads
+from seisblock.studies.stations.effects import StationEffect, WhatStands
+from seisblock.typing import Progress
+from seisblock.words import said
+
+AS_READ = Preparation()
+"""Nothing is done to a record but what its format needs."""
+
+APART_KM = 100.0
+"""Epicentres further apart than any two solutions of one earthquake are those of two."""
+
+APART = timedelta(minutes=3)
+"""Origin times further apart are those of two earthquakes; old headers tell the minute."""
+
+
+@dataclass(frozen=True)
+class StationAnswer:
+    """One station.
+
+    Parameters
+    ----------
+    record : str
+        File name.
+    station, name : str
+        Empty where the file has none.
+    latitude, longitude : float or None
+        Degrees north and east; None where the file does not say: the station is listed, and on no map.
+    epicentral_distance_km : float or None
+    local_start : str
+        Time of the first sample on the network's own clock.
+    pga_m_s2, pgv_m_s : float or None
+        The larger of the horizontal components.
+    jma_intensity : float or None, 1
+        None where it needs components, or samples, that are not there.
+    effect : StationEffect
+    failure : str or None
+        Why there is no answer, or no effect.
+    doubts : tuple of str
+        What a careful reader notices about the record.
+    earthquake : Earthquake or None
+    origin_told : str
+        When that was on the network's own clock.
+    """
+
+    record: str
+    station: str = ""
+    name: str = ""
+    latitude: float | None = None
+    longitude: float | None = None
+    epicentral_distance_km: float | None = None
+    local_start: str = ""
+    pga_m_s2: float | None = None
+    pgv_m_s: float | None = None
+    jma_intensity: float | None = None
+    effect: StationEffect = field(default_factory=StationEffect)
+    failure: str | None = None
+    doubts: tuple[str, ...] = ()
+    earthquake: Earthquake | None = None
+    origin_told: str = ""
+
+    @property
+    def is_mapped(self) -> bool:
+        """Whether it is known where the station is, and what was measured there."""
+        return self.latitude is not None and self.longitude is not None and self.pga_m_s2 is not None
+
+    @property
+    def label(self) -> str:
+        """Code and name of the station, else the file's name."""
+        return " ".join(part for part in (self.station, self.name) if part) or self.record
+
+
+@dataclass(frozen=True)
+class Stations:
+    """The stations of one earthquake, the worst first, those without an answer last.
+
+    Parameters
+    ----------
+    answers : tuple of StationAnswer
+    earthquake : Earthquake or None
+    origin_told : str
+        When that was on the clock of the network that tells it.
+    """
+
+    answers: tuple[StationAnswer, ...]
+    earthquake: Earthquake | None
+    origin_told: str = ""
+
+    @property
+    def mapped(self) -> tuple[StationAnswer, ...]:
+        """Those of which it is known where they are."""
+        return tuple(answer for answer in self.answers if answer.is_mapped)
+
+
+Station: TypeAlias = "Location | Recording | Record"
+"""What a station may be given as: names, a recording that is yet to be read, or a record."""
+
+
+def survey_stations(
+    records: Station | Iterable[Station],
+    subject: WhatStands | None = None,
+    *,
+    preparation: Preparation = AS_READ,
+    reading: Options | None = None,
+    strict: bool = False,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> Stations:
+    """Return what each station of an earthquake measured, and what that did to a body or a cemetery.
+
+    A record that cannot be read, and one with which a subject can do nothing, is an answer with its reason; the others are answered.
+
+    Parameters
+    ----------
+    records : path, Recording or Record, or several
+        Files, folders, patterns, ``@list.txt`` and bundles, see :func:`~seisblock.readers.gather.gather`; taken as they are needed.
+    subject : StandingBody, StandingStones or None
+        What stands at each station; None for what was measured alone.
+    preparation : Preparation
+        What is done to each record before.
+    reading : Options
+        What the caller says of files that do not say it themselves.
+    strict : bool
+        Whether a record about which there is any doubt has no answer.
+    workers : int
+        Threads; as many as there are cores when left out.
+    progress : callable
+        Told the number of stations done, and the number known of.
+
+    Raises
+    ------
+    ParameterError
+        If the records are of two earthquakes, or there is none.
+
+    Examples
+    --------
+    >>> found = survey_stations("hanmer_springs_2016")
+    >>> found.answers[0].station, found.answers[0].latitude, round(found.answers[0].jma_intensity, 1)
+    ('HSES', -42.52333, 5.4)
+    """
+    checks.instance(preparation, Preparation)
+    reading = reading or Options()
+    work = partial(_answer, subject=subject, preparation=preparation, reading=reading, strict=strict)
+    answers: list[StationAnswer] = []
+    known: StationAnswer | None = None
+    for answer in _with_progress(in_threads(work, _recordings(records, reading), workers=workers), progress):
+        known = _of_one_earthquake(known, answer)
+        answers.append(answer)
+    if not answers:
+        raise ParameterError("there is no record: name files, folders or bundles of one earthquake")
+    answers.sort(key=lambda each: (each.pga_m_s2 is not None, *each.effect.severity, each.pga_m_s2 or 0.0), reverse=True)
+    return Stations(tuple(answers), known.earthquake if known else None, known.origin_told if known else "")
+
+
+def _recordings(records: Station | Iterable[Station], reading: Options) -> Iterator[Recording | Record]:
+    """Yield what is read already or about to be, and what names stand for."""
+    single = isinstance(records, (str, PathLike, Recording, Record))
+    if not single and not isinstance(records, Iterable):
+        raise KindError("names or records of stations are needed, found {found}", found=checks.kind_of(records))
+    given: Iterable[Any] = [records] if single else records  # type: ignore[assignment]
+    for named, some in groupby(given, key=lambda each: isinstance(each, (str, PathLike))):
+        if named:
+            yield from gather([str(each) for each in some], reading)
+        else:
+            yield from some
+
+
+def _with_progress(answers: Iterable[StationAnswer], progress: Progress | None) -> Iterator[StationAnswer]:
+    """Yield answers, and tell how many there are so far."""
+    for done, answer in enumerate(answers, start=1):
+        if progress is not None:
+            progress(done, done)
+        yield answer
+
+
+def _answer(
+    recording: Recording | Record, *, subject: WhatStands | None, preparation: Preparation, reading: Options, strict: bool
+) -> StationAnswer:
+    """Return the answer of one station."""
+    if not isinstance(recording, (Recording, Record)):
+        raise KindError("names or records of stations are needed, found {found}", found=checks.kind_of(recording))
+    name = recording.name if isinstance(recording, Recording) else recording.source.rsplit("/", 1)[-1]
+    try:
+        record = recording.read(reading) if isinstance(recording, Recording) else recording
+        if strict:
+            refuse_doubtful(record)
+        prepared = preparation.apply(record)
+    except SeisblockError as error:
+        return StationAnswer(name, failure=error.said)
+    site, earthquake = site_of(prepared), earthquake_of(prepared)
+    where: dict[str, object] = {
+        "station": site.code,
+        "name": site.name,
+        "latitude": site.latitude_deg,
+        "longitude": site.longitude_deg,
+        "epicentral_distance_km": epicentral_distance_km(prepared),
+        "local_start": told_time(prepared, prepared.start),
+        "doubts": tuple(sentences([prepared])),
+        "earthquake": earthquake,
+        "origin_told": "" if earthquake is None else told_time(prepared, earthquake.origin_time),
+    }
+    try:
+        measured = _measured(prepared)
+    except SeisblockError as error:
+        return StationAnswer(name, **where, failure=error.said)  # type: ignore[arg-type]
+    try:
+        effect, failure = subject.under(prepared) if subject is not None else StationEffect(), None
+    except SeisblockError as error:
+        effect, failure = StationEffect(), error.said
+    return StationAnswer(name, **where, **measured, effect=effect, failure=failure)  # type: ignore[arg-type]
+
+
+def _measured(record: Record) -> dict[str, float | None]:
+    """Return peaks and intensity of a record."""
+    rows = [component.acceleration for component in record.horizontals]
+    if not rows:
+        raise ParameterError("{source}: no horizontal component; it has {codes}", source=record.source, codes=record.codes)
+    return {
+        "pga_m_s2": max(peak_acceleration(row)[0] for row in rows),
+        "pgv_m_s": max(peak_velocity(ground_history(row, record.dt), record.dt) for row in rows),
+        "jma_intensity": jma_intensity(record),
+    }
+
+
+def _of_one_earthquake(known: StationAnswer | None, answer: StationAnswer) -> StationAnswer | None:
+    """Return the station whose earthquake is that of all so far, and refuse another earthquake."""
+    if answer.earthquake is None or known is None or known.earthquake is None:
+        return known if answer.earthquake is None else answer
+    if _differ(known.earthquake, answer.earthquake):
+        raise ParameterError(
+            "these records are of two earthquakes: {one} ({first}) and {other} ({second}): give those of one",
+            one=_told(known.earthquake),
+            first=known.label,
+            other=_told(answer.earthquake),
+            second=answer.label,
+        )
+    return known
+
+
+def _differ(one: Earthquake, other: Earthquake) -> bool:
+    """Return whether two headers tell of two earthquakes."""
+    if one.origin_time is not None and other.origin_time is not None and abs(one.origin_time - other.origin_time) > APART:
+        return True
+    places = [(each.latitude_deg, each.longitude_deg) for each in (one, other)]
+    known = [(float(north), float(east)) for north, east in places if north is not None and east is not None]
+    return len(known) == 2 and great_circle_km(known[0], known[1]) > APART_KM
+
+
+def _told(earthquake: Earthquake) -> str:
+    """Return an earthquake in words: its time, else its place or name."""
+    moment: datetime | None = earthquake.origin_time
+    if moment is not None:
+        return f"{moment:%Y-%m-%d %H:%M} UTC"
+    if earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
+        return f"{earthquake.latitude_deg:g}, {earthquake.longitude_deg:g}"
+    return earthquake.name or said("one that tells no place")

@@ -1,0 +1,102 @@
+"""`map`: table, CSV, GeoJSON and document of one earthquake's stations."""
+
+from __future__ import annotations
+
+import csv
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+from tests.stations import bundle, station_files
+
+
+@pytest.fixture(scope="module")
+def answered(tmp_path_factory):
+    """Return what a bundle of six stations, one of them damaged, and a record without coordinates give: result, and the folder of files."""
+    folder = tmp_path_factory.mktemp("map")
+    path = bundle(folder / "event.knt.tar.gz", 6, damaged=(2,))
+    words = ["map", str(path), "synthetic_jma", "--block", "gravestone", "--mu", "0.5", "--runs", "10", "--json"]
+    words += ["--geojson", str(folder / "a.geojson"), "--csv", str(folder / "a.csv")]
+    return CliRunner().invoke(main, words), folder
+
+
+def test_the_document(answered):
+    """Seven records: six answers, the worst first; the damaged one and the one without a place are named in the warnings."""
+    result, _ = answered
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    entries = document["results"]
+    assert [entry["failure"] is None for entry in entries] == [True] * 6 + [False]
+    assert document["earthquake"]["magnitude"] == 6.8
+    assert (document["parameters"]["subject"], document["parameters"]["solver"], document["parameters"]["runs"]) == (
+        "gravestone",
+        "respond",
+        10,
+    )
+    shares = [entry["probability"] for entry in entries[:6]]
+    assert shares == sorted(shares, reverse=True) and shares[0] == 1.0
+    text = " ".join(document["warnings"])
+    assert "SYA0020410231756" in text and "is cut short" in text
+    assert "SYN 合成波形 SYNTHETIC: its file does not say where it is: it is listed, and on no map" in text
+
+
+def test_points_for_maps(answered):
+    """RFC 7946: a FeatureCollection of points, longitude before latitude; the keys of the document; no point without a place."""
+    result, folder = answered
+    entries = {entry["station"]: entry for entry in json.loads(result.stdout)["results"]}
+    told = json.loads((folder / "a.geojson").read_text(encoding="utf-8"))
+    assert told["type"] == "FeatureCollection" and len(told["features"]) == 5
+    for feature in told["features"]:
+        assert (feature["type"], feature["geometry"]["type"]) == ("Feature", "Point")
+        east, north = feature["geometry"]["coordinates"]
+        entry = entries[feature["properties"]["station"]]
+        assert (east, north) == (entry["longitude"], entry["latitude"]) and 137 < east < 140 and 36 < north < 39
+        assert feature["properties"] == {key: value for key, value in entry.items() if key not in ("latitude", "longitude")}
+    assert told["earthquake"]["coordinates"] == [138.87, 37.288]
+
+
+def test_the_table_of_rows(answered):
+    """A row for each record, every digit of its numbers, empty where there is nothing."""
+    result, folder = answered
+    entries = json.loads(result.stdout)["results"]
+    with (folder / "a.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) == len(entries)
+    for row, entry in zip(rows, entries, strict=True):
+        assert list(row) == list(entry)
+        assert row["pga_m_s2"] == ("" if entry["pga_m_s2"] is None else repr(entry["pga_m_s2"]))
+        assert row["station"] == entry["station"]
+
+
+def test_what_is_shown(tmp_path, monkeypatch):
+    """The verdict, the earthquake on its network's clock, the stations; of a cemetery the rate."""
+    monkeypatch.setenv("COLUMNS", "100")
+    for number in (1, 4):
+        for name, data in station_files(number).items():
+            (tmp_path / name).write_bytes(data)
+    shown = CliRunner().invoke(main, ["map", str(tmp_path), "--cemetery", "aoyama.csv"])
+    assert shown.exit_code == 0, shown.stderr
+    assert "of 2 stations, most at SYA001" in shown.stdout
+    assert "earthquake of magnitude 6.8, 13 km deep, 37.288 N 138.87 E, 2004-10-23 17:56:00 JST" in shown.stdout
+    peaks = CliRunner().invoke(main, ["map", str(tmp_path)])
+    assert "2 stations, the largest shaking at SYA001" in peaks.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "says"),
+    [
+        (["EMPTY"], 3, "no record in this folder"),
+        (["hanmer_springs_2016", "shafter_1989"], 3, "these records are of two earthquakes: 2016-11-13 11:02 UTC (HSES Hanmer Springs"),
+        (["shafter_1989", "--cemetery", "aoyama.csv", "--block", "gravestone"], 2, "give either --cemetery or a body, not both"),
+        (["shafter_1989", "--width", "24cm", "--height", "72cm"], 3, "how rough is it under the body?"),
+    ],
+)
+def test_bad_input(words, code, says, tmp_path):
+    """A folder without records, two earthquakes, a body and a cemetery, no friction."""
+    (tmp_path / "note.md").write_text("nothing here")
+    words = [str(tmp_path) if word == "EMPTY" else word for word in words]
+    result = CliRunner().invoke(main, ["map", *words])
+    assert result.exit_code == code
+    assert says in " ".join(result.stderr.split())

@@ -1,0 +1,140 @@
+"""An earthquake's stations: each measured and judged by itself, the worst first; what fails costs only itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.errors import ParameterError
+from seisblock.measures import measure
+from seisblock.readers import read, read_all
+from seisblock.readers.dispatch import Options
+from seisblock.readers.gather import gather
+from seisblock.records import Component, Preparation, motion_of
+from seisblock.solvers.respond.solve import solve_respond
+from seisblock.studies.cemetery.judgement import Method, judge_cemetery
+from seisblock.studies.cemetery.shaking import shakings_of
+from seisblock.studies.standing.azimuths import respond_directions
+from seisblock.studies.stations.effects import StandingBody, StandingStones
+from seisblock.studies.stations.survey import survey_stations
+from tests.stations import bundle, station_files
+
+BODY = StandingBody(Block(0.24, 0.8), {"mu": 0.6}, runs=20)
+
+
+@pytest.fixture(scope="module")
+def event(tmp_path_factory):
+    """Return the path of a bundle of eight stations, of which one is cut in half."""
+    return bundle(tmp_path_factory.mktemp("event") / "event.knt.tar.gz", 8, damaged=(3,))
+
+
+@pytest.fixture(scope="module")
+def found(event):
+    """Return those stations with a block at each."""
+    return survey_stations(event, BODY)
+
+
+def prepared(event, station):
+    """Return the record of one station of a bundle, as it is judged."""
+    recording = next(each for each in gather([str(event)], Options()) if each.name.startswith(station))
+    return Preparation().apply(recording.read(Options()))
+
+
+def test_a_damaged_member_costs_only_itself(found):
+    """Seven stations are answered and one is named with its reason, last."""
+    assert [answer.failure is None for answer in found.answers] == [True] * 7 + [False]
+    assert "SYA003" in found.answers[-1].record and "is cut short" in found.answers[-1].failure
+    assert len(found.mapped) == 7
+
+
+def test_the_worst_comes_first(found):
+    """By the share that falls, then the verdict, then the way, then the shaking."""
+    shown = [(answer.effect.severity, answer.pga_m_s2) for answer in found.answers[:-1]]
+    assert shown == sorted(shown, reverse=True)
+    assert found.answers[0].effect.probability > 0.5 and found.answers[-2].effect.probability == 0.0
+
+
+def test_each_station_is_that_of_the_commands_of_one_record(event, found):
+    """Peaks and intensity are those of `measure`, the fate that of `respond` in the worst direction."""
+    answer = found.answers[0]
+    record = prepared(event, answer.station)
+    told = measure(record)
+    horizontal = [m for m in told.components if m.component != "UD"]
+    assert answer.pga_m_s2 == max(m.pga_m_s2 for m in horizontal)
+    assert answer.pgv_m_s == pytest.approx(max(m.pgv_m_s for m in horizontal), rel=1e-12)
+    assert answer.jma_intensity == told.jma_intensity
+    worst = respond_directions(Block(0.24, 0.8), record, mu=0.6)[0]
+    assert (answer.effect.azimuth_deg, answer.effect.max_slip_m) == (worst.azimuth_deg, worst.max_displacement_m)
+    alone = solve_respond(Block(0.24, 0.8), motion_of(record, f"{worst.azimuth_deg:g}"), mu=0.6).outcome
+    assert alone.overturned == answer.effect.overturned
+
+
+def test_a_cemetery_is_judged_in_every_direction(event):
+    """The rate is at least that of either component, and that of `overturn-rate` towards its azimuth."""
+    cemetery = read_cemetery("aoyama.csv")
+    answer = survey_stations(event, StandingStones(cemetery)).answers[0]
+    record = prepared(event, answer.station)
+    rates = [judge_cemetery(cemetery, shaking, Method()).rate for shaking in shakings_of(record, ("NS", "EW"))]
+    assert answer.effect.rate >= max(rates) > 0.0
+    (towards,) = shakings_of(record, (f"{answer.effect.azimuth_deg:g}",))
+    assert judge_cemetery(cemetery, towards, Method()).rate == answer.effect.rate
+
+
+def test_threads_change_nothing(event, found):
+    """One worker gives the same stations in the same order."""
+    again = survey_stations(event, BODY, workers=1)
+    assert again == found
+
+
+def test_two_earthquakes_are_refused(tmp_path):
+    """Another origin time, or an epicentre far away, with the stations that tell them; three minutes are one earthquake."""
+    for number, changes in ((1, {}), (2, {"Origin Time": "2004/10/23 18:34:00", "time": "2004/10/23 18:34:20"})):
+        for name, data in station_files(number, **changes).items():
+            (tmp_path / name).write_bytes(data)
+    with pytest.raises(ParameterError, match=r"two earthquakes: 2004-10-23 08:56 UTC .SYA001. and 2004-10-23 09:34 UTC .SYA002."):
+        survey_stations(tmp_path)
+    near, far = (read_all_of(tmp_path / part, station_files(3, **header)) for part, header in (("a", {}), ("b", {"Lat.": "35.000"})))
+    with pytest.raises(ParameterError, match="two earthquakes"):
+        survey_stations([near, far])
+    soon = read_all_of(tmp_path / "c", station_files(4, **{"Origin Time": "2004/10/23 17:57:00"}))
+    assert len(survey_stations([near, soon]).answers) == 2
+
+
+def read_all_of(folder, files):
+    """Return the record of some files, written to a folder."""
+    folder.mkdir()
+    for name, data in files.items():
+        (folder / name).write_bytes(data)
+    (record,) = read_all(sorted(folder.iterdir()))
+    return record
+
+
+def test_a_station_without_a_place_is_listed_and_not_mapped(found):
+    """JMA's zeros and a table's nothing are no coordinates; with one horizontal of unknown azimuth there is no worst direction."""
+    listed = survey_stations([read("synthetic_jma"), read("elcentro_1940_ns")], BODY)
+    assert listed.mapped == ()
+    jma, table = listed.answers
+    assert (jma.latitude, jma.failure) == (None, None) and jma.pga_m_s2 > 9.0
+    assert table.pga_m_s2 == pytest.approx(3.12656, abs=1e-4) and table.failure is not None and table.effect.azimuth_deg is None
+    assert found.earthquake.magnitude == 6.8 and found.origin_told == "2004-10-23 17:56:00 JST"
+
+
+def test_nothing_to_survey():
+    """No record at all, and stones that are to be simulated, are refused."""
+    with pytest.raises(ParameterError, match="there is no record"):
+        survey_stations([])
+    with pytest.raises(ParameterError, match="by a criterion"):
+        StandingStones(read_cemetery("aoyama.csv"), Method("simulate"))
+
+
+def test_every_direction_is_looked_in():
+    """A shaking along 45 degrees does its worst there, though both components are smaller."""
+    record = read("synthetic_jma")
+    north = record.component("NS").acceleration
+    half = north / np.sqrt(2)
+    along = record.with_components([Component("NS", half), Component("EW", half), record.component("UD")], "turned")
+    answer = survey_stations([along], StandingStones(read_cemetery("aoyama.csv"))).answers[0]
+    assert answer.effect.azimuth_deg == 45.0
+    assert answer.pga_m_s2 == pytest.approx(np.abs(north).max() / np.sqrt(2))
