@@ -57,16 +57,22 @@ class Path:
         states : (m, n_states) array
         modes : (m,) array
         """
-        time = self.dt * np.arange(self.first, self.first + self.modes.size, dtype=np.float64)
-        states, modes = self.states, self.modes
-        if chosen is not None:
-            time, states, modes = time[chosen], states[chosen], modes[chosen]
+        time, modes = self.course(chosen)
+        states = self.states if chosen is None else self.states[chosen]
         if not self.changes:
             return time, states, modes
-        both = self.changes.limits.reshape(-1, states.shape[1])
-        kinds = np.stack([self.changes.source, self.changes.target], axis=1).ravel()
-        times, order = np.repeat(self.changes.time, 2), self._order(chosen)
-        return _woven(time, times, order), _woven(states, both, order), _woven(modes, kinds, order)
+        return time, _woven(states, self.changes.limits.reshape(-1, states.shape[1]), self._before(chosen)), modes
+
+    def course(self, chosen: IntArray | None = None) -> tuple[FloatArray, IntArray]:
+        """Return the times and modes of :meth:`table` alone, (m,) each."""
+        time = self.dt * np.arange(self.first, self.first + self.modes.size, dtype=np.float64)
+        modes = self.modes
+        if chosen is not None:
+            time, modes = time[chosen], modes[chosen]
+        if not self.changes:
+            return time, modes
+        kinds, before = np.stack([self.changes.source, self.changes.target], axis=1).ravel(), self._before(chosen)
+        return _woven(time, np.repeat(self.changes.time, 2), before), _woven(modes, kinds, before)
 
     def numbers(self, chosen: IntArray) -> IntArray:
         """Return which rows of the whole table those of :meth:`table` at some samples are, (m,)."""
@@ -74,14 +80,14 @@ class Path:
             return chosen
         before = self._places()
         at_samples = chosen + np.searchsorted(before, chosen, side="right")
-        return _woven(at_samples, before + np.arange(before.size), self._order(chosen))
+        return _woven(at_samples, before + np.arange(before.size), self._before(chosen))
 
     def values(self, state: int) -> FloatArray:
         """Return one state at the times of :meth:`table`, (m,)."""
         at_samples: FloatArray = self.states[:, state]
         if not self.changes:
             return at_samples
-        return _woven(at_samples, self.changes.limits[:, :, state].ravel(), self._order())
+        return _woven(at_samples, self.changes.limits[:, :, state].ravel(), self._before())
 
     def sampled(self, values: FloatArray, chosen: IntArray | None = None) -> FloatArray:
         """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
@@ -92,24 +98,37 @@ class Path:
             return part
         at, share = self.changes.sample, self.changes.tau / self.dt
         there = values[at] + share * (values[np.minimum(at + 1, values.size - 1)] - values[at])
-        return _woven(part, np.repeat(there, 2), self._order(chosen))
+        return _woven(part, np.repeat(there, 2), self._before(chosen))
 
     def _places(self) -> IntArray:
         """Return before which sample of the path each limit of each event stands."""
         at = self.changes.sample + 1 - self.first
         return np.clip(np.repeat(at, 2), 0, self.modes.size)
 
-    def _order(self, chosen: IntArray | None = None) -> IntArray:
-        """Return which of the samples, and of the limits of the events after them, stands at each place of the table."""
-        before, size = self._places(), self.modes.size
-        if chosen is not None:
-            before, size = np.searchsorted(chosen, before), chosen.size
-        return np.insert(np.arange(size), before, size + np.arange(before.size))
+    def _before(self, chosen: IntArray | None = None) -> IntArray:
+        """Return before which of the samples chosen each limit of each event stands."""
+        before = self._places()
+        return before if chosen is None else np.searchsorted(chosen, before)
 
 
-def _woven(at_samples: Values, at_limits: Values, order: IntArray) -> Values:
-    """Return what holds at samples and what holds at events, in the order of time."""
-    return np.concatenate([at_samples, at_limits])[order]
+FEW = 8
+"""Samples for each limit of an event, from which on it is quicker to copy the stretches between events than to pick sample after sample."""
+
+
+def _woven(at_samples: Values, at_limits: Values, before: IntArray) -> Values:
+    """Return what holds at samples and what holds at limits of events, each before a sample, in the order of time."""
+    count, size = len(at_limits), len(at_samples)
+    if FEW * count > size:
+        order = np.insert(np.arange(size), before, size + np.arange(count))
+        return np.concatenate([at_samples, at_limits])[order]
+    found = np.empty((size + count, *at_samples.shape[1:]), dtype=at_samples.dtype)
+    begin = 0
+    for row, end in enumerate(before.tolist()):
+        found[begin + row : end + row] = at_samples[begin:end]
+        begin = end
+    found[begin + count :] = at_samples[begin:]
+    found[before + np.arange(count)] = at_limits
+    return found
 
 
 def joined(paths: Iterable[Path]) -> Path:

@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
-from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.bodies.two_layer import TwoLayerBlock, load_contact, load_two_layer
 from seisblock.dynamics import follow
 from seisblock.records import Motion
 from seisblock.solvers.jump import flight as flying
-from seisblock.solvers.jump import modes, rocking
+from seisblock.solvers.jump import jump_many, modes, rocking, solve_jump
+from tests.benchmarks.test_slide_speed import best
+from tests.solvers.uplift_motions import shaking
 
 N = 50_000
 BLOCK = TwoLayerBlock(2.08, 2.50, 1.06, 1.84, 1303.7, 160.0)
@@ -45,3 +47,16 @@ def test_cost_per_sample(benchmark, run, mode):
     benchmark(run)
     if benchmark.stats is not None:
         benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / N * 1e9
+
+
+def test_a_hundred_factors_side_by_side(benchmark):
+    """A hundred factors on 60 s, chain after chain, take a fifth of the time of single answers at the most (a thirtieth, measured)."""
+    block, contact = load_two_layer("chozusha"), load_contact("chozusha")
+    motion = shaking(60.0, 0.01, peaks=(9.0, 5.0, 3.0), seed=1)
+    factors = np.linspace(0.5, 1.5, 100)
+    found = benchmark(jump_many, [block], motion, contacts=[contact], factors=factors)
+    assert len(found.chains.row) > 2000
+    if benchmark.stats is not None:
+        benchmark.extra_info["ns_per_sample"] = benchmark.stats.stats.min / (motion.samples * factors.size) * 1e9
+        alone = best(lambda: solve_jump(block, motion, contact=contact), repeats=3)
+        assert benchmark.stats.stats.min / factors.size < alone / 5.0

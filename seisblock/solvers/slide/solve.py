@@ -21,12 +21,17 @@ from seisblock.results import Channel, Histories, Phase, Response, Status, event
 from seisblock.solvers.slide.length import length_slid
 from seisblock.solvers.slide.model import BACKWARD, FLIGHT, FOOT, FORWARD, LEVEL, SLIDE, SLIP, SPEED, STICK, UNDEFINED, parameters
 from seisblock.solvers.slide.rest import slip_at_rest
-from seisblock.typing import BoolArray, IntArray
+from seisblock.typing import BoolArray, FloatArray, IntArray
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import Said, noted, said
 
 SLIDING = (noted("slip forward"), noted("slip backward"))
 """Names of the phases in which the object slides; forward is the component's positive direction, downhill on a positive slope."""
+
+
+_WAY = np.zeros(LEVEL)
+_WAY[[FORWARD, BACKWARD]] = -1.0, 1.0
+"""Which way kinetic friction pushes in each mode."""
 
 
 @dataclass(frozen=True)
@@ -250,28 +255,31 @@ def _event_name(change: Change) -> str:
 
 def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, trajectory: Trajectory) -> Histories:
     """Return the curves on the trajectory's own time axis, both limits at each event."""
-    time, states, modes = trajectory.table()
-    level = modes >= LEVEL
-    sine = np.where(level, 0.0, math.sin(base.angle))
-    cosine = np.where(level, 1.0, math.cos(base.angle))
-    grid = motion.dt * np.arange(motion.samples)
-    horizontal = np.interp(time, grid, motion.horizontal)
-    vertical = gain * np.interp(time, grid, motion.vertical) if gain else np.zeros_like(time)
-    along = horizontal * cosine - vertical * sine
-    normal = (gravity + vertical) * cosine + horizontal * sine
+    path = trajectory.path
+    time, modes = path.course()
+    horizontal = path.sampled(motion.horizontal)
+    vertical = gain * path.sampled(motion.vertical) if gain else 0.0
+    sine: float | FloatArray = math.sin(base.angle)
+    cosine: float | FloatArray = math.cos(base.angle)
+    phase = modes
+    if modes.max() >= LEVEL:
+        level = modes >= LEVEL
+        sine, cosine, phase = np.where(level, 0.0, sine), np.where(level, 1.0, cosine), modes % LEVEL
+    along = horizontal * cosine - vertical * sine if base.slope_deg or gain else horizontal
+    normal = np.broadcast_to((gravity + vertical) * cosine + (horizontal * sine if base.slope_deg else 0.0), time.shape)
     pull = gravity * sine
-    phase = modes % LEVEL
-    friction = np.select([phase == FORWARD, phase == BACKWARD], [-base.kinetic * normal, base.kinetic * normal], 0.0)
-    acceleration = np.where(phase == STICK, 0.0, pull - along + friction)
-    velocity = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(time) * (along[1:] + along[:-1]))])
+    way = _WAY[phase]
+    acceleration = np.where(phase == STICK, 0.0, (pull - along) + way * (base.kinetic * normal))
+    velocity = np.zeros_like(time)
+    np.cumsum(0.5 * np.diff(time) * (along[1:] + along[:-1]), out=velocity[1:])
     unit, speed = "m/s^2", "m/s"
     channels = (
         Channel("ground_acceleration", unit, along, "z''"),
         Channel("lower_limit", unit, pull - base.mu * normal, ""),
         Channel("upper_limit", unit, pull + base.mu * normal, ""),
         Channel("acceleration", unit, acceleration, "x'' - z''"),
-        Channel("velocity", speed, states[:, SPEED], "x' - z'"),
-        Channel("displacement", "m", states[:, SLIP], "x - z"),
+        Channel("velocity", speed, path.values(SPEED), "x' - z'"),
+        Channel("displacement", "m", path.values(SLIP), "x - z"),
         Channel("ground_velocity", speed, velocity, "z'"),
     )
     return Histories(motion.start_s + time, channels)
