@@ -87,9 +87,9 @@ def towards(degrees: float, motion: Motion) -> str:
         azimuth = float(motion.name)
     except ValueError:
         eighth = math.radians(EIGHTH * round(degrees / EIGHTH))
-        along, (across, turn) = round(math.cos(eighth), 1), _across(motion)
+        along, (aside_name, turn) = round(math.cos(eighth), 1), across(motion)
         aside = turn * round(math.sin(eighth), 1)
-        return "".join(side(name, part) for name, part in ((motion.name, along), (across, aside)) if part)
+        return "".join(side(name, part) for name, part in ((motion.name, along), (aside_name, aside)) if part)
     return side(str(round((azimuth - degrees) % 360.0) % 360), 1.0)
 
 
@@ -107,7 +107,7 @@ def phase(name: str, direction: str) -> str:
     return tell(text, side=side(direction, sign))
 
 
-def _across(motion: Motion) -> tuple[str, float]:
+def across(motion: Motion) -> tuple[str, float]:
     """Return the component that lies across +x, and whether +y, 90 degrees counter-clockwise of +x, is its positive side."""
     parts = {part.code: part.azimuth_deg for part in motion.record.horizontals} if motion.record is not None else {}
     own = parts.pop(motion.name, None)

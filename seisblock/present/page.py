@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 TEMPLATES = Path(__file__).with_name("pages") / "templates"
 """What pages look like: HTML with fields; a text that is filled in cannot become a tag."""
 
-PER_CENT = re.compile(r"(?<=\d) %")
-"""What may not be broken: the blank between a number and its sign."""
+BEFORE_UNIT = re.compile(r"(?<=\d) (?=(?:%|mm|cm|m|s|Hz|gal|kine|kg|J)(?![\w/]))")
+"""What may not be broken: the blank between a number and its unit, or its sign of per cent."""
 
 
 def page(template: str, title: str, **values: Any) -> str:
@@ -54,5 +54,5 @@ def _templates() -> Environment:
 
 
 def _unbroken(value: Any) -> Any:
-    """Return a text that commands nothing, whose numbers stay on one line with their sign of per cent; what is no text as it is."""
-    return PER_CENT.sub("\N{NO-BREAK SPACE}%", plain_text(value)) if type(value) is str else value
+    """Return a text that commands nothing, whose numbers stay on one line with their units; what is no text as it is."""
+    return BEFORE_UNIT.sub("\N{NO-BREAK SPACE}", plain_text(value)) if type(value) is str else value

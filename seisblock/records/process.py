@@ -9,6 +9,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.errors import ComponentError, ParameterError, RecordError
+from seisblock.records.cuts import CUT
 from seisblock.records.doubts import settled
 from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.motion import _oriented_pair, _resolve
@@ -85,9 +86,7 @@ def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
     stop = int(np.floor((end - first) / record.dt + 1e-6)) + 1
     if stop - begin < 2:
         raise RecordError("{window} holds fewer than 2 samples at {dt:g} s: make it longer", window=window, dt=record.dt)
-    return _apply(
-        record, lambda c: c.acceleration[begin:stop], said("{window} cut out", window=window), offset_s=record.offset_s + begin * record.dt
-    )
+    return _apply(record, lambda c: c.acceleration[begin:stop], said(CUT, window=window), offset_s=record.offset_s + begin * record.dt)
 
 
 def scale(record: Record, factor: float) -> Record:

@@ -176,7 +176,7 @@ def test_its_verdict_is_the_solver_s(pages):
     outcome = solve_rock(load_block("gravestone"), motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")).outcome
     assert outcome.overturned
     assert f"overturns to {outcome.overturned_towards[0]}EW" in pages["en"]
-    assert f"lies down at {outcome.overturning_time_s:.2f} s" in pages["en"]
+    assert f"lies down at {outcome.overturning_time_s:.2f}\xa0s" in pages["en"]
     assert re.search(r"The verdict changes next at \d\.\d{3} times this record", pages["en"])
     assert "倍未満ではすべて転倒しない" in pages["ja"]
 
@@ -187,11 +187,11 @@ def test_one_card_per_body_says_what_governs(pages):
     assert [head.split(":")[0] for head, _ in cards] == ["gravestone", "Chozu-sha, short side"]
     motion = motion_of(crop(read("synthetic_jma.csv"), 22, 29), "EW")
     outcome = solve_respond(load_block("gravestone"), motion, mu=0.438).outcome
-    assert f"overturns to -EW at {outcome.overturning_time_s:.2f} s" in cards[0][0] and outcome.overturned
+    assert f"overturns to -EW at {outcome.overturning_time_s:.2f}\xa0s" in cards[0][0] and outcome.overturned
     assert "plausible versions" in cards[0][1] and "slides" in cards[1][0]
     page = pages["en"]
     assert page.index("What it does") < page.index("Idealised models") < page.index("<h3>Rocking and overturning</h3>")
-    assert re.search(r"<td>Sliding</td><td>EW</td><td>slides up to \d+\.\d cm \(EW\)</td><td>0\.\d\d</td>", page)
+    assert re.search(r"<td>Sliding</td><td class=\"text\">EW</td><td class=\"text\">slides up to \d+\.\d\xa0cm</td><td>0\.\d\d</td>", page)
 
 
 def test_a_body_of_unknown_friction_is_said_to_hold(tmp_path):

@@ -116,7 +116,7 @@ def response(model, component="NS"):
 @functools.cache
 def every_azimuth(model):
     if model == "rock":
-        return rock_directions(Block(0.3, 0.9), scale(record(), 0.7), step_deg=15.0)
+        return rock_directions(Block(0.3, 0.9), record(), step_deg=15.0)
     return respond_directions(Block(0.45, 1.8), scale(record(), 0.7), mu=0.3, step_deg=15.0)
 
 

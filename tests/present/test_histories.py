@@ -4,13 +4,17 @@ import re
 
 import numpy as np
 import pytest
+from scipy.integrate import cumulative_simpson
 
 from seisblock import Block, Contact, SlidingBase, solve_jump, solve_respond, solve_rock, solve_slide
 from seisblock.measures import measure
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.curves import MOST_POINTS, thin
+from seisblock.present.figures.flights import FLOWN, with_flights
 from seisblock.present.figures.measure import measure_figure
 from seisblock.records import Preparation, motion_of
+from seisblock.records.process import crop
+from seisblock.solvers.jump.chain import FLIGHT
 from tests.present.long_record import DT, PAVILION, SAMPLES, SOLVED, motion, record, response
 
 DRAWN = {
@@ -33,6 +37,7 @@ def deviation(axis, line, time, values):
     low, high = axis.get_ylim()
     if inside.sum() <= MOST_POINTS:
         shown = (x >= first) & (x <= last) & ~np.isnan(y)
+        shown &= np.isin(x, time)  # between them a flight has more points than the response
         if not np.array_equal(x[shown], time[inside]):
             return np.inf  # another line of the panel
         return np.abs(y[shown] - values[inside]).max() / (high - low)
@@ -80,6 +85,30 @@ def test_the_drawing_on_file_is_the_response(tmp_path):
     assert np.abs(np.interp(found.time[inside], *data.T) - tilt).max() < 2.0 * pixel
 
 
+def test_a_flight_is_drawn_as_its_parabola():
+    """Between two samples a body in the air is where gravity and the ground, as straight as its samples, bring it."""
+    found = response("jump")
+    time, drawn = with_flights(found)
+    flights = [phase for phase in found.phases if phase.name == FLIGHT]
+    assert len(flights) > 2
+    for flight in flights:
+        seen = (time > flight.start_s) & (time < flight.end_s)
+        assert seen.sum() >= FLOWN - 1
+        steps = np.append(flight.start_s, time[seen]) - flight.start_s
+        low, high = found["height"][np.searchsorted(found.time, flight.start_s)], found["height"][np.searchsorted(found.time, flight.end_s)]
+        long = flight.end_s - flight.start_s
+        parabola = low + (high - low) * steps / long + 9.80665 / 2 * steps * (long - steps)
+        assert np.abs(drawn["height"][seen] - parabola[1:]).max() < 1e-7
+    # one flight again, by Simpson's rule, twice, of the ground
+    flight = max(flights, key=lambda phase: phase.duration_s)
+    inside = (time >= flight.start_s) & (time <= flight.end_s)
+    t, x = time[inside][1:-1], drawn["displacement"][inside][1:-1]
+    push = -np.interp(t, found.motion.time, found.motion.horizontal)
+    speed = cumulative_simpson(push, x=t, initial=0.0)
+    path = cumulative_simpson(speed, x=t, initial=0.0)
+    assert np.ptp(x - path - np.polyval(np.polyfit(t, x - path, 1), t)) < 1e-6
+
+
 def test_a_closer_look_draws_more():
     """What is thinned in one view is whole in a narrower one."""
     figure = measure_figure(record(), measure(record()))
@@ -125,10 +154,15 @@ def test_a_long_record_opens_on_what_matters():
     first, last = panels[0].get_xlim()
     slips = [phase for phase in found.phases if phase.name.startswith("slip")]
     assert first <= slips[0].start_s and slips[-1].end_s <= last and last - first < 100.0
-    from seisblock.records.process import crop
-
     short = motion_of(crop(record(), first, last), "NS")
     assert len(figure_of([solve_slide(SlidingBase(0.15), short)]).axes) == 3
+
+
+def test_the_strip_of_a_window_is_not_the_whole_record():
+    """What was cut out of a record is said to be that, in the strip above its strong part."""
+    for shown, told in ((record(), "NS, the whole record"), (crop(record(), 40.0, 200.0), "NS, all that was cut out")):
+        strip, *_ = figure_of([solve_slide(SlidingBase(0.15), motion_of(shown, "NS"))]).axes
+        assert strip.get_title(loc="left").startswith(told)
 
 
 def test_each_phase_that_can_be_seen_is_shaded():

@@ -37,7 +37,7 @@ def test_it_shows_its_outcome_and_its_figure(response):
     text = response._repr_html_()
     assert "data:image/" in text and "<script" not in text
     # the sentence with which the command begins, too
-    assert verdict_of(response) in html.unescape(text) and verdict_of(response).startswith("EW: ")
+    assert verdict_of(response) in html.unescape(text).replace("\xa0", " ") and verdict_of(response).startswith("EW: ")
     rows = re.findall(r"<tr><td[^>]*>([^<]*)</td>", text)
     plain = [key for key, value in vars(response.outcome).items() if isinstance(value, (int, float, str, type(None)))]
     assert len(rows) >= len(plain)

@@ -53,6 +53,10 @@ def _drawn(responses: Sequence[Response[Any]], directions: Sequence[Directions],
         lean = made.add_subplot(rows, columns, across * row + 1, projection="polar")
         worst = side(response.motion.name, "+x")
         _bars(lean, found, [RIM if each.overturned else min(each.max_rotation_ratio, RIM) for each in found])
+        if not any(each.max_rotation_ratio for each in found):
+            lean.annotate(
+                tell("rocks in no direction"), (0.5, 0.5), xycoords="axes fraction", ha="center", va="center", backgroundcolor="w"
+            )
         rose(lean, called + tell("largest lean over α, worst: {direction}", direction=worst), RIM)
         if slides:
             path = made.add_subplot(rows, columns, across * row + 2, projection="polar")

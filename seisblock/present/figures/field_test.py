@@ -24,7 +24,7 @@ SPREAD = 0.11
 
 def figure() -> Figure:
     """Return the figure: for each station of [Furukawa2009]_ table 6 the surveyed rate as a bar, and each model's as a marker."""
-    made, (axis,) = canvas.new_figure(1, width=6.4, height=3.3)
+    made, (axis,) = canvas.new_figure(1, width=6.4, height=3.5, title=tell("Tottori 2000: stones that fell, surveyed and computed"))
     places = range(len(SURVEYS))
     axis.bar(places, SURVEYED, width=0.86, color="0.88", edgecolor="0.6", linewidth=0.6, label=tell("surveyed"))
     for index, model in enumerate(MODELS):

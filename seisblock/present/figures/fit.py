@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
-from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, panel_title
+from seisblock.present.figures.canvas import ACCENT, INPUT, SECOND, label, legend, legend_outside, panel_title
 from seisblock.present.figures.rulers import round_ticks
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.fit import NAMES
@@ -62,7 +62,10 @@ def _drawn(found: BlockFit, name: str, *, gal: bool, stacked: bool = False) -> c
     whole = made.add_gridspec(2, 1, height_ratios=(1.9 * rows, 3.4 * below))
     upper, lower = whole[0].subgridspec(rows, abreast), whole[1].subgridspec(below, 3 - below)
     for k, axis in enumerate(found.axes):
-        _known(made.add_subplot(upper[k // abreast, k % abreast]), found, axis, first=k == 0)
+        panel = made.add_subplot(upper[k // abreast, k % abreast])
+        _known(panel, found, axis, first=k == 0)
+        if k == 0:
+            legend_outside(made, panel.get_legend_handles_labels()[0], loc="outside upper right", ncols=4)
     left, right = (made.add_subplot(lower[(k, 0) if stacked else (0, k)]) for k in range(2))
     for panel in (left, right):
         canvas.dress(panel)

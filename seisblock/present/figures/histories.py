@@ -13,8 +13,9 @@ from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import names_of
 from seisblock.records import Motion
+from seisblock.records.cuts import was_cut
 from seisblock.typing import FloatArray
-from seisblock.words import tell
+from seisblock.words import noted, tell
 
 Stretch = tuple[float, float]
 """First and last time shown, s from the record's first sample."""
@@ -64,7 +65,7 @@ def columns_of(
     for index, (motion, stretch) in enumerate(zip(motions, stretches, strict=True)):
         above, *below = places[index]
         if partial[index]:
-            strip(figure.add_subplot(above), motion.time, motion.horizontal, stretch, names[index])
+            strip(figure.add_subplot(above), motion, stretch, names[index])
         panels: list[Axes] = []
         for row, place in enumerate(below):
             panels.append(figure.add_subplot(place, sharex=panels[0] if panels else None))
@@ -129,13 +130,13 @@ def strong_part(time: FloatArray, *accelerations: FloatArray) -> Stretch:
     return max(start - margin, float(time[0])), min(stop + margin, float(time[-1]))
 
 
-def strip(axis: Axes, time: FloatArray, values: FloatArray, stretch: Stretch, name: str) -> None:
-    """Draw the whole of a record, (n,), with what the panels below show of it marked.
+def strip(axis: Axes, motion: Motion, stretch: Stretch, name: str) -> None:
+    """Draw the whole of a motion, a record or what was cut out of one, with what the panels below show of it marked.
 
     Parameters
     ----------
     axis : Axes
-    time, values : (n,) arrays, s, m/s^2
+    motion : Motion
     stretch : (float, float)
     name : str
         Of the component.
@@ -143,7 +144,8 @@ def strip(axis: Axes, time: FloatArray, values: FloatArray, stretch: Stretch, na
     axis.spines[["top", "right", "left"]].set_visible(False)
     axis.tick_params(labelsize=6.5, length=2, pad=1, left=False, labelleft=False)
     axis.axvspan(*stretch, facecolor=canvas.BANDS[3], edgecolor=canvas.BANDS[3], linewidth=1.0)
-    curve(axis, time, values, color=canvas.INPUT, linewidth=0.5)
-    axis.set_xlim(time[0], time[-1])
-    told = tell("{name}, the whole record; below, what is shaded", name=name or tell("record"))
-    axis.set_title(told, fontsize=7, loc="left", pad=2, parse_math=False)
+    curve(axis, motion.time, motion.horizontal, color=canvas.INPUT, linewidth=0.5)
+    axis.set_xlim(motion.time[0], motion.time[-1])
+    cut = motion.record is not None and was_cut(motion.record)
+    text = noted("{name}, all that was cut out; below, what is shaded") if cut else noted("{name}, the whole record; below, what is shaded")
+    axis.set_title(tell(text, name=name or tell("record")), fontsize=7, loc="left", pad=2, parse_math=False)

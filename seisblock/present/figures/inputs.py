@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from seisblock.measures import ResponseSpectrum
+from seisblock.present.directions import across, side
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading, heading_of
@@ -26,7 +27,7 @@ def record_figure(record: Record) -> Figure:
 
 def motion_figure(motion: Motion) -> Figure:
     """Return the rows of a motion that move, gal."""
-    names = (motion.name or "+x", "+y", "UD")
+    names = (motion.name or "+x", side(*across(motion)), "UD")
     rows = {name: row for name, row in zip(names, motion.acceleration, strict=True) if row.any()}
     time: FloatArray = motion.start_s + motion.dt * np.arange(motion.acceleration.shape[1], dtype=np.float64)
     return _histories(heading_of([motion]), time, rows or {names[0]: motion.horizontal})
@@ -46,7 +47,7 @@ def response_spectrum_figure(spectrum: ResponseSpectrum) -> Figure:
 
 def rocking_spectrum_figure(spectrum: RockingSpectrum) -> Figure:
     """Return the map of size against slenderness; the motion behind it is no longer known."""
-    return spectrum_figure([(Motion.from_arrays(np.zeros(2), 1.0, name="2R, α"), spectrum)], "rocking", STANDARD_GRAVITY)
+    return spectrum_figure([(Motion.from_arrays(np.zeros(2), 1.0, name=""), spectrum)], "rocking", STANDARD_GRAVITY)
 
 
 def _histories(title: str, time: FloatArray, rows: dict[str, FloatArray]) -> Figure:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
+from seisblock.present.figures.flights import with_flights
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.scales import Unit, acceleration_unit, length_unit
@@ -63,11 +64,11 @@ def _column(panels: Sequence[Any], called: str, response: Response[JumpOutcome],
     (near,) = canvas.within_reach(panels[0], peak, [(-level, level, tell("rocks beyond"))], name)
     if near:
         canvas.threshold(panels[0], [level, -level], tell("rocks beyond"))
-    rise = response["height"] - response.body.centroid_height
-    for panel, values in zip(
-        panels[1:], (np.degrees(response["rotation"]), rise / far.size, response["displacement"] / far.size), strict=False
-    ):
-        curve(panel, response.time, values, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
+    time, drawn = with_flights(response)
+    rise = drawn["height"] - response.body.centroid_height
+    rows = (response.time, np.degrees(response["rotation"])), (time, rise / far.size), (time, drawn["displacement"] / far.size)
+    for panel, row in zip(panels[1:], rows, strict=False):
+        curve(panel, *row, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
     for panel in panels:
         canvas.shade(panel, response.phases, COLOURS, names=panel is panels[min(1, len(panels) - 1)])
     for panel in panels[:2]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -39,6 +41,7 @@ def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) 
     above, below = figure.subfigures(2, 1, squeeze=False, height_ratios=(2.2 * n + 0.4, 3.0))[:, 0]
     strongest = max(parts, key=lambda part: float(np.abs(part.acceleration).max()))
     whole = Motion.from_arrays(strongest.acceleration, record.dt, name=strongest.code, start_s=record.offset_s)
+    whole = replace(whole, record=record)
     (histories,) = columns_of(above, [whole], [shown], 2 * n)
     left, right = below.subplots(1, 2)
     for axis in (left, right):

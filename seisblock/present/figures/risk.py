@@ -59,7 +59,9 @@ def figure(found: Sequence[tuple[GivenFragility, Risk]], hazard: Hazard, *, gal:
     size, unit = measure.shown(gal=gal)
     names = [name_of(given) or tell("fragility") for given, _ in found]
     outside = sum(columns(name) + OF_A_LINE for name in names) > MOST_ABOVE
-    made, (above, middle, below) = new_figure(3, width=6.4, height=7.4 + (NAME_ROW * len(found) if outside else 0.0))
+    what = names[0] if len(found) == 1 else tell("{count} fragilities", count=len(found))
+    title = tell("Risk: {what}, hazard in {measure}", what=what, measure=measure.label)
+    made, (above, middle, below) = new_figure(3, width=6.4, height=7.4 + (NAME_ROW * len(found) if outside else 0.0), title=title)
     x = _reach(found, hazard)
     _hazard(above, hazard, x, size)
     for index, (given, risk) in enumerate(found):

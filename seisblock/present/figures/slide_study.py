@@ -145,5 +145,5 @@ def _criteria(axis: Any, points: Points, record: Record, gravity: float) -> None
         told = tell("(15): this record") + (f", γ {scale:g}" if scale else "")
         axis.plot(dense, starts, color=canvas.SECOND, linewidth=1.1, linestyle=(0, (5, 1.5)), label=told)
     axis.set_ylim(min(frictions), max(frictions))
-    canvas.label(axis, x=SYMBOLS["slope_deg"], y=SYMBOLS["mu"])
+    canvas.label(axis, x=tell(SYMBOLS["slope_deg"]), y=SYMBOLS["mu"])
     canvas.legend(axis, loc="lower right", bbox_to_anchor=None, borderaxespad=0.5, ncols=1)

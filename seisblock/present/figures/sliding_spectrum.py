@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
 from seisblock.present.figures.heading import heading_of, names_of
+from seisblock.present.figures.rulers import round_ticks
 from seisblock.present.scales import length_unit
 from seisblock.present.text.sliding_spectrum import Curves
 from seisblock.words import tell
@@ -22,6 +23,7 @@ def figure(curves: Curves) -> Figure:
         slips = [(p.max_slip_m or np.nan) / far.size for p in points]
         axis.plot([p.mu for p in points], slips, color=style[0], linestyle=style[1], linewidth=1.2, label=name or "x")
     axis.set_yscale("log")
+    round_ticks(axis.yaxis)
     canvas.label(axis, tell("friction μ"), tell("largest slip ({unit})", unit=far.name))
     canvas.legend(axis)
     return made

@@ -17,13 +17,14 @@ from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.scales import Unit, acceleration_unit, length_unit, told_length
 from seisblock.results import Phase, Response
-from seisblock.words import tell
+from seisblock.words import noted, tell
 
 if TYPE_CHECKING:
     from seisblock.solvers.uplift.outcome import UpliftOutcome
 
 COLOURS = (canvas.ACCENT, canvas.SECOND, "#2e7d4f", "#8a6d1f", "#6b4c8a", "0.25")
 LIFTED = canvas.BANDS[0]
+IN_AIR = noted("in the air")
 SUBSCRIPTS = "₁₂₃₄"
 
 
@@ -82,7 +83,9 @@ def _corner(panel: Axes, response: Response[UpliftOutcome], i: int, far: Unit) -
     corner = response.outcome.corners[i]
     curve(panel, response.time, response[f"uplift_{i + 1}"] / far.size, color=canvas.ACCENT)
     panel.axhline(0.0, color=canvas.THRESHOLD, linewidth=0.6)
-    canvas.shade(panel, _in_air(response, i), {"in the air": LIFTED})
+    canvas.shade(panel, _in_air(response, i), {IN_AIR: LIFTED}, names=True)
+    if i == 0:
+        canvas.legend(panel)
     canvas.label(panel, y=f"u{SUBSCRIPTS[i]} ({far.name})")
     sx, sy = ("+" if sign > 0 else "−" for sign in CORNERS[i])
     if corner.uplifts:
@@ -103,10 +106,10 @@ def _in_air(response: Response[UpliftOutcome], i: int) -> list[Phase]:
         if event.name == f"corner {i + 1} lifts":
             start = event.time_s
         elif event.name == f"corner {i + 1} lands" and start is not None:
-            stretches.append(Phase("in the air", start, event.time_s))
+            stretches.append(Phase(IN_AIR, start, event.time_s))
             start = None
     if start is not None:
-        stretches.append(Phase("in the air", start, float(response.time[-1])))
+        stretches.append(Phase(IN_AIR, start, float(response.time[-1])))
     return stretches
 
 

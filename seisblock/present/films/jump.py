@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from seisblock.bodies.two_layer import TwoLayerBlock
+from seisblock.present.figures.flights import with_flights
 from seisblock.present.figures.heading import heading_of
 from seisblock.present.figures.jump import COLOURS
 from seisblock.present.films.animation import Filming
@@ -33,17 +34,17 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
     """Return the film of a jump for the times of its pictures, (n,), s."""
     block: TwoLayerBlock = response.body
     motion, drop = response.motion, float(response.options["drop_m"])
-    x, z, turn = (at(times, response.time, response[name]) for name in ("displacement", "height", "rotation"))
+    time, drawn = with_flights(response)
+    x, z, turn = (at(times, time, drawn[name]) for name in ("displacement", "height", "rotation"))
     body = Body(_pieces(block), x, z, turn)
     half, below = block.width / 2, -block.centroid_height
-    exact = Body((), response["displacement"], response["height"], response["rotation"])
+    exact = Body((), drawn["displacement"], drawn["height"], drawn["rotation"])
     feet = [exact.path(np.array([side * half, below])) for side in (-1.0, 1.0)]
     trails = tuple(
-        Trail(name, response.time, *foot, colour)
-        for name, foot, colour in zip(map(tell, ("left foot", "right foot")), feet, FEET, strict=True)
+        Trail(name, time, *foot, colour) for name, foot, colour in zip(map(tell, ("left foot", "right foot")), feet, FEET, strict=True)
     )
     far = length_unit([float(np.abs(response["displacement"]).max())], gal=gal)
-    rise = (response["height"] - block.centroid_height) / far.size
+    rise = (drawn["height"] - block.centroid_height) / far.size
     level = response.outcome.rocking_threshold_m_s2
     return Film(
         title=titled(block.name, response.outcome.outcome),
@@ -60,7 +61,7 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
         strips=(
             ground_strip(motion, (-level, level), gal=gal),
             Strip(tell("θ (deg)"), (Line(response.time, np.degrees(response["rotation"])),)),
-            Strip(tell("rise of G ({unit})", unit=far.name), (Line(response.time, rise),)),
+            Strip(tell("rise of G ({unit})", unit=far.name), (Line(time, rise),)),
         ),
         phases=response.phases,
         colours=COLOURS,

@@ -11,10 +11,10 @@ from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.present.figures.heading import heading_of
 from seisblock.present.figures.slide import COLOURS
 from seisblock.present.films.animation import Filming
-from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, stretch
+from seisblock.present.films.film import Film, Line, Strip, at, ground_strip, stretch, titled
 from seisblock.present.films.plane import Body, Piece, Plane, Trail, ground_shift, rectangle
 from seisblock.present.films.projector import animate_film
-from seisblock.present.scales import length_unit
+from seisblock.present.scales import Unit, length_unit, told_length
 from seisblock.present.text.slide import setting
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
@@ -44,7 +44,7 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray, *, gal: bool
     far = length_unit([response.outcome.max_slip_m], gal=gal)
     level = not base.slope_deg and not response.options["vertical"]
     return Film(
-        title=setting(response),
+        title=titled(setting(response), _fate(response.outcome, far)),
         heading=heading_of([motion]),
         direction=motion.name,
         time=times,
@@ -61,6 +61,11 @@ def slide_film(response: Response[SlideOutcome], times: FloatArray, *, gal: bool
         phases=response.phases,
         colours=COLOURS,
     )
+
+
+def _fate(outcome: SlideOutcome, far: Unit) -> str:
+    """Return what becomes of the object, in few words."""
+    return tell("slides up to {most}", most=told_length(outcome.max_slip_m, far)) if outcome.slips else tell("does not slide")
 
 
 def place(base: SlidingBase, slip: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -149,14 +149,14 @@ def _section(found: Assessment, body: BodyAssessment, kind: str) -> dict[str, An
         "effects": [
             {"told": strung(words.sentences(effect)), "warnings": [tell(text) for text in effect.response.warnings]} for effect in effects
         ],
-        "picture": _picture(worst, of=len(effects)) if kind in DRAWN else None,
+        "picture": _picture(worst, of=len(effects) if words.severity(worst) else 1) if kind in DRAWN else None,
         "criteria": _criteria(found, body, effects) if kind == "rock" else None,
     }
 
 
 def _picture(effect: Effect, *, of: int) -> Picture:
-    """Return the figure of the worst of several effects."""
-    text = noted("{name}: {what}") if of == 1 else noted("{name}, in which it does most: {what}")
+    """Return the figure of the worst of several effects, or of one where none is worse."""
+    text = noted("{what}, {name}") if of == 1 else noted("{what}, {name}, where it moves most")
     caption = tell(text, name=effect.response.motion.name, what=tell(words.SECTIONS[effect.kind]))
     return picture(drawn(lambda: figure_of([effect.response])), caption)
 

@@ -52,7 +52,7 @@ def _moved(effect: Effect) -> float:
 
 
 def verdict(effect: Effect) -> str:
-    """Return one line for the top of the page."""
+    """Return what one model says of one direction, in a few words."""
     outcome, name = effect.response.outcome, effect.response.motion.name
     if effect.kind == "respond":
         return told(effect.response)
@@ -60,21 +60,21 @@ def verdict(effect: Effect) -> str:
         if outcome.overturned:
             return tell("overturns to {side}", side=side(name, outcome.overturned_towards))
         if outcome.rocks:
-            return tell("rocks and stands: {way} ({name})", way=way_to_alpha(outcome.max_rotation_ratio), name=name)
+            return tell("rocks and stands: {way}", way=way_to_alpha(outcome.max_rotation_ratio))
         return tell("stands still")
     if effect.kind == "slide":
         if not outcome.slips:
             return tell("does not slide")
-        return tell("slides up to {most} ({name})", most=told_length(outcome.max_slip_m), name=name)
+        return tell("slides up to {most}", most=told_length(outcome.max_slip_m))
     if effect.kind == "jump":
         if outcome.outcome == JUMPED:
             return tell("jumps {moved}", moved=moved_by(_moved(effect), name))
-        return tell("rocks without jumping ({name})" if outcome.chains else "stands still", name=name)
+        return tell("rocks without jumping" if outcome.chains else "stands still")
     if not outcome.uplifts:
         return tell("no corner lifts")
     if not outcome.within_model:
-        return tell("corner {corner} lifts, how far is beyond the model ({name})", corner=outcome.corner, name=name)
-    return tell("corner {corner} lifts, up to {most} ({name})", corner=outcome.corner, most=told_length(outcome.max_uplift_m), name=name)
+        return tell("corner {corner} lifts, how far is beyond the model", corner=outcome.corner)
+    return tell("corner {corner} lifts, up to {most}", corner=outcome.corner, most=told_length(outcome.max_uplift_m))
 
 
 def sentences(effect: Effect) -> Iterator[str]:

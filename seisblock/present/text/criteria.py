@@ -22,6 +22,9 @@ from seisblock.words import noted, tell
 
 HEADINGS = {"pga_pgv": "PGA/2πPGV", "fourier": "Fourier", "pulse_width": noted("pulse")}
 """The equivalent frequencies, as short as a column."""
+MOST_DECIMALS = 6
+"""Of a ratio that is all but 1."""
+
 DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": noted("pulse width")}
 
 
@@ -85,7 +88,7 @@ def _tables(card: Card, *, gal: bool) -> Iterator[Any]:
     for row in plain:
         size, unit = shaking if row.unit == ACCELERATION else speed
         shown = f"{number(row.threshold / size)} {unit}"
-        cells.append([tell(row.criterion), _formula(row), shown, f"{row.demand / row.threshold:.2f}", _verdict(row, card)])
+        cells.append([tell(row.criterion), _formula(row), shown, ratio(row), _verdict(row, card)])
     yield table(title, [tell("criterion"), tell("formula"), tell("falls above"), tell("ratio"), tell("says")], cells)
 
     asked = {row.frequency: row.frequency_hz for row in card.rows if row.frequency is not None}
@@ -97,11 +100,24 @@ def _tables(card: Card, *, gal: bool) -> Iterator[Any]:
         row_cells = [tell(name), formula]
         for key in asked:
             match = found.get((name, key))
-            row_cells.append("-" if match is None else f"{match.demand / match.threshold:.2f} {_verdict(match, card)}")
+            row_cells.append("-" if match is None else f"{ratio(match)} {_verdict(match, card)}")
         body.append(row_cells)
     if body:
         caption = tell("ratio: demand over threshold. ! : not what the simulation says. Thresholds of the lower table: --csv, --json")
         yield table("", [tell("ratio at f ="), tell("formula"), *columns], body, caption=caption)
+
+
+def ratio(row: Row) -> str:
+    """Return demand over threshold, to as many digits as tell it apart from 1: just below a criterion says stands, just above falls.
+
+    Examples
+    --------
+    >>> [ratio(Row("West", "eq. (1)", "m/s^2", None, None, 1.0, demand, demand > 1.0)) for demand in (0.31, 0.9996, 1.0, 1.004)]
+    ['0.31', '0.9996', '1.00', '1.004']
+    """
+    found = row.demand / row.threshold
+    decimals = next((n for n in range(2, MOST_DECIMALS) if round(found, n) != 1.0 or found == 1.0), MOST_DECIMALS)
+    return f"{found:.{decimals}f}"
 
 
 def _formula(row: Row) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 
 from seisblock.present.directions import moved_by, side
 from seisblock.present.scales import length_cell, length_unit, told_length
+from seisblock.present.text.onset import ROCKS, onset
 from seisblock.present.text.tables import answered, line, seconds, side_by_side, told_acceleration
 from seisblock.results import Response
 from seisblock.solvers.jump.chain import JUMPED, NO_JUMP, Chain
@@ -101,7 +102,8 @@ def verdict(response: Response[JumpOutcome], *, gal: bool = True) -> str:
     """Return what became of the block in the end, and what friction that takes."""
     outcome, name = response.outcome, response.motion.name or "x"
     if not outcome.chains:
-        return tell("{name}: the ground acceleration never exceeds the rocking threshold: the block stays where it is.", name=name)
+        moves = onset(ROCKS, outcome.rocking_threshold_m_s2, response.motion, gal=gal)
+        return tell("{name}: stays where it is; {onset}.", name=name, onset=moves)
     jumps = sum(chain.outcome == JUMPED for chain in outcome.chains)
     if outcome.outcome not in (JUMPED, NO_JUMP):
         text = noted("{name}: {outcome}, {moved} from where it stood, in chain {count} of motion.")

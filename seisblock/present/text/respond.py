@@ -10,6 +10,7 @@ from rich.text import Text
 
 from seisblock.present.directions import moved, side
 from seisblock.present.scales import Unit, acceleration_unit, length_cell, length_unit, told_length
+from seisblock.present.text.onset import ROCKS, SLIDES, onset
 from seisblock.present.text.tables import NOTHING, answered, line, number, seconds, side_by_side, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
@@ -62,7 +63,10 @@ def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
         else:
             words = tell("overturns to {towards} at {time:.2f} s{slid}", towards=towards, time=at, slid=slid)
     elif outcome.outcome == "rests":
-        words = tell("stands still")
+        ratio, mu = min(response.body.arms) / response.body.centre, response.options["mu"]
+        first = SLIDES if mu <= ratio else ROCKS
+        moves = onset(first, min(mu, ratio) * response.options["gravity_m_s2"], response.motion, gal=gal)
+        words = tell("{verdict}; {onset}", verdict=tell("stands still"), onset=moves)
     else:
         words = listed(_stays(response, gal=gal))
     flag = tell("; a change of the input by a millionth changes this") if outcome.sensitive else ""

@@ -12,6 +12,7 @@ from seisblock.bodies.library import edges
 from seisblock.present.directions import side
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.agreement import agreement_line, chance_lines
+from seisblock.present.text.onset import ROCKS, onset
 from seisblock.present.text.respond import around, falls_to
 from seisblock.present.text.tables import acceleration, answered, line, number, seconds, side_by_side, table, told_acceleration
 from seisblock.results import Response
@@ -36,7 +37,7 @@ def tables(responses: Rockings, extras: Sequence[Mapping[str, Any]], *, gal: boo
         The friction there is, where it was said.
     """
     both = zip(responses, extras, strict=True)
-    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: [line(first_line(each[0], mu))]):
+    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: [line(first_line(each[0], mu, gal=gal))]):
         yield from opening
         yield _table([r for r, _ in part], gal=gal)
         for response, extra in part:
@@ -119,10 +120,13 @@ def _ends(each: RockAzimuth) -> tuple[str, str]:
     return falls_to(each.azimuth_deg, each.overturned_towards), seconds(each.overturning_time_s)
 
 
-def first_line(response: Response[RockOutcome], mu: float | None = None) -> str:
-    """Return the verdict, and that it takes more friction than there is where that is so."""
+def first_line(response: Response[RockOutcome], mu: float | None = None, *, gal: bool = True) -> str:
+    """Return the verdict, from where on what stands still rocks, and that it takes more friction than there is where that is so."""
     outcome, name = response.outcome, response.motion.name or "x"
-    told = tell("{name}: {verdict}.", name=name, verdict=verdict(outcome, response.motion.name))
+    what = verdict(outcome, response.motion.name)
+    if not outcome.rocks:
+        what = tell("{verdict}; {onset}", verdict=what, onset=onset(ROCKS, outcome.threshold_m_s2, response.motion, gal=gal))
+    told = tell("{name}: {verdict}.", name=name, verdict=what)
     if mu is None or friction_suffices(outcome, mu, response.options["gravity_m_s2"]):
         return told
     ratio = outcome.threshold_m_s2 / response.options["gravity_m_s2"]

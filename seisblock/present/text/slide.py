@@ -7,6 +7,7 @@ from typing import Any
 
 from seisblock.present.directions import moved
 from seisblock.present.scales import Unit, length_cell, length_unit, told_length
+from seisblock.present.text.onset import SLIDES, onset
 from seisblock.present.text.tables import answered, line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.slide.solve import SlideOutcome
@@ -66,7 +67,11 @@ def sentence(response: Response[SlideOutcome], *, gal: bool = True) -> str:
     """Say what happened."""
     outcome, name = response.outcome, response.motion.name
     if not outcome.slips:
-        return tell("{name}: stays where it is, static friction holds throughout.", name=name)
+        base, level = response.body, not response.body.slope_deg and not response.options["vertical"]
+        if not level:
+            return tell("{name}: stays where it is, static friction holds throughout.", name=name)
+        moves = onset(SLIDES, base.mu * response.options["gravity_m_s2"], response.motion, gal=gal)
+        return tell("{name}: stays where it is; {onset}.", name=name, onset=moves)
     unit = length_unit([outcome.max_slip_m, outcome.path_m], gal=gal)
     words = {"name": name, "most": told_length(outcome.max_slip_m, unit), "path": told_length(outcome.path_m, unit)}
     if outcome.final_slip_m is None:

@@ -22,7 +22,7 @@ Points = Sequence[SlidePoint]
 Panels = list[tuple[str, Points]]
 
 
-SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": noted("μ kinetic"), "slope_deg": "θ (deg)", "vertical": "γ"}
+SYMBOLS = {"mu": "μ", "kappa": "κ", "mu_kinetic": noted("μ kinetic"), "slope_deg": noted("slope θ (deg)"), "vertical": "γ"}
 
 
 MOST_ROWS, MOST_COLUMNS = 60, 8
