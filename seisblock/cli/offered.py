@@ -52,6 +52,11 @@ def outcomes(ctx: click.Context, param: click.Parameter, incomplete: str) -> lis
     return [*_items(_bundled(incomplete, "outcomes")), CompletionItem(incomplete, type="file")]
 
 
+def hazards(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Offer the bundled tables of hazard, and files."""
+    return [*_items(_bundled(incomplete, "hazard")), CompletionItem(incomplete, type="file")]
+
+
 def bodies(*kinds: str) -> Completion:
     """Return what offers the bundled bodies of some kinds (all of them when left out), and files."""
 

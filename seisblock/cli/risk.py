@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from seisblock import checks
+from seisblock.cli import offered
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import checked, output_options
@@ -34,6 +35,7 @@ _YEARS = checked(partial(checks.positive, unit="years"))
     required=True,
     metavar="FILE",
     type=click.Path(path_type=Path),
+    shell_complete=offered.hazards,
     section="Site",
     help="CSV of the hazard: levels with their unit (pgv_m_s, pga_g, sa(0.5)_gal), annual_rate (or annual_poe, poe_50_years), and branch "
     "and weight where there are several curves. Bundled: synthetic_hazard.csv.",

@@ -106,6 +106,7 @@ OF_ROOMS = ("bookcase", "filing_cabinet", "lateral_filing_cabinet", "server_rack
         (("stack", "--stones", "lantern", "--fix", "hi"), ["hibukuro"]),
         (("stack", "--stones", "nosuch", "--fix", ""), []),
         (("overturn-rate", "--cemetery", ""), ["aoyama.csv"]),
+        (("risk", "--hazard", "syn"), ["synthetic_hazard.csv"]),
         (("infer", "--cemetery", "a"), ["aoyama.csv"]),
         (("respond", "--surface", "wood"), ["wood/stone", "wood/wood"]),
         (("samples", "ch"), ["chozusha.toml"]),

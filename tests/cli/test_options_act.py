@@ -1,11 +1,18 @@
 """An option that stands in the help changes the answer: of the units, in each command that has them."""
 
+import ast
+import dataclasses
+import inspect
 import re
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
+from seisblock import cli
 from seisblock.cli import COMMANDS, main
+from seisblock.cli.options import Source
+from seisblock.cli.output import Output
 from tests.lengths import all_but_slow
 
 SHORT = ("synthetic_jma.csv", "--window", "25.5:26.5", "--component", "NS")
@@ -53,3 +60,23 @@ def test_the_unit_is_that_asked_for(command, tmp_path):
         assert not re.search(rf"(?<!\w){other}(?!\w)", answer.stdout + drawn.replace("gal s", "")), (unit, other)
         answers.append((answer.stdout, drawn))
     assert answers[0] != answers[1]
+
+
+def test_no_option_is_taken_and_left():
+    """Whatever a command takes it reads: by name, or as a field of what its shared options were gathered in."""
+    left = {}
+    for name in COMMANDS:
+        tree = ast.parse(inspect.getsource(inspect.unwrap(main.get_command(None, name).callback))).body[0]
+        taken = {each.arg for each in (*tree.args.args, *tree.args.kwonlyargs)}
+        read = {node.id for part in tree.body for node in ast.walk(part) if isinstance(node, ast.Name)}
+        assert taken, name
+        if unread := taken - read:
+            left[name] = unread
+    assert left == {}
+
+
+@pytest.mark.parametrize("gathered", [Source, Output])
+def test_no_shared_option_is_gathered_and_left(gathered):
+    """Each field of what the shared options become is read somewhere in the command line."""
+    rooms = "\n".join(path.read_text(encoding="utf-8") for path in Path(cli.__file__).parent.rglob("*.py"))
+    assert [field.name for field in dataclasses.fields(gathered) if not re.search(rf"(?<!self)\.{field.name}\b", rooms)] == []
