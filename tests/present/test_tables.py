@@ -10,7 +10,7 @@ from seisblock.present.page import page
 from seisblock.present.text.fragility import tables as fragility_tables
 from seisblock.present.text.jump import verdict as jump_verdict
 from seisblock.present.text.rock import tables as rock_tables
-from seisblock.present.text.tables import line, side_by_side
+from seisblock.present.text.tables import line, side_by_side, table
 from seisblock.present.wrap import columns
 from seisblock.words import speaking
 from tests.present.long_record import NAMES, fragilities, response
@@ -69,3 +69,10 @@ def test_many_fragilities_begin_with_a_verdict():
         lines = shown(*fragility_tables(study, gal=True), width=120)
     assert lines[0].startswith(f"first of 9: {first.body}, overturns: median PGV {100 * first.median:.3g} kine")
     assert lines[1].startswith(f"last of 9: {last.body}, overturns: median PGV {100 * last.median:.3g} kine")
+
+
+def test_wide_cells_stand_on_the_right_as_numbers_do():
+    """Words in Japanese and lengths with their units end where the numbers of their column end."""
+    lines = shown(table("", ["", "NS"], [["結果", "ロッキング"], ["縁", "1.0 cm, 0.2 cm"], ["最大傾斜", "7.347"]]))
+    ends = {columns(each.rstrip()) for each in lines if each.rstrip().endswith(("ロッキング", "0.2 cm", "7.347"))}
+    assert len(ends) == 1

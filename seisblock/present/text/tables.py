@@ -134,6 +134,9 @@ class _Line(Text):
             lines.extend([first, *(piece[len(piece) - len(piece.plain.lstrip()) :] for piece in others)])
         for piece in lines:
             piece.rstrip()
+        justify = options.get("justify") or self.justify
+        if justify in ("right", "center"):
+            lines.justify(console, width, justify=justify, overflow="fold")
         return lines
 
 

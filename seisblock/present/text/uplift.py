@@ -19,6 +19,9 @@ OUTSIDE = noted(
 )
 """What stands in the place of numbers that are none."""
 
+TOLD = 5e-4
+"""A smaller share of the time would be written as 0.0 %."""
+
 PLACES = ("1 (+x,+y)", "2 (+x,-y)", "3 (-x,+y)", "4 (-x,-y)")
 """Names of the corners."""
 
@@ -78,7 +81,7 @@ def sentence(response: Response[UpliftOutcome], *, gal: bool = True) -> str:
         told = tell(OUTSIDE, small=SMALL)
         scaled = tell("{factor:.3g} times this motion just lifts one.", factor=outcome.uplift_scale)
         return strung([tell("{first}; {second}", first=first, second=told), scaled])
-    shares = [tell("{share:.1%} on {corners}", share=share, corners=n) for n, share in outcome.share_on_corners.items() if share > 0.0]
+    shares = [tell("{share:.1%} on {corners}", share=share, corners=n) for n, share in outcome.share_on_corners.items() if share >= TOLD]
     return first + tell(
         "; the highest uplift is {most}. Corners are in the air for {air:.3f} s in {changes} changes of contact ({shares} corners). "
         "{factor:.3g} times this motion just lifts one.",
