@@ -109,7 +109,12 @@ def map(  # noqa: A001 - the command's name
         rows = [row_of(answer) for answer in found.answers]
         write_table(path, list(rows[0]), (list(row.values()) for row in rows))
 
-    emit(document(found, subject), output, tables=lambda: shown.tables(found, subject, gal=output.gal), csv=table)
+    def figure() -> Any:
+        from seisblock.present.figures.stations import figure as drawn
+
+        return drawn(found, subject, gal=output.gal)
+
+    emit(document(found, subject), output, tables=lambda: shown.tables(found, subject, gal=output.gal), csv=table, figure=figure)
 
 
 def _subject(

@@ -100,3 +100,15 @@ def test_bad_input(words, code, says, tmp_path):
     result = CliRunner().invoke(main, ["map", *words])
     assert result.exit_code == code
     assert says in " ".join(result.stderr.split())
+
+
+def test_a_map_needs_a_place(tmp_path):
+    """Stations are drawn where it is known where they are; without any, one sentence."""
+    for name, data in station_files(1).items():
+        (tmp_path / name).write_bytes(data)
+    drawn = CliRunner().invoke(main, ["map", str(tmp_path / "SYA0010410231756.NS"), "--plot", str(tmp_path / "a.png")])
+    assert drawn.exit_code == 0, drawn.stderr
+    assert (tmp_path / "a.png").stat().st_size > 10_000
+    refused = CliRunner().invoke(main, ["map", "elcentro_1940_ns", "--plot", str(tmp_path / "b.svg")])
+    assert (refused.exit_code, (tmp_path / "b.svg").exists()) == (3, False)
+    assert "of no station it is known where it is" in refused.stderr

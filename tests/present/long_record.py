@@ -50,9 +50,11 @@ from seisblock.present.figures import (
     stack_criterion,
     uplift_harmonic,
 )
+from seisblock.present.figures import stations as stations_figure
 from seisblock.present.figures.measure import measure_figure
 from seisblock.records import Component, Preparation, Record, motion_of
 from seisblock.records.process import scale
+from seisblock.records.site import Earthquake
 from seisblock.studies.cemetery.judgement import Method, curve_of, judge_cemetery
 from seisblock.studies.cemetery.shaking import shakings_of
 from seisblock.studies.criteria_card import criteria_card
@@ -68,6 +70,8 @@ from seisblock.studies.rocking.spectra import default_sizes, default_slenderness
 from seisblock.studies.sliding import slide_study as study_of_sliding
 from seisblock.studies.standing.azimuths import respond_directions
 from seisblock.studies.standing.mode_map import mode_map as map_of_modes
+from seisblock.studies.stations.effects import StandingStones, StationEffect
+from seisblock.studies.stations.survey import StationAnswer, Stations
 from seisblock.studies.uplift_regions import DEFAULT_RATIOS, harmonic_blocks, uplift_region
 from seisblock.validation.furukawa_surveys import SURVEYS
 from tests.fit.conftest import shaken
@@ -220,6 +224,18 @@ def criterion():
 
 
 @functools.cache
+def stations(subject=None):
+    """Return a dozen stations of an earthquake around an epicentre, the worst first, two of them nowhere."""
+    answers = []
+    for number in range(12):
+        north, east = 35.0 + 0.05 * np.sin(2.4 * number) * number, 139.0 + 0.4 * np.cos(2.4 * number)
+        effect = StationEffect(90.0, max(1.0 - 0.12 * number, 0.0))
+        code, pga = f"X{number:03d}", 8.0 / (1 + number)
+        answers.append(StationAnswer(f"{code}.NS", code, "小さな町", north, east, pga_m_s2=pga, effect=effect))
+    nowhere = [StationAnswer("a.csv", pga_m_s2=1.0), StationAnswer("b.csv", failure="cut short")]
+    return Stations((*answers, *nowhere), Earthquake(None, 35.0, 139.0, 10.0, 6.8, "test"), "2024-01-01 16:10:00 JST"), subject
+
+
 def fitted_block():
     """Return the block that explains what one did under twelve pulses."""
     return fit_block(shaken(12, 0), runs=1)
@@ -293,6 +309,8 @@ OF_NO_RECORD = {
     "fragility of nine": (fragility.figure, lambda gal: fragility.figure(fragilities(names=NAMES, limits=("overturn",)), gal=gal)),
     "risk": (risk.figure, lambda gal: risk.figure(*risks(), gal=gal)),
     "fit": (fit.fit_figure, lambda gal: fit.fit_figure(fitted_block(), "shaken.csv", gal=gal)),
+    "stations": (stations_figure.figure, lambda gal: stations_figure.figure(*stations(StandingStones(AOYAMA)), gal=gal)),
+    "stations, their shaking": (stations_figure.figure, lambda gal: stations_figure.figure(*stations(), gal=gal)),
     "field test": (field_test.figure, lambda _: field_test.figure()),
     "response spectrum": (
         inputs.response_spectrum_figure,

@@ -1,0 +1,179 @@
+"""An earthquake's stations on a map without a coast: a colour for what happened at each, the epicentre, a scale and north."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+
+from seisblock.errors import ParameterError
+from seisblock.present.figures import canvas
+from seisblock.present.scales import acceleration_unit
+from seisblock.records.site import EARTH_KM
+from seisblock.studies.stations.effects import StandingBody, WhatStands
+from seisblock.studies.stations.survey import StationAnswer, Stations
+from seisblock.typing import FloatArray
+from seisblock.words import tell
+
+SHADES = LinearSegmentedColormap.from_list("stations", ["#f3efe6", "#e9b872", "#c0392b", "#3d0c11"])
+"""Light where nothing happens, dark where everything falls: in grey, too."""
+
+NAMED = 5
+"""Stations that bear their names: the worst."""
+
+HALO = [withStroke(linewidth=2.0, foreground="white")]
+KM_PER_DEGREE = EARTH_KM * math.pi / 180.0
+MARGIN = 0.08
+"""Room around the outermost points, a share of the extent."""
+
+SCALE_AT, NORTH_AT = (0.15, 0.05), (0.95, 0.9)
+"""Where the scale and north are, shares of the map."""
+
+APART = (0.2, 0.07)
+"""How far names of stations keep from each other and from those, across and along, shares of the map."""
+
+LEAST_KM = 10.0
+"""Extent of a map of one station."""
+
+
+def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True) -> Figure:
+    """Return the figure: a point for each station whose place is known.
+
+    Parameters
+    ----------
+    found : Stations
+    subject : StandingBody, StandingStones or None
+        What the colours tell of; the shaking itself without one.
+    gal : bool
+        Whether the shaking is in gal.
+
+    Raises
+    ------
+    ParameterError
+        If of no station it is known where it is.
+    """
+    if not found.mapped:
+        raise ParameterError("of no station it is known where it is: there is nothing to map")
+    made = canvas.titled(_title(found, subject), width=7.2, height=6.4)
+    axis = made.add_subplot(1, 1, 1)
+    values, label, most = shown_values(found, subject, gal=gal)
+    places = np.array([(answer.longitude, answer.latitude) for answer in found.mapped], dtype=float)
+    order = np.arange(len(places))[::-1]  # the worst on top
+    points = axis.scatter(
+        places[order, 0],
+        places[order, 1],
+        c=values[order],
+        cmap=SHADES,
+        norm=Normalize(0.0, most),
+        s=34,
+        edgecolor="0.25",
+        linewidth=0.5,
+        zorder=3,
+    )
+    _epicentre(axis, found)
+    _frame(axis, found, places)
+    _names(axis, found)
+    made.colorbar(points, ax=axis, label=label, shrink=0.8, pad=0.02)
+    return made
+
+
+def shown_values(found: Stations, subject: WhatStands | None, *, gal: bool) -> tuple[FloatArray, str, float]:
+    """Return what the colours tell: a value for each station on the map, its name with its unit, and the end of the scale."""
+    if subject is None:
+        unit = acceleration_unit(gal=gal)
+        values = np.array([(answer.pga_m_s2 or 0.0) / unit.size for answer in found.mapped])
+        return values, f"PGA ({unit.name})", float(values.max()) or 1.0
+    if isinstance(subject, StandingBody):
+        name = tell("share that falls") if subject.runs else tell("falls")
+        return np.array([_share(answer) for answer in found.mapped]), name, 1.0
+    return np.array([answer.effect.rate or 0.0 for answer in found.mapped]), tell("share that falls"), 1.0
+
+
+def _share(answer: StationAnswer) -> float:
+    """Return the share of versions that fall at a station, or whether the body does."""
+    effect = answer.effect
+    return float(effect.overturned or False) if effect.probability is None else effect.probability
+
+
+def _title(found: Stations, subject: WhatStands | None) -> str:
+    """Return the line above: magnitude, name and time of the earthquake, and what stands there."""
+    earthquake = found.earthquake
+    parts = []
+    if earthquake is not None:
+        parts += [f"M {earthquake.magnitude:.2g}"] if earthquake.magnitude else []
+        parts += [earthquake.name, found.origin_told]
+    parts += [tell(subject.name)] if subject is not None else []
+    return canvas.BETWEEN.join(part for part in parts if part)
+
+
+def _epicentre(axis: Axes, found: Stations) -> None:
+    """Draw the epicentre as a star, named."""
+    earthquake = found.earthquake
+    if earthquake is None or earthquake.latitude_deg is None or earthquake.longitude_deg is None:
+        return
+    at = (earthquake.longitude_deg, earthquake.latitude_deg)
+    axis.scatter(*at, marker="*", s=170, color="white", edgecolor="black", linewidth=1.0, zorder=4)
+    axis.annotate(
+        tell("epicentre"), at, xytext=(0, -13), textcoords="offset points", ha="center", va="top", fontsize=8, path_effects=HALO, zorder=5
+    )
+
+
+def _frame(axis: Axes, found: Stations, places: FloatArray) -> None:
+    """Give the map its extent, its proportions at that latitude, a scale bar and north."""
+    earthquake, there = found.earthquake, places
+    if earthquake is not None and earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
+        there = np.vstack([places, (earthquake.longitude_deg, earthquake.latitude_deg)])
+    (west, south), (east, north) = there.min(axis=0), there.max(axis=0)
+    middle = 0.5 * (south + north)
+    narrowing = max(math.cos(math.radians(middle)), 0.01)
+    km = np.array([(east - west) * narrowing, north - south]) * KM_PER_DEGREE
+    half = 0.5 * max(float(km.max()) * (1.0 + 2.0 * MARGIN), LEAST_KM) / KM_PER_DEGREE
+    axis.set_xlim(0.5 * (west + east) - half / narrowing, 0.5 * (west + east) + half / narrowing)
+    axis.set_ylim(middle - half, middle + half)
+    axis.set_aspect(1.0 / narrowing)
+    axis.set_xlabel(tell("longitude (°)"))
+    axis.set_ylabel(tell("latitude (°)"))
+    axis.ticklabel_format(useOffset=False)
+    axis.locator_params(nbins=6)
+    _scale_bar(axis, 2.0 * half * KM_PER_DEGREE)
+    arrow = {"arrowstyle": "-|>", "color": "black"}
+    axis.annotate("", (NORTH_AT[0], 0.97), xytext=(NORTH_AT[0], 0.88), xycoords="axes fraction", arrowprops=arrow, zorder=5)
+    axis.text(NORTH_AT[0], 0.87, tell("N"), transform=axis.transAxes, ha="center", va="top", fontsize=9, path_effects=HALO, zorder=5)
+
+
+def _scale_bar(axis: Axes, across_km: float) -> None:
+    """Draw a bar of a round number of kilometres, about a quarter of the map."""
+    quarter = across_km / 4.0
+    step = 10.0 ** math.floor(math.log10(quarter))
+    length = next(factor * step for factor in (5.0, 2.0, 1.0) if factor * step <= quarter * 1.001)
+    share = length / across_km
+    style: dict[str, Any] = {"transform": axis.transAxes, "zorder": 5}
+    axis.plot([0.05, 0.05 + share], [0.05, 0.05], color="black", linewidth=2.5, solid_capstyle="butt", path_effects=HALO, **style)
+    axis.text(0.05 + 0.5 * share, 0.06, f"{length:g} km", ha="center", va="bottom", fontsize=8, path_effects=HALO, **style)
+
+
+def _names(axis: Axes, found: Stations) -> None:
+    """Write the codes of the worst stations beside their points, as far as they are apart from each other."""
+    (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
+
+    def within(longitude: float | None, latitude: float | None) -> tuple[float, float]:
+        return ((longitude or 0.0) - left) / (right - left), ((latitude or 0.0) - bottom) / (top - bottom)
+
+    earthquake = found.earthquake
+    taken = [SCALE_AT, NORTH_AT] + ([] if earthquake is None else [within(earthquake.longitude_deg, earthquake.latitude_deg)])
+    for answer in found.mapped[:NAMED]:
+        x, y = float(answer.longitude or 0.0), float(answer.latitude or 0.0)
+        place = within(x, y)
+        if any(abs(place[0] - other[0]) < APART[0] and abs(place[1] - other[1]) < APART[1] for other in taken):
+            continue
+        taken.append(place)
+        inward = -1 if place[0] > 0.8 else 1
+        axis.annotate(
+            answer.station or answer.record, (x, y), xytext=(6 * inward, 4), textcoords="offset points", fontsize=8,
+            ha="left" if inward > 0 else "right", path_effects=HALO, zorder=6,
+        )  # fmt: skip
