@@ -53,6 +53,9 @@ SIZES = ("block", "width", "height")
 @option(
     "--geojson", type=click.Path(path_type=Path), metavar="FILE", section="Output", help="Write the stations as points for maps (RFC 7946)."
 )
+@option(
+    "--html", type=click.Path(path_type=Path), metavar="FILE", section="Output", help="Write the map as one page that needs no network."
+)
 @output_options(histories=False, film=False)
 def map(  # noqa: A001 - the command's name
     source: Source,
@@ -64,6 +67,7 @@ def map(  # noqa: A001 - the command's name
     seed: int,
     workers: int | None,
     geojson: Path | None,
+    html: Path | None,
     **given: Any,
 ) -> None:
     """Map an earthquake: what each station measured, and what that does to a body or a cemetery, the worst first.
@@ -76,12 +80,14 @@ def map(  # noqa: A001 - the command's name
     from seisblock.cli.inputs import preparation_of, refuse_windows
     from seisblock.cli.progress import progress
     from seisblock.present.documents.map import document
+    from seisblock.present.files import refuse_collisions
     from seisblock.present.text import map as shown
     from seisblock.readers import REAL_SAMPLE
     from seisblock.readers.dispatch import Options
     from seisblock.studies.stations.survey import survey_stations
 
     refuse_windows(source)
+    refuse_collisions(*(path for path in (geojson, html) if path is not None))
     subject = _subject(cemetery, given, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if not source.record:
         say("no RECORD given: using the bundled sample {name}", name=REAL_SAMPLE)
@@ -101,6 +107,13 @@ def map(  # noqa: A001 - the command's name
 
         write_geojson(geojson, found)
         say("wrote {path}", path=geojson)
+    if html is not None:
+        from seisblock.present.files import write_text
+        from seisblock.present.pages.map import map_page
+
+        with progress("drawing"):
+            write_text(html, map_page(found, subject, gal=output.gal))
+        say("wrote {path}", path=html)
 
     def table(path: Path) -> None:
         from seisblock.present.files import write_table

@@ -108,6 +108,8 @@ def test_a_map_needs_a_place(tmp_path):
         (tmp_path / name).write_bytes(data)
     drawn = CliRunner().invoke(main, ["map", str(tmp_path / "SYA0010410231756.NS"), "--plot", str(tmp_path / "a.png")])
     assert drawn.exit_code == 0, drawn.stderr
+    page = CliRunner().invoke(main, ["map", str(tmp_path / "SYA0010410231756.NS"), "--html", str(tmp_path / "a.html")])
+    assert page.exit_code == 0 and "SYA001" in (tmp_path / "a.html").read_text(encoding="utf-8")
     assert (tmp_path / "a.png").stat().st_size > 10_000
     refused = CliRunner().invoke(main, ["map", "elcentro_1940_ns", "--plot", str(tmp_path / "b.svg")])
     assert (refused.exit_code, (tmp_path / "b.svg").exists()) == (3, False)

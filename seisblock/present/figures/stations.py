@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.colors import LinearSegmentedColormap, Normalize, to_hex
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
@@ -59,7 +59,7 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True) -> 
     """
     if not found.mapped:
         raise ParameterError("of no station it is known where it is: there is nothing to map")
-    made = canvas.titled(_title(found, subject), width=7.2, height=6.4)
+    made = canvas.titled(title(found, subject), width=7.2, height=6.4)
     axis = made.add_subplot(1, 1, 1)
     values, label, most = shown_values(found, subject, gal=gal)
     places = np.array([(answer.longitude, answer.latitude) for answer in found.mapped], dtype=float)
@@ -94,14 +94,35 @@ def shown_values(found: Stations, subject: WhatStands | None, *, gal: bool) -> t
     return np.array([answer.effect.rate or 0.0 for answer in found.mapped]), tell("share that falls"), 1.0
 
 
+def shade(share: float) -> str:
+    """Return the colour of a share of the scale, as a page writes it.
+
+    Parameters
+    ----------
+    share : float, 1
+
+    Examples
+    --------
+    >>> shade(0.0)
+    '#f3efe6'
+    """
+    return to_hex(SHADES(min(max(share, 0.0), 1.0)))
+
+
 def _share(answer: StationAnswer) -> float:
     """Return the share of versions that fall at a station, or whether the body does."""
     effect = answer.effect
     return float(effect.overturned or False) if effect.probability is None else effect.probability
 
 
-def _title(found: Stations, subject: WhatStands | None) -> str:
-    """Return the line above: magnitude, name and time of the earthquake, and what stands there."""
+def title(found: Stations, subject: WhatStands | None) -> str:
+    """Return the line above: magnitude, name and time of the earthquake, and what stands there.
+
+    Parameters
+    ----------
+    found : Stations
+    subject : StandingBody, StandingStones or None
+    """
     earthquake = found.earthquake
     parts = []
     if earthquake is not None:

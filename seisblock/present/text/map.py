@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.present.scales import Unit, acceleration_unit, length_cell, length_unit, velocity_unit
@@ -27,17 +27,14 @@ def tables(found: Stations, subject: WhatStands | None, *, gal: bool) -> Iterato
         Whether accelerations are shown in gal.
     """
     answered = [answer for answer in found.answers if answer.pga_m_s2 is not None]
-    yield line(_verdict(answered, subject), "bold")
+    yield line(verdict(found, subject), "bold")
     if found.earthquake is not None:
         yield line(earthquake_told(found.earthquake, found.origin_told))
     shown = answered[:MOST]
     if shown:
-        a, v = acceleration_unit(gal=gal), velocity_unit(gal=gal)
-        way = length_unit((answer.effect.max_slip_m or 0.0 for answer in shown), gal=gal)
-        heads = [tell("station"), "km", f"PGA ({a.name})", f"PGV ({v.name})", tell("JMA")]
-        rows = [[*_measured(answer, a, v), *_effect(answer, subject, way)] for answer in shown]
+        heads, rows = cells(shown, subject, gal=gal)
         more = tell("and {count} more stations, in the files", count=len(answered) - MOST) if len(answered) > MOST else ""
-        yield table("", [*heads, *_effect_heads(subject, way)], rows, caption=more)
+        yield table("", heads, rows, caption=more)
     missing = [answer for answer in found.answers if answer.failure]
     if missing:
         yield line(tell("without an answer: {count}", count=len(missing)), "yellow")
@@ -46,8 +43,31 @@ def tables(found: Stations, subject: WhatStands | None, *, gal: bool) -> Iterato
         yield line(tell("listed, and on no map, for their files do not say where they are: {count}", count=len(unmapped)), "yellow")
 
 
-def _verdict(answered: list[StationAnswer], subject: WhatStands | None) -> str:
-    """Return what happened over all stations, in a sentence."""
+def cells(answers: Sequence[StationAnswer], subject: WhatStands | None, *, gal: bool) -> tuple[list[str], list[list[str]]]:
+    """Return the headings of a table of stations, and a row for each.
+
+    Parameters
+    ----------
+    answers : sequence of StationAnswer
+    subject : StandingBody, StandingStones or None
+    gal : bool
+        Whether accelerations are shown in gal.
+    """
+    a, v = acceleration_unit(gal=gal), velocity_unit(gal=gal)
+    way = length_unit((answer.effect.max_slip_m or 0.0 for answer in answers), gal=gal)
+    heads = [tell("station"), "km", f"PGA ({a.name})", f"PGV ({v.name})", tell("JMA"), *_effect_heads(subject, way)]
+    return heads, [[*_measured(answer, a, v), *_effect(answer, subject, way)] for answer in answers]
+
+
+def verdict(found: Stations, subject: WhatStands | None) -> str:
+    """Return what happened over all stations, in a sentence.
+
+    Parameters
+    ----------
+    found : Stations
+    subject : StandingBody, StandingStones or None
+    """
+    answered = [answer for answer in found.answers if answer.pga_m_s2 is not None]
     count = len(answered)
     if not answered:
         return tell("no station has an answer")

@@ -10,6 +10,8 @@ from itertools import groupby
 from os import PathLike
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from seisblock import checks
 from seisblock.errors import KindError, ParameterError, SeisblockError
 from seisblock.measures.baseline import ground_history
@@ -23,11 +25,14 @@ from seisblock.records.doubtful import refuse_doubtful, sentences
 from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, great_circle_km, site_of, told_time
 from seisblock.studies.runs import in_threads
 from seisblock.studies.stations.effects import StationEffect, WhatStands
-from seisblock.typing import Progress
+from seisblock.typing import FloatArray, Progress
 from seisblock.words import said
 
 AS_READ = Preparation()
 """Nothing is done to a record but what its format needs."""
+
+STRETCHES = 160
+"""Of an outline."""
 
 APART_KM = 100.0
 """Epicentres further apart than any two solutions of one earthquake are those of two."""
@@ -63,6 +68,10 @@ class StationAnswer:
     earthquake : Earthquake or None
     origin_told : str
         When that was on the network's own clock.
+    outline : tuple of pairs of float, m/s^2
+        Least and largest acceleration of the horizontal of the larger peak, in equal stretches of the record.
+    duration_s : float
+        That of the record.
     """
 
     record: str
@@ -80,6 +89,8 @@ class StationAnswer:
     doubts: tuple[str, ...] = ()
     earthquake: Earthquake | None = None
     origin_told: str = ""
+    outline: tuple[tuple[float, float], ...] = ()
+    duration_s: float = 0.0
 
     @property
     def is_mapped(self) -> bool:
@@ -232,16 +243,25 @@ def _answer(
     return StationAnswer(name, **where, **measured, effect=effect, failure=failure)  # type: ignore[arg-type]
 
 
-def _measured(record: Record) -> dict[str, float | None]:
-    """Return peaks and intensity of a record."""
+def _measured(record: Record) -> dict[str, Any]:
+    """Return peaks, intensity and outline of a record."""
     rows = [component.acceleration for component in record.horizontals]
     if not rows:
         raise ParameterError("{source}: no horizontal component; it has {codes}", source=record.source, codes=record.codes)
+    peaks = [peak_acceleration(row)[0] for row in rows]
     return {
-        "pga_m_s2": max(peak_acceleration(row)[0] for row in rows),
+        "pga_m_s2": max(peaks),
+        "outline": _outline(rows[peaks.index(max(peaks))]),
+        "duration_s": record.duration_s,
         "pgv_m_s": max(peak_velocity(ground_history(row, record.dt), record.dt) for row in rows),
         "jma_intensity": jma_intensity(record),
     }
+
+
+def _outline(row: FloatArray) -> tuple[tuple[float, float], ...]:
+    """Return least and largest value of a row in equal stretches."""
+    starts = np.unique(np.linspace(0, row.size, min(STRETCHES, row.size), endpoint=False).astype(int))
+    return tuple(zip(np.minimum.reduceat(row, starts).tolist(), np.maximum.reduceat(row, starts).tolist(), strict=True))
 
 
 def _of_one_earthquake(known: StationAnswer | None, answer: StationAnswer) -> StationAnswer | None:

@@ -1,0 +1,92 @@
+"""The page of an earthquake's stations: a map to move and to enlarge, a station's record and answer where it is touched, a table."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from seisblock.present.figures.stations import KM_PER_DEGREE, shade, shown_values, title
+from seisblock.present.page import page
+from seisblock.present.scales import acceleration_unit
+from seisblock.present.text.map import cells, verdict
+from seisblock.present.text.whereabouts import earthquake_told
+from seisblock.studies.stations.effects import WhatStands
+from seisblock.studies.stations.survey import StationAnswer, Stations
+from seisblock.units import GAL
+from seisblock.words import tell
+
+LEGEND = 9
+"""Colours of the scale."""
+
+
+def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True) -> str:
+    """Return the page, in the language spoken; it needs no network.
+
+    Parameters
+    ----------
+    found : Stations
+    subject : StandingBody, StandingStones or None
+    gal : bool
+        Whether accelerations are shown in gal.
+    """
+    answered = [answer for answer in found.answers if answer.pga_m_s2 is not None]
+    heads, rows = cells(answered, subject, gal=gal)
+    values, label, most = shown_values(found, subject, gal=gal) if found.mapped else (np.empty(0), "", 1.0)
+    drawn = {id(answer): value / most for answer, value in zip(found.mapped, values.tolist(), strict=True)}
+    centre = _centre(found)
+    points = [
+        _point(answer, row, heads, shade(drawn[id(answer)]), centre, gal=gal)
+        for answer, row in zip(answered, rows, strict=True)
+        if answer.is_mapped
+    ]
+    earthquake = found.earthquake
+    epicentre = None if earthquake is None else _place(earthquake.longitude_deg, earthquake.latitude_deg, centre)
+    return page(
+        "map.html",
+        title(found, subject) or tell("Stations"),
+        subtitles=[earthquake_told(earthquake, found.origin_told)] if earthquake else [],
+        lead=verdict(found, subject),
+        data={"points": points, "epicentre": epicentre, "named": tell("epicentre")},
+        label=label,
+        legend=[shade(i / (LEGEND - 1)) for i in range(LEGEND)],
+        ends=["0", f"{most:.3g}"],
+        heads=heads,
+        rows=rows,
+        missing=[f"{answer.label}: {tell(answer.failure)}" for answer in found.answers if answer.failure],
+        unmapped=[answer.label for answer in answered if not answer.is_mapped],
+    )
+
+
+def _centre(found: Stations) -> tuple[float, float]:
+    """Return the middle of the stations, degrees east and north."""
+    places = [(answer.longitude or 0.0, answer.latitude or 0.0) for answer in found.mapped] or [(0.0, 0.0)]
+    east, north = zip(*places, strict=True)
+    return 0.5 * (min(east) + max(east)), 0.5 * (min(north) + max(north))
+
+
+def _place(longitude: float | None, latitude: float | None, centre: tuple[float, float]) -> list[float] | None:
+    """Return how far a place is from the middle, km to the east and to the south, as a page counts."""
+    if longitude is None or latitude is None:
+        return None
+    narrowing = math.cos(math.radians(centre[1]))
+    return [round((longitude - centre[0]) * narrowing * KM_PER_DEGREE, 3), round((centre[1] - latitude) * KM_PER_DEGREE, 3)]
+
+
+def _point(
+    answer: StationAnswer, row: list[str], heads: list[str], colour: str, centre: tuple[float, float], *, gal: bool
+) -> dict[str, Any]:
+    """Return what the page's script draws of one station."""
+    unit = acceleration_unit(gal=gal)
+    told = [[head, cell] for head, cell in zip(heads[1:], row[1:], strict=True)]
+    return {
+        "at": _place(answer.longitude, answer.latitude, centre),
+        "name": answer.label,
+        "colour": colour,
+        "told": [*told, [tell("record"), answer.record], [tell("begins"), answer.local_start]],
+        "failure": tell(answer.failure) if answer.failure else "",
+        "outline": [[round(value / GAL, 1) for value in pair] for pair in answer.outline],
+        "peak": f"±{(answer.pga_m_s2 or 0.0) / unit.size:.4g} {unit.name}",
+        "end": f"{answer.duration_s:.4g} s",
+    }

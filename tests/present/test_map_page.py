@@ -1,0 +1,59 @@
+"""The page of an earthquake's stations holds all that its script draws, needs no network, and obeys no name."""
+
+import json
+import re
+from dataclasses import replace
+
+import pytest
+
+from seisblock.present.pages.map import map_page
+from seisblock.records.site import great_circle_km
+from seisblock.studies.stations.effects import StandingStones
+from seisblock.words import speaking
+from tests.present.long_record import AOYAMA, stations
+
+
+def data_of(page):
+    """Return what the page's script draws."""
+    return json.loads(re.search(r'<script type="application/json" id="stations">(.*?)</script>', page, re.S)[1])
+
+
+def test_every_station_is_where_it_is():
+    """Kilometres from the middle, as far from the epicentre as on the sphere, north above; a row for each that has an answer."""
+    found, subject = stations(StandingStones(AOYAMA))
+    page = map_page(found, subject)
+    told = data_of(page)
+    assert [point["name"] for point in told["points"]] == [answer.label for answer in found.mapped]
+    for point, answer in zip(told["points"], found.mapped, strict=True):
+        away = sum((one - other) ** 2 for one, other in zip(point["at"], told["epicentre"], strict=True)) ** 0.5
+        assert away == pytest.approx(great_circle_km((answer.latitude, answer.longitude), (35.0, 139.0)), rel=0.01, abs=0.01)
+    highest = min(told["points"], key=lambda point: point["at"][1])
+    assert highest["name"] == max(found.mapped, key=lambda answer: answer.latitude).label
+    assert page.count("<tr>") == 1 + 13
+    assert "b.csv: cut short" in page and "a.csv" in page
+
+
+def test_it_opens_without_network():
+    """No address but the name of SVG's vocabulary; nothing is loaded."""
+    page = map_page(*stations())
+    assert set(re.findall(r"https?://[^\s\"'<)]+", page)) <= {"http://www.w3.org/2000/svg"}
+    assert not re.search(r"<(?:link|img|iframe)\b|\bsrc=|@import|fetch\(|XMLHttpRequest", page)
+
+
+def test_names_are_text():
+    """A station's name from a file is neither a tag nor the end of the data."""
+    found, _ = stations()
+    evil = replace(found.answers[0], name="</script><script>alert(1)</script>", failure="<b>no</b>")
+    page = map_page(replace(found, answers=(evil, *found.answers[1:])), None)
+    assert "<script>alert" not in page and "<b>no</b>" not in page
+    assert data_of(page)["points"][0]["name"].endswith("</script><script>alert(1)</script>")
+
+
+def test_japanese_and_nowhere():
+    """In Japanese its own words are; without a place there is a table and no map."""
+    found, subject = stations(StandingStones(AOYAMA))
+    with speaking("ja"):
+        page = map_page(found, subject)
+    assert "観測点（ひどい順）" in page and "Stations, the worst first" not in page and 'lang="ja"' in page
+    nowhere = map_page(replace(found, answers=found.answers[-2:]), subject)
+    assert 'id="map"' not in nowhere and "<table>" in nowhere
