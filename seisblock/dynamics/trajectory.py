@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,8 +18,6 @@ OTHERS = 6
 
 if TYPE_CHECKING:
     from seisblock.dynamics.model import Model
-
-Values = TypeVar("Values", FloatArray, IntArray)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +59,7 @@ class Path:
         states = self.states if chosen is None else self.states[chosen]
         if not self.changes:
             return time, states, modes
-        return time, _woven(states, self.changes.limits.reshape(-1, states.shape[1]), self._before(chosen)), modes
+        return time, np.insert(states, self._before(chosen), self.changes.limits.reshape(-1, states.shape[1]), axis=0), modes
 
     def course(self, chosen: IntArray | None = None) -> tuple[FloatArray, IntArray]:
         """Return the times and modes of :meth:`table` alone, (m,) each."""
@@ -72,7 +70,7 @@ class Path:
         if not self.changes:
             return time, modes
         kinds, before = np.stack([self.changes.source, self.changes.target], axis=1).ravel(), self._before(chosen)
-        return _woven(time, np.repeat(self.changes.time, 2), before), _woven(modes, kinds, before)
+        return np.insert(time, before, np.repeat(self.changes.time, 2)), np.insert(modes, before, kinds)
 
     def numbers(self, chosen: IntArray) -> IntArray:
         """Return which rows of the whole table those of :meth:`table` at some samples are, (m,)."""
@@ -80,14 +78,14 @@ class Path:
             return chosen
         before = self._places()
         at_samples = chosen + np.searchsorted(before, chosen, side="right")
-        return _woven(at_samples, before + np.arange(before.size), self._before(chosen))
+        return np.insert(at_samples, self._before(chosen), before + np.arange(before.size))
 
     def values(self, state: int) -> FloatArray:
         """Return one state at the times of :meth:`table`, (m,)."""
         at_samples: FloatArray = self.states[:, state]
         if not self.changes:
             return at_samples
-        return _woven(at_samples, self.changes.limits[:, :, state].ravel(), self._before())
+        return np.insert(at_samples, self._before(), self.changes.limits[:, :, state].ravel())
 
     def sampled(self, values: FloatArray, chosen: IntArray | None = None) -> FloatArray:
         """Return a sampled input, straight between samples, at the times of :meth:`table`, (m,)."""
@@ -98,7 +96,7 @@ class Path:
             return part
         at, share = self.changes.sample, self.changes.tau / self.dt
         there = values[at] + share * (values[np.minimum(at + 1, values.size - 1)] - values[at])
-        return _woven(part, np.repeat(there, 2), self._before(chosen))
+        return np.insert(part, self._before(chosen), np.repeat(there, 2))
 
     def _places(self) -> IntArray:
         """Return before which sample of the path each limit of each event stands."""
@@ -109,26 +107,6 @@ class Path:
         """Return before which of the samples chosen each limit of each event stands."""
         before = self._places()
         return before if chosen is None else np.searchsorted(chosen, before)
-
-
-FEW = 8
-"""Samples for each limit of an event, from which on it is quicker to copy the stretches between events than to pick sample after sample."""
-
-
-def _woven(at_samples: Values, at_limits: Values, before: IntArray) -> Values:
-    """Return what holds at samples and what holds at limits of events, each before a sample, in the order of time."""
-    count, size = len(at_limits), len(at_samples)
-    if FEW * count > size:
-        order = np.insert(np.arange(size), before, size + np.arange(count))
-        return np.concatenate([at_samples, at_limits])[order]
-    found = np.empty((size + count, *at_samples.shape[1:]), dtype=at_samples.dtype)
-    begin = 0
-    for row, end in enumerate(before.tolist()):
-        found[begin + row : end + row] = at_samples[begin:end]
-        begin = end
-    found[begin + count :] = at_samples[begin:]
-    found[before + np.arange(count)] = at_limits
-    return found
 
 
 def joined(paths: Iterable[Path]) -> Path:

@@ -266,7 +266,7 @@ def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, traj
         level = modes >= LEVEL
         sine, cosine, phase = np.where(level, 0.0, sine), np.where(level, 1.0, cosine), modes % LEVEL
     along = horizontal * cosine - vertical * sine if base.slope_deg or gain else horizontal
-    normal = np.broadcast_to((gravity + vertical) * cosine + (horizontal * sine if base.slope_deg else 0.0), time.shape)
+    normal = (gravity + vertical) * cosine + (horizontal * sine if base.slope_deg else 0.0)
     pull = gravity * sine
     way = _WAY[phase]
     acceleration = np.where(phase == STICK, 0.0, (pull - along) + way * (base.kinetic * normal))
@@ -275,8 +275,8 @@ def _curves(motion: Motion, base: SlidingBase, gain: float, gravity: float, traj
     unit, speed = "m/s^2", "m/s"
     channels = (
         Channel("ground_acceleration", unit, along, "z''"),
-        Channel("lower_limit", unit, pull - base.mu * normal, ""),
-        Channel("upper_limit", unit, pull + base.mu * normal, ""),
+        Channel("lower_limit", unit, np.broadcast_to(pull - base.mu * normal, time.shape), ""),
+        Channel("upper_limit", unit, np.broadcast_to(pull + base.mu * normal, time.shape), ""),
         Channel("acceleration", unit, acceleration, "x'' - z''"),
         Channel("velocity", speed, path.values(SPEED), "x' - z'"),
         Channel("displacement", "m", path.values(SLIP), "x - z"),
