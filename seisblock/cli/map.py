@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,6 +39,14 @@ SIZES = ("block", "width", "height")
     section="Body",
     help="CSV of gravestones that stand at every station, instead of a body: which share falls. Bundled: aoyama.csv.",
 )
+@option(
+    "--survey",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    section="Body",
+    help="CSV of surveyed cemeteries (place, latitude, longitude, stones, fallen): what their stones say beside the stations around "
+    "them. Stones are as those of --cemetery. [default: aoyama.csv]",
+)
 @standing_options
 @option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: where the record has one]")
 @option(
@@ -62,6 +71,7 @@ def map(  # noqa: A001 - the command's name
     output: Output,
     gravity: float,
     cemetery: str | None,
+    survey: Path | None,
     vertical: bool | None,
     runs: int,
     seed: int,
@@ -76,6 +86,7 @@ def map(  # noqa: A001 - the command's name
     --level says otherwise. A body is followed in every direction, a cemetery judged in every direction; the worst counts. What cannot be
     read is named, the others are answered; a station without coordinates is listed, and on no map.
     """
+    from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import preparation_of, refuse_windows
     from seisblock.cli.progress import progress
@@ -85,9 +96,11 @@ def map(  # noqa: A001 - the command's name
     from seisblock.readers import REAL_SAMPLE
     from seisblock.readers.dispatch import Options
     from seisblock.studies.stations.survey import survey_stations
+    from seisblock.studies.stations.surveys import judge_surveys, read_surveys
 
     refuse_windows(source)
     refuse_collisions(*(path for path in (geojson, html) if path is not None))
+    surveyed = None if survey is None else read_surveys(survey)
     subject = _subject(cemetery, given, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if not source.record:
         say("no RECORD given: using the bundled sample {name}", name=REAL_SAMPLE)
@@ -102,17 +115,18 @@ def map(  # noqa: A001 - the command's name
             workers=workers,
             progress=advance,
         )
+    surveys = () if surveyed is None else judge_surveys(surveyed, found, read_cemetery(cemetery or "aoyama.csv"))
     if geojson is not None:
         from seisblock.present.exports.geojson import write_geojson
 
-        write_geojson(geojson, found)
+        write_geojson(geojson, found, surveys)
         say("wrote {path}", path=geojson)
     if html is not None:
         from seisblock.present.files import write_text
         from seisblock.present.pages.map import map_page
 
         with progress("drawing"):
-            write_text(html, map_page(found, subject, gal=output.gal))
+            write_text(html, map_page(found, subject, gal=output.gal, surveys=surveys))
         say("wrote {path}", path=html)
 
     def table(path: Path) -> None:
@@ -125,9 +139,14 @@ def map(  # noqa: A001 - the command's name
     def figure() -> Any:
         from seisblock.present.figures.stations import figure as drawn
 
-        return drawn(found, subject, gal=output.gal)
+        return drawn(found, subject, gal=output.gal, surveys=surveys)
 
-    emit(document(found, subject), output, tables=lambda: shown.tables(found, subject, gal=output.gal), csv=table, figure=figure)
+    def tables() -> Iterator[Any]:
+        yield from shown.tables(found, subject, gal=output.gal)
+        if surveys:
+            yield from shown.survey_tables(surveys)
+
+    emit(document(found, subject, surveys), output, tables=tables, csv=table, figure=figure)
 
 
 def _subject(

@@ -79,7 +79,7 @@ CITED: dict[str, tuple[str, ...]] = {
     "uplift": papers("uplift"),
     "respond": papers("all modes", "two-layer body"),
     "batch": papers("all modes", "two-layer body"),
-    "map": papers("measures", "all modes", "gravestones as fitted"),
+    "map": papers("measures", "all modes", "gravestones as fitted", "intensity of a velocity"),
     "body": papers("a scan's arms"),
     "risk": papers("risk"),
     "fragility": papers("fragility", "all modes", "rocking", "sliding", "pile", "synthetic records"),

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from tests.stations import bundle, station_files
+from tests.stations import EPICENTRE, bundle, station_files
 
 
 @pytest.fixture(scope="module")
@@ -114,3 +114,24 @@ def test_a_map_needs_a_place(tmp_path):
     refused = CliRunner().invoke(main, ["map", "elcentro_1940_ns", "--plot", str(tmp_path / "b.svg")])
     assert (refused.exit_code, (tmp_path / "b.svg").exists()) == (3, False)
     assert "of no station it is known where it is" in refused.stderr
+
+
+def test_surveys_stand_beside_stations(tmp_path):
+    """Table, document, points, figure and page tell of surveyed cemeteries; contradictory pairs are named."""
+    for name, data in station_files(1, place=EPICENTRE).items():
+        (tmp_path / name).write_bytes(data)
+    (tmp_path / "surveys.csv").write_text("place,latitude,longitude,stones,fallen\n光明寺,37.3,138.9,100,1\n", encoding="utf-8")
+    words = ["map", str(tmp_path / "SYA0010410231756.NS"), "--survey", str(tmp_path / "surveys.csv")]
+    words += ["--geojson", str(tmp_path / "a.geojson"), "--html", str(tmp_path / "a.html"), "--plot", str(tmp_path / "a.png")]
+    result = CliRunner().invoke(main, [*words, "--json"])
+    assert result.exit_code == 0, result.stderr
+    document = json.loads(result.stdout)
+    (survey,) = document["surveys"]
+    assert (survey["place"], survey["stones_count"], survey["fallen_count"]) == ("光明寺", 100, 1)
+    assert survey["neighbours"][0]["station"] == "SYA001"
+    assert "光明寺 and station SYA001" in document["contradictions"][0]
+    point = json.loads((tmp_path / "a.geojson").read_text(encoding="utf-8"))["features"][-1]
+    assert (point["geometry"]["coordinates"], point["properties"]["place"]) == ([138.9, 37.3], "光明寺")
+    assert "contradict each other" in (tmp_path / "a.html").read_text(encoding="utf-8")
+    shown = " ".join(CliRunner().invoke(main, words[:4]).stdout.split())
+    assert "Surveyed cemeteries" in shown and "光明寺" in shown and "contradict each other" in shown

@@ -77,6 +77,7 @@ PURE_NUMBERS = re.compile(
     | (size|slenderness|amplitude|inset|share|(rocking_)?restitution(_[xy])?)  # shares, and ratios of velocities
     | (alpha|beta|gamma|kappa|mu|mu_kinetic|damping|r|over_omega_v|height_over_width|b_over_h)
     | (common_error|stone_error|bias)_ln_pga | frequency_error_ln_f | momentum_error | jma_intensity | share_on_corners | counts_by_kind
+    | (expected|residual)_jma_intensity
     | (latitude|longitude)  # degrees, under the names that maps and surveys have
     | (falls|models|runs|samples|seed|impacts|reversals|flights|jams|ratios_lowered|initial|year)
     | im | ((non_monotone|censored)_)?(records|motions) | exceeding | versions | without_curve  # of a fragility; the unit is its result's

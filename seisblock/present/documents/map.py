@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated
 
 from msgspec import Meta, Struct
@@ -11,6 +12,7 @@ from seisblock.references import papers
 from seisblock.studies.stations.effects import StandingBody, WhatStands
 from seisblock.studies.stations.row import row_of
 from seisblock.studies.stations.survey import StationAnswer, Stations
+from seisblock.studies.stations.surveys import SurveyAnswer, contradictions
 from seisblock.words import noted, said
 
 
@@ -86,20 +88,74 @@ class StationEntry(Result, frozen=True, kw_only=True):
     doubts: str | None
 
 
-MAP = Kind("map", MapParameters, StationEntry, {"earthquake": Annotated[EarthquakeEntry | None, Meta(description="What shook.")]})
+class NeighbourEntry(Struct, frozen=True, kw_only=True):
+    """A station near a surveyed place."""
+
+    station: str
+    distance_km: float
+    jma_intensity: float
+
+
+class SurveyEntry(Struct, frozen=True, kw_only=True):
+    """A surveyed place beside the stations around it.
+
+    Parameters
+    ----------
+    place : str
+    latitude, longitude : float
+        Degrees north and east.
+    stones_count, fallen_count : int
+    pga_m_s2 : float or None
+        By the fallen stones; null where they tell only a bound.
+    pga_interval_m_s2 : two floats or None
+    jma_intensity : float or None, 1
+    jma_intensity_interval : two floats or None, 1
+    neighbours : list of Neighbour
+        The nearest stations.
+    expected_jma_intensity : float or None, 1
+        Theirs, weighted by the inverse of the distance.
+    residual_jma_intensity : float or None, 1
+        The estimate less that.
+    """
+
+    place: str
+    latitude: float
+    longitude: float
+    stones_count: int
+    fallen_count: int
+    pga_m_s2: float | None
+    pga_interval_m_s2: tuple[float | None, float | None]
+    jma_intensity: float | None
+    jma_intensity_interval: tuple[float | None, float | None]
+    neighbours: tuple[NeighbourEntry, ...]
+    expected_jma_intensity: float | None
+    residual_jma_intensity: float | None
+
+
+BESIDE = {
+    "earthquake": Annotated[EarthquakeEntry | None, Meta(description="What shook.")],
+    "surveys": Annotated[tuple[SurveyEntry, ...], Meta(description="Surveyed cemeteries beside the stations around them.")],
+    "contradictions": Annotated[
+        tuple[str, ...], Meta(description="Pairs of places, or of a place and a station, that cannot both be right.")
+    ],
+}
+MAP = Kind("map", MapParameters, StationEntry, BESIDE)
+
+_BEHIND_SURVEYS = papers("gravestones as fitted", "intensity of a velocity")
 
 UNMAPPED = noted("{station}: its file does not say where it is: it is listed, and on no map")
 FAILED = noted("{station}: {failure}")
 DOUBTED = noted("{count} record(s) are doubtful; {station}: {doubt}")
 
 
-def document(found: Stations, subject: WhatStands | None) -> Document:
+def document(found: Stations, subject: WhatStands | None, surveys: Sequence[SurveyAnswer] = ()) -> Document:
     """Return the document of an earthquake's stations, the worst first.
 
     Parameters
     ----------
     found : Stations
     subject : StandingBody, StandingStones or None
+    surveys : sequence of SurveyAnswer
     """
     body = isinstance(subject, StandingBody)
     parameters = MapParameters(
@@ -112,9 +168,35 @@ def document(found: Stations, subject: WhatStands | None) -> Document:
     return MAP.document(
         parameters,
         [(None, StationEntry(**row_of(answer))) for answer in found.answers],
-        citations=(*papers("measures"), *(subject.citations if subject else ())),
+        citations=tuple(
+            dict.fromkeys((*papers("measures"), *(subject.citations if subject else ()), *(_BEHIND_SURVEYS if surveys else ())))
+        ),
         warnings=warnings(found),
         earthquake=None if found.earthquake is None else entry_of_earthquake(found.earthquake),
+        surveys=tuple(map(survey_entry, surveys)),
+        contradictions=tuple(contradictions(surveys)),
+    )
+
+
+def survey_entry(answer: SurveyAnswer) -> SurveyEntry:
+    """Return a surveyed place as documents tell it."""
+    place, estimate = answer.surveyed, answer.estimate
+    return SurveyEntry(
+        place=place.place,
+        latitude=place.latitude,
+        longitude=place.longitude,
+        stones_count=place.stones,
+        fallen_count=place.fallen,
+        pga_m_s2=estimate.pga_m_s2,
+        pga_interval_m_s2=estimate.pga_interval_m_s2,
+        jma_intensity=estimate.jma_intensity,
+        jma_intensity_interval=estimate.jma_intensity_interval,
+        neighbours=tuple(
+            NeighbourEntry(station=each.station, distance_km=each.distance_km, jma_intensity=each.jma_intensity)
+            for each in answer.neighbours
+        ),
+        expected_jma_intensity=answer.expected_intensity,
+        residual_jma_intensity=answer.residual,
     )
 
 

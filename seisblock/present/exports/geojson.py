@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from seisblock.present.files import replacing
 from seisblock.studies.stations.row import row_of
 from seisblock.studies.stations.survey import Stations
+from seisblock.studies.stations.surveys import SurveyAnswer
 
 DECIMALS = 6
 """Of a degree: a tenth of a metre."""
 
 
-def feature_collection(found: Stations) -> dict[str, Any]:
+def feature_collection(found: Stations, surveys: Sequence[SurveyAnswer] = ()) -> dict[str, Any]:
     """Return the stations whose place is known as a GeoJSON FeatureCollection; properties carry the keys of the document.
 
     Parameters
     ----------
     found : Stations
+    surveys : sequence of SurveyAnswer
+        Points of their own, whose properties begin with the place.
     """
     features = [
         {
@@ -28,6 +32,22 @@ def feature_collection(found: Stations) -> dict[str, Any]:
             "properties": {key: value for key, value in row_of(answer).items() if key not in ("latitude", "longitude")},
         }
         for answer in found.mapped
+    ]
+    features += [
+        {
+            "type": "Feature",
+            "geometry": {"type": "Point", "coordinates": _position(answer.surveyed.longitude, answer.surveyed.latitude)},
+            "properties": {
+                "place": answer.surveyed.place,
+                "stones": answer.surveyed.stones,
+                "fallen": answer.surveyed.fallen,
+                "jma_intensity": answer.estimate.jma_intensity,
+                "jma_intensity_interval": list(answer.estimate.jma_intensity_interval),
+                "expected_jma_intensity": answer.expected_intensity,
+                "residual_jma_intensity": answer.residual,
+            },
+        }
+        for answer in surveys
     ]
     collection: dict[str, Any] = {"type": "FeatureCollection", "features": features}
     earthquake = found.earthquake
@@ -43,16 +63,17 @@ def feature_collection(found: Stations) -> dict[str, Any]:
     return collection
 
 
-def write_geojson(path: Path, found: Stations) -> None:
+def write_geojson(path: Path, found: Stations, surveys: Sequence[SurveyAnswer] = ()) -> None:
     """Write the stations whose place is known as GeoJSON.
 
     Parameters
     ----------
     path : Path
     found : Stations
+    surveys : sequence of SurveyAnswer
     """
     with replacing(path) as temporary:
-        text = json.dumps(feature_collection(found), ensure_ascii=False, allow_nan=False)
+        text = json.dumps(feature_collection(found, surveys), ensure_ascii=False, allow_nan=False)
         temporary.write_text(text + "\n", encoding="utf-8")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from seisblock.present.scales import acceleration_unit
 from seisblock.records.site import EARTH_KM
 from seisblock.studies.stations.effects import StandingBody, WhatStands
 from seisblock.studies.stations.survey import StationAnswer, Stations
+from seisblock.studies.stations.surveys import SurveyAnswer
 from seisblock.typing import FloatArray
 from seisblock.words import tell
 
@@ -41,7 +43,7 @@ LEAST_KM = 10.0
 """Extent of a map of one station."""
 
 
-def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True) -> Figure:
+def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, surveys: Sequence[SurveyAnswer] = ()) -> Figure:
     """Return the figure: a point for each station whose place is known.
 
     Parameters
@@ -51,6 +53,8 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True) -> 
         What the colours tell of; the shaking itself without one.
     gal : bool
         Whether the shaking is in gal.
+    surveys : sequence of SurveyAnswer
+        Squares in the colour of the share that fell, or of the PGA that the stones tell of.
 
     Raises
     ------
@@ -75,6 +79,12 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True) -> 
         linewidth=0.5,
         zorder=3,
     )
+    if surveys:
+        squares = np.array([(each.surveyed.longitude, each.surveyed.latitude) for each in surveys])
+        filled = [surveyed_value(each, subject, gal=gal) for each in surveys]
+        norm = Normalize(0.0, most)
+        axis.scatter(squares[:, 0], squares[:, 1], c=filled, cmap=SHADES, norm=norm, marker="s", s=52, edgecolor="black", zorder=3.5)
+        places = np.vstack([places, squares])
     _epicentre(axis, found)
     _frame(axis, found, places)
     _names(axis, found)
@@ -92,6 +102,21 @@ def shown_values(found: Stations, subject: WhatStands | None, *, gal: bool) -> t
         name = tell("share that falls") if subject.runs else tell("falls")
         return np.array([_share(answer) for answer in found.mapped]), name, 1.0
     return np.array([answer.effect.rate or 0.0 for answer in found.mapped]), tell("share that falls"), 1.0
+
+
+def surveyed_value(answer: SurveyAnswer, subject: WhatStands | None, *, gal: bool) -> float:
+    """Return the value of a surveyed place on the scale of the stations: the share that fell, or the PGA by the stones.
+
+    Parameters
+    ----------
+    answer : SurveyAnswer
+    subject : StandingBody, StandingStones or None
+    gal : bool
+    """
+    if subject is not None:
+        return answer.surveyed.fallen / answer.surveyed.stones
+    told = (answer.estimate.pga_m_s2, *answer.estimate.pga_interval_m_s2)
+    return next((pga for pga in told if pga is not None), 0.0) / acceleration_unit(gal=gal).size
 
 
 def shade(share: float) -> str:

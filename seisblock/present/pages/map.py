@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from seisblock.present.figures.stations import KM_PER_DEGREE, shade, shown_values, title
+from seisblock.present.figures.stations import KM_PER_DEGREE, shade, shown_values, surveyed_value, title
 from seisblock.present.page import page
 from seisblock.present.scales import acceleration_unit
-from seisblock.present.text.map import cells, verdict
+from seisblock.present.text.map import cells, survey_cells, verdict
 from seisblock.present.text.whereabouts import earthquake_told
 from seisblock.studies.stations.effects import WhatStands
 from seisblock.studies.stations.survey import StationAnswer, Stations
+from seisblock.studies.stations.surveys import SurveyAnswer, contradictions
 from seisblock.units import GAL
 from seisblock.words import tell
 
@@ -21,7 +23,7 @@ LEGEND = 9
 """Colours of the scale."""
 
 
-def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True) -> str:
+def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True, surveys: Sequence[SurveyAnswer] = ()) -> str:
     """Return the page, in the language spoken; it needs no network.
 
     Parameters
@@ -30,6 +32,8 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True) -
     subject : StandingBody, StandingStones or None
     gal : bool
         Whether accelerations are shown in gal.
+    surveys : sequence of SurveyAnswer
+        Squares on the map, and a table of their own.
     """
     answered = [answer for answer in found.answers if answer.pga_m_s2 is not None]
     heads, rows = cells(answered, subject, gal=gal)
@@ -41,6 +45,18 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True) -
         for answer, row in zip(answered, rows, strict=True)
         if answer.is_mapped
     ]
+    names, told = survey_cells(surveys)
+    squares = [
+        {
+            "at": _place(each.surveyed.longitude, each.surveyed.latitude, centre),
+            "name": each.surveyed.place,
+            "colour": shade(surveyed_value(each, subject, gal=gal) / most),
+            "told": [[name, cell] for name, cell in zip(names[1:], row[1:], strict=True)],
+            "failure": "",
+            "outline": [],
+        }
+        for each, row in zip(surveys, told, strict=True)
+    ]
     earthquake = found.earthquake
     epicentre = None if earthquake is None else _place(earthquake.longitude_deg, earthquake.latitude_deg, centre)
     return page(
@@ -48,12 +64,13 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True) -
         title(found, subject) or tell("Stations"),
         subtitles=[earthquake_told(earthquake, found.origin_told)] if earthquake else [],
         lead=verdict(found, subject),
-        data={"points": points, "epicentre": epicentre, "named": tell("epicentre")},
+        data={"points": points, "squares": squares, "epicentre": epicentre, "named": tell("epicentre")},
         label=label,
         legend=[shade(i / (LEGEND - 1)) for i in range(LEGEND)],
         ends=["0", f"{most:.3g}"],
         heads=heads,
         rows=rows,
+        surveyed={"heads": names, "rows": told, "pairs": [tell(pair) for pair in contradictions(surveys)]},
         missing=[f"{answer.label}: {tell(answer.failure)}" for answer in found.answers if answer.failure],
         unmapped=[answer.label for answer in answered if not answer.is_mapped],
     )

@@ -10,6 +10,7 @@ from seisblock.present.text.tables import fixed, line, number, table
 from seisblock.present.text.whereabouts import earthquake_told
 from seisblock.studies.stations.effects import StandingBody, WhatStands
 from seisblock.studies.stations.survey import StationAnswer, Stations
+from seisblock.studies.stations.surveys import SurveyAnswer, contradictions
 from seisblock.words import roughly, tell
 
 MOST = 40
@@ -41,6 +42,44 @@ def tables(found: Stations, subject: WhatStands | None, *, gal: bool) -> Iterato
     unmapped = [answer for answer in answered if not answer.is_mapped]
     if unmapped:
         yield line(tell("listed, and on no map, for their files do not say where they are: {count}", count=len(unmapped)), "yellow")
+
+
+def survey_tables(surveys: Sequence[SurveyAnswer]) -> Iterator[Any]:
+    """Yield what surveyed cemeteries say beside the stations around them, and the pairs that contradict each other.
+
+    Parameters
+    ----------
+    surveys : sequence of SurveyAnswer
+    """
+    heads, rows = survey_cells(surveys)
+    caption = tell("stations: the nearest three, weighted by the inverse of the distance; residual: by the stones less that")
+    yield table(tell("Surveyed cemeteries"), heads, rows, caption=caption)
+    for pair in contradictions(surveys):
+        yield line(tell(pair), "yellow")
+
+
+def survey_cells(surveys: Sequence[SurveyAnswer]) -> tuple[list[str], list[list[str]]]:
+    """Return the headings of a table of surveyed cemeteries, and a row for each.
+
+    Parameters
+    ----------
+    surveys : sequence of SurveyAnswer
+    """
+    heads = [tell("surveyed place"), tell("fell"), tell("JMA by stones"), tell("by stations"), tell("residual"), tell("nearest")]
+    rows = []
+    for answer in surveys:
+        low, high = answer.estimate.jma_intensity_interval
+        told = [number(None) if value is None else fixed(value, 1) for value in (answer.estimate.jma_intensity, low, high)]
+        nearest = answer.neighbours[0] if answer.neighbours else None
+        rows.append([
+            answer.surveyed.place,
+            f"{answer.surveyed.fallen}/{answer.surveyed.stones}",
+            f"{told[0]} ({told[1]} – {told[2]})",
+            number(None) if answer.expected_intensity is None else fixed(answer.expected_intensity, 1),
+            number(None) if answer.residual is None else f"{answer.residual:+.1f}",
+            "" if nearest is None else tell("{station}, {distance:.1f} km", station=nearest.station, distance=nearest.distance_km),
+        ])  # fmt: skip
+    return heads, rows
 
 
 def cells(answers: Sequence[StationAnswer], subject: WhatStands | None, *, gal: bool) -> tuple[list[str], list[list[str]]]:

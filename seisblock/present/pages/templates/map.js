@@ -15,11 +15,11 @@
     return node;
   };
   // kilometres east and south of the middle are the map's own units
-  const places = data.points.map((point) => point.at).concat(data.epicentre ? [data.epicentre] : []);
+  const places = [...data.points, ...data.squares].map((point) => point.at).concat(data.epicentre ? [data.epicentre] : []);
   const bounds = [0, 1].map((axis) => [Math.min(...places.map((p) => p[axis])), Math.max(...places.map((p) => p[axis]))]);
   const middle = bounds.map(([low, high]) => (low + high) / 2);
   const view = { x: middle[0], y: middle[1], km: 1 };  // km for each pixel
-  const circles = [];
+  const circles = [], squares = [];
   let star, name;
 
   const whole = () => {
@@ -35,6 +35,11 @@
     const across = box.width * view.km, along = box.height * view.km;
     map.setAttribute("viewBox", `${view.x - across / 2} ${view.y - along / 2} ${across} ${along}`);
     for (const circle of circles) circle.setAttribute("r", 6 * view.km);
+    for (const [square, at] of squares) {
+      for (const [key, value] of [["x", at[0] - 6 * view.km], ["y", at[1] - 6 * view.km], ["width", 12 * view.km], ["height", 12 * view.km]]) {
+        square.setAttribute(key, value);
+      }
+    }
     if (star) {
       star.setAttribute("transform", `translate(${data.epicentre[0]} ${data.epicentre[1]}) scale(${view.km})`);
       name.setAttribute("transform", `translate(${data.epicentre[0]} ${data.epicentre[1]}) scale(${view.km})`);
@@ -55,7 +60,7 @@
     draw();
   };
   const choose = (point, circle) => {
-    circles.forEach((each) => each.classList.toggle("chosen", each === circle));
+    [...circles, ...squares.map(([square]) => square)].forEach((each) => each.classList.toggle("chosen", each === circle));
     told.replaceChildren();
     html("h2", point.name, told);
     if (point.failure) html("p", point.failure, told).className = "note";
@@ -75,8 +80,7 @@
   };
 
   // the worst comes first in the data and lies on top
-  [...data.points].reverse().forEach((point) => {
-    const circle = made("circle", { cx: point.at[0], cy: point.at[1], fill: point.colour, tabindex: 0, role: "button", "aria-label": point.name }, layer);
+  const place = (point, circle) => {
     made("title", {}, circle).textContent = point.name;
     circle.addEventListener("click", () => choose(point, circle));
     circle.addEventListener("keydown", (event) => {
@@ -85,7 +89,16 @@
         choose(point, circle);
       }
     });
+  };
+  [...data.points].reverse().forEach((point) => {
+    const circle = made("circle", { cx: point.at[0], cy: point.at[1], fill: point.colour, tabindex: 0, role: "button", "aria-label": point.name }, layer);
+    place(point, circle);
     circles.push(circle);
+  });
+  data.squares.forEach((point) => {
+    const square = made("rect", { fill: point.colour, tabindex: 0, role: "button", "aria-label": point.name }, layer);
+    place(point, square);
+    squares.push([square, point.at]);
   });
   if (data.epicentre) {
     const corners = Array.from({ length: 10 }, (_, i) => {

@@ -1,0 +1,87 @@
+"""Surveyed cemeteries between stations: estimates, neighbours, residuals, and pairs that cannot both be right."""
+
+from __future__ import annotations
+
+import pytest
+
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.errors import BodyError
+from seisblock.records.site import great_circle_km
+from seisblock.studies.inverse.estimate import estimate_shaking
+from seisblock.studies.inverse.survey import counted_survey
+from seisblock.studies.stations.survey import StationAnswer, Stations
+from seisblock.studies.stations.surveys import SurveyedPlace, contradictions, judge_surveys, read_surveys
+
+AOYAMA = read_cemetery("aoyama.csv")
+
+
+def station(code, north, east, intensity):
+    """Return a station that measured an intensity."""
+    return StationAnswer(f"{code}.NS", code, latitude=north, longitude=east, pga_m_s2=1.0, jma_intensity=intensity)
+
+
+NEAREST = (("A", 35.0, 139.0, 6.0), ("B", 35.1, 139.0, 5.0), ("C", 35.0, 139.2, 4.0), ("D", 36.0, 139.0, 1.0))
+AROUND = Stations((*(station(*each) for each in NEAREST), StationAnswer("e.csv", pga_m_s2=9.0, jma_intensity=7.0)), None)
+"""Four stations, and one that is nowhere."""
+
+
+def test_a_survey_stands_beside_the_nearest_three_stations():
+    """The estimate is that of `infer`; the stations' intensities are weighted by the inverse of their distance."""
+    (answer,) = judge_surveys([SurveyedPlace("temple", 35.02, 139.0, 100, 35)], AROUND, AOYAMA)
+    assert answer.estimate == estimate_shaking(counted_survey(AOYAMA, 35, 100))
+    assert [each.station for each in answer.neighbours] == ["A", "B", "C"]
+    far = [great_circle_km((35.02, 139.0), place) for place in ((35.0, 139.0), (35.1, 139.0), (35.0, 139.2))]
+    assert [each.distance_km for each in answer.neighbours] == pytest.approx(far)
+    weights = [1 / distance for distance in far]
+    expected = (6.0 * weights[0] + 5.0 * weights[1] + 4.0 * weights[2]) / sum(weights)
+    assert answer.expected_intensity == pytest.approx(expected)
+    assert answer.residual == pytest.approx(answer.estimate.jma_intensity - expected)
+
+
+def test_where_no_stone_fell_there_is_a_bound_and_no_residual():
+    """So it is without any station with an intensity."""
+    (none,) = judge_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 0)], AROUND, AOYAMA)
+    assert none.residual is None and none.expected_intensity is not None
+    (alone,) = judge_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 20)], Stations((), None), AOYAMA)
+    assert (alone.neighbours, alone.expected_intensity, alone.residual) == ((), None, None)
+
+
+def test_pairs_that_contradict_each_other_are_named():
+    """A place and a station, and two places, within ten kilometres; not further apart, nor where intervals nearly meet."""
+    told = (("fell", 35.0, 139.01, 99), ("stands", 35.01, 139.0, 1), ("far", 35.5, 139.0, 99))
+    places = [SurveyedPlace(name, north, east, 100, fallen) for name, north, east, fallen in told]
+    answers = judge_surveys(places, Stations((station("A", 35.0, 139.0, 6.7),), None), AOYAMA)
+    (low, _), (_, high) = (answer.estimate.jma_intensity_interval for answer in answers[:2])
+    assert 6.7 > low > high
+    told = contradictions(answers)
+    assert [text.split(",")[0] for text in told] == ["stands and station A", "fell and stands"]
+    agreeing = judge_surveys(places[:1], Stations((station("A", 35.0, 139.0, float(low)),), None), AOYAMA)
+    assert contradictions(agreeing) == []
+
+
+def test_lists_in_either_language(tmp_path):
+    """Names of columns, their order, other columns and Shift-JIS are as people write them."""
+    path = tmp_path / "調査.csv"
+    path.write_bytes("場所,転倒,墓石,緯度,経度,備考\n光明寺,60,80,37.30,138.90,x\n\n".encode("cp932"))
+    assert read_surveys(path) == (SurveyedPlace("光明寺", 37.30, 138.90, 80, 60),)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("place,latitude,longitude,stones\nA,35,139,10\n", "it lacks .*fallen"),
+        ("place,latitude,longitude,stones,fallen\n", "names no place"),
+        ("place,latitude,longitude,stones,fallen\nA,35,139,10,x\n", "line 2: expected degrees and whole numbers"),
+        ("place,latitude,longitude,stones,fallen\nA,95,139,10,1\n", "line 2: A lies at 95.0, 139.0, which is not on the Earth"),
+        ("place,latitude,longitude,stones,fallen\nA,35,139,10,11\n", "line 2: 11 of 10 stones cannot have fallen"),
+        ("place,latitude,longitude,stones,fallen\nA,nan,139,10,1\n", "not on the Earth"),
+    ],
+)
+def test_lists_that_cannot_be(text, says, tmp_path):
+    """A column, a row, a number or a place that is missing or impossible is named with its line."""
+    path = tmp_path / "surveys.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(BodyError, match=says):
+        read_surveys(path)
+    with pytest.raises(BodyError, match="cannot be read"):
+        read_surveys(tmp_path / "gone.csv")
