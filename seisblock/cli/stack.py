@@ -14,13 +14,17 @@ from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
-from seisblock.cli.types import Count
-from seisblock.words import noted, said
+from seisblock.cli.types import Touching
+from seisblock.words import said
 
 if TYPE_CHECKING:
     from seisblock.bodies.pile.pile import Pile
 
 DEFAULT_PILE = "wagata"
+
+RIGID, SPRINGS = "rigid", "springs"
+EDGES, GRID = 2, 5
+"""Points along each side of a joint: on its edges, and as in Furukawa2009."""
 
 COARSEST = 29
 """Of the heights of the study one is left."""
@@ -31,7 +35,7 @@ COARSEST = 29
     examples=(
         "seisblock stack --stones wagata.toml --reinforced",
         "seisblock stack record.csv --stones lantern.toml --plot stack.png --animate stack.gif",
-        "seisblock stack --criterion --grid 4 --points 2 --resume study.jsonl --plot criterion.png",
+        "seisblock stack --criterion --grid 4 --contact edges --resume study.jsonl --plot criterion.png",
     ),
 )
 @record_options
@@ -57,12 +61,25 @@ COARSEST = 29
     help="Let a stone move with the ground; may be repeated.",
 )
 @option("--mu", type=float, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
+@option("--mu-kinetic", type=float, help="Friction of every joint that slides, 1; at most --mu; --law rigid. [default: as --mu]")
 @option(
-    "--points",
-    type=Count(noted("points along each side of a joint"), "SEISBLOCK_PILE_POINTS", least=2),
-    default=5,
-    show_default=True,
-    help="Contact points along each side of a joint: 2 stand at its corners, 3 and more at segment centres.",
+    "--restitution",
+    type=float,
+    help="Velocity with which the edge of a joint leaves over that with which the opposite one strikes, 1; --law rigid. "
+    "[default: what angular momentum gives]",
+)
+@option(
+    "--contact",
+    type=Touching(),
+    metavar="edges|grid=N",
+    help="Where stones touch: on the edges of their bases, or at N x N points of each joint, 1, as Furukawa2009 has 5; these make a stone "
+    "act narrower. [default: edges; --criterion: grid=5]",
+)
+@option(
+    "--law",
+    type=click.Choice([RIGID, SPRINGS]),
+    help="Rigid stones, or springs and dashpots as in Furukawa2009. [default: rigid; springs with --criterion, --young or "
+    "--joint-stiffness]",
 )
 @option("--young", type=float, metavar="PA", help="Young's modulus of the stones, Pa. [default: contact of Furukawa2009 table 2]")
 @option("--joint-stiffness", type=float, metavar="N/M3", help="Stiffness of a joint per area, N/m^3. [default: as --young]")
@@ -79,7 +96,12 @@ COARSEST = 29
     help="Whether the vertical component acts. [default: where the record has one]",
 )
 @option("--across/--no-across", default=True, show_default=True, help="Whether the other horizontal component acts.")
-@option("--step", type=float, metavar="S", help="Time step, s. [default: 0.7 of what the stiffest contact admits]")
+@option(
+    "--step",
+    type=float,
+    metavar="S",
+    help="Time step, s. [default: 1/55 of the swing of the smallest stone; of springs, 0.7 of what the stiffest contact admits]",
+)
 @option(
     "--criterion",
     is_flag=True,
@@ -123,7 +145,12 @@ def stack(
 
     if asked["young"] is not None and asked["joint_stiffness"] is not None:
         raise ParameterError("give --young or --joint-stiffness, not both")
-    contact = PileContact(young=asked.pop("young"), stiffness=asked.pop("joint_stiffness"), damping_ratio=asked.pop("damping"))
+    law, young, stiffness, damping = (asked.pop(name) for name in ("law", "young", "joint_stiffness", "damping"))
+    asked["points"] = asked.pop("contact") or (GRID if criterion else EDGES)
+    springs = law == SPRINGS or (law is None and (criterion or young is not None or stiffness is not None))
+    if not springs and not (young is None and stiffness is None):
+        raise ParameterError("rigid stones have no springs: leave --young and --joint-stiffness out, or choose --law springs")
+    contact = PileContact(young=young, stiffness=stiffness, damping_ratio=damping) if springs else None
     body = _pile(stones, reinforced, mu, without, fix)
     say(
         "pile: {name}, {count} stones, mu {mu:g}{dowels}",
@@ -133,6 +160,8 @@ def stack(
         dowels=said(", dowels in") if body.dowels else "",
     )
     if criterion:
+        if not (asked["mu_kinetic"] is None and asked["restitution"] is None):
+            raise ParameterError("--criterion takes no --mu-kinetic and no --restitution")
         _study(source, output, body, contact, grid, resume, points=asked["points"], gravity=asked["gravity"], reinforced=reinforced)
         return
     if grid != 1 or resume is not None:
@@ -200,6 +229,7 @@ def _study(
     same: dict[str, Any] = {
         "pgas": PGAS[::-1][::grid][::-1],
         "ratios": RATIOS[::grid],
+        "law": RIGID if contact is None else SPRINGS,
         "points": points,
         "contact": contact,
         "gravity": gravity,
@@ -213,7 +243,7 @@ def _study(
             with progress(f"{record.station} {motion.name}".strip()) as advance:
                 scaled[f"{record.station} {motion.name}".strip()] = record_thresholds(body, motion, **same, progress=advance)
     rigid = rigid_levels(study, body, points=points, gravity=gravity)
-    chosen: dict[str, Any] = {"pile": body, "contact": contact, "points": points, "gravity": gravity, "grid": grid}
+    chosen: dict[str, Any] = {"pile": body, "law": same["law"], "contact": contact, "points": points, "gravity": gravity, "grid": grid}
     emit(
         study_document(study, rigid, scaled, records, reinforced=reinforced, **chosen),
         output,

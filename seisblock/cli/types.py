@@ -47,6 +47,21 @@ class Count(click.ParamType):  # type: ignore[type-arg]
         return count
 
 
+class Touching(click.ParamType):  # type: ignore[type-arg]
+    """Where stones touch: on their edges, or at n x n points, as the number of points along each side."""
+
+    name = "contact"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number of points along each side of a joint; 2 for its edges."""
+        if isinstance(value, int) or value == "edges":
+            return 2 if value == "edges" else value
+        name, _, count = str(value).partition("=")
+        if name != "grid":
+            self.fail(tell("{value!r} is neither edges nor grid=N, as in grid=5", value=value), param, ctx)
+        return Count(noted("points along each side of a joint"), "SEISBLOCK_PILE_POINTS", least=3).convert(count, param, ctx)
+
+
 class Length(click.ParamType):  # type: ignore[type-arg]
     """A length: metres, or a number with a unit (``24cm``, ``8sun``)."""
 

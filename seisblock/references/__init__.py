@@ -34,6 +34,7 @@ RESTS_ON: dict[str, tuple[str, ...]] = {
     "landing with friction": ("WangMason1992", "Moreau1988"),
     "uplift": ("Okumura1987",),
     "pile": ("Furukawa2009",),
+    "rigid pile": ("Furukawa2009", "Jean1999", "Moreau1988", "Silcowitz2010"),
     "all modes": ("ShentonJones1991", "Shenton1996", "Housner1963", "WangMason1992", "Moreau1988", "GenotBrogliato1999"),
     "overturning criteria": ("Furukawa2009", "Tsutsui", "Housner1963", "Zhang2001", "Ishiyama1982"),
     "gravestones as fitted": ("Furukawa2009",),
@@ -82,12 +83,12 @@ CITED: dict[str, tuple[str, ...]] = {
     "map": papers("measures", "all modes", "gravestones as fitted", "intensity of a velocity"),
     "body": papers("a scan's arms"),
     "risk": papers("risk"),
-    "fragility": papers("fragility", "all modes", "rocking", "sliding", "pile", "synthetic records"),
+    "fragility": papers("fragility", "all modes", "rocking", "sliding", "rigid pile", "synthetic records"),
     "criteria": papers("overturning criteria", "rocking", "all modes"),
     "spectrum": papers("rocking", "sliding", "all modes"),
     "overturn-rate": papers("gravestones as fitted", "gravestones as blocks"),
     "infer": papers("gravestones as fitted", "gravestones as blocks", "intensity of a velocity", "sliding", "jump"),
-    "stack": papers("pile"),
+    "stack": papers("rigid pile"),
     "fit": papers("rocking", "fit"),
 }
 """What the answers of each command rely on unless options ask for more; one answer's own list stands in its document."""

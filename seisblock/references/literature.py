@@ -82,6 +82,20 @@ LITERATURE = (
         kind="book",
     ),
     Reference(
+        "Jean1999",
+        "Jean, M.",
+        1999,
+        "The non-smooth contact dynamics method",
+        "Computer Methods in Applied Mechanics and Engineering, 177(3-4), 235-257",
+    ),
+    Reference(
+        "Silcowitz2010",
+        "Silcowitz-Hansen, M. and Niebe, S. and Erleben, K.",
+        2010,
+        "A nonsmooth nonlinear conjugate gradient method for interactive contact force problems",
+        "The Visual Computer, 26(6-8), 893-901",
+    ),
+    Reference(
         "Newmark1965",
         "Newmark, N. M.",
         1965,

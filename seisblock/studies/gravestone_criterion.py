@@ -25,7 +25,7 @@ from seisblock.measures import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
 from seisblock.records.motion import Motion
 from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.solvers.stack.solve import solve_stack
+from seisblock.solvers.stack.solve import RIGID, SPRINGS, solve_stack
 from seisblock.studies.runs import in_threads
 from seisblock.typing import FloatArray, Progress
 from seisblock.units import GAL, STANDARD_GRAVITY
@@ -94,6 +94,7 @@ def criterion_study(
     frequencies: Sequence[float] = FREQUENCIES_HZ,
     pgas: Sequence[float] = PGAS,
     ratios: Sequence[float] = RATIOS,
+    law: str = SPRINGS,
     points: int = 5,
     contact: PileContact | None = None,
     gravity: float = STANDARD_GRAVITY,
@@ -112,7 +113,7 @@ def criterion_study(
     body : Pile
         Its last stone is the one whose height changes.
     frequencies, pgas, ratios : sequences of float, Hz, m/s^2, 1
-    points, contact, gravity
+    law, points, contact, gravity
         As for :func:`~seisblock.solvers.stack.solve.solve_stack`.
     duration : float, s
     resume : path
@@ -138,16 +139,16 @@ def criterion_study(
     checks.instance(body, Pile)
     if not (frequencies and pgas and ratios):
         raise ParameterError("the criterion study needs at least one frequency, one amplitude and one height")
-    contact = PileContact() if contact is None else contact
+    contact = PileContact() if contact is None and law == SPRINGS else contact
     cells = [(float(f), float(a)) for f in frequencies for a in pgas]
     ladder = sorted(float(ratio) for ratio in ratios)
-    settings = [asdict(body), ladder, points, asdict(contact), gravity, duration]
+    settings = [asdict(body), ladder, points, RIGID if contact is None else asdict(contact), gravity, duration]
     mark = hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()[:16]
     known = _resumed(resume, mark)
     missing = [cell for cell in cells if cell not in known]
 
     def work(cell: tuple[float, float]) -> Threshold:
-        return _least(body, sine_base(*cell, duration), cell, ladder, points=points, contact=contact, gravity=gravity)
+        return _least(body, sine_base(*cell, duration), cell, ladder, law=law, points=points, contact=contact, gravity=gravity)
 
     for done, threshold in enumerate(in_threads(work, missing, workers=workers), start=1):
         known[threshold.frequency_hz, threshold.pga_m_s2] = threshold
@@ -223,6 +224,7 @@ def record_thresholds(
     *,
     pgas: Sequence[float] = PGAS,
     ratios: Sequence[float] = RATIOS,
+    law: str = SPRINGS,
     points: int = 5,
     contact: PileContact | None = None,
     gravity: float = STANDARD_GRAVITY,
@@ -244,7 +246,7 @@ def record_thresholds(
 
     def work(pga: float) -> Threshold:
         scaled = Motion.from_arrays(motion.horizontal * (pga / peak), motion.dt, name=motion.name)
-        return _least(body, scaled, (frequency, pga), sorted(ratios), points=points, contact=contact, gravity=gravity)
+        return _least(body, scaled, (frequency, pga), sorted(ratios), law=law, points=points, contact=contact, gravity=gravity)
 
     return tuple(in_threads(work, tuple(pgas), progress=progress))
 
@@ -255,13 +257,15 @@ def _least(
     cell: tuple[float, float],
     ladder: Sequence[float],
     *,
+    law: str,
     points: int,
     contact: PileContact | None,
     gravity: float,
 ) -> Threshold:
     """Return the most squat top stone that falls, trying them from below."""
     for ratio in ladder:
-        outcome = solve_stack(with_top(body, ratio), motion, points=points, contact=contact, gravity=gravity, stop_at_fall=True).outcome
+        top = with_top(body, ratio)
+        outcome = solve_stack(top, motion, law=law, points=points, contact=contact, gravity=gravity, stop_at_fall=True).outcome
         if outcome.overturned_any:
             return Threshold(*cell, ratio, outcome.overturned)
     return Threshold(*cell, None)

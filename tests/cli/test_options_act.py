@@ -25,7 +25,7 @@ IN_GAL = {
     "rock": (*SHORT, *BLOCK),
     "jump": SHORT,
     "uplift": (*SHORT, *BLOCK, "--frequency-vertical", "8"),
-    "stack": (*SHORT, "--points", "2"),
+    "stack": SHORT,
     "criteria": (*SHORT, *BLOCK),
     "body": ("boulder.ply", "--inset", "1cm"),
     "overturn-rate": ("--cemetery", "aoyama.csv", "--pga", "300", "--frequency", "1"),

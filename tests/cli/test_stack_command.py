@@ -47,8 +47,8 @@ def test_no_record_means_the_bundled_one():
 def test_the_document_keeps_the_contract(pulse):
     """The JSON names what fell and when, and tells tilt and slip of every stone."""
     document = answer(pulse, "--stones", "wagata.toml")
-    assert document["schema"] == "seisblock/stack/2"
-    assert document["citations"] == ["Furukawa2009"]
+    assert document["schema"] == "seisblock/stack/3"
+    assert document["citations"] == ["Furukawa2009", "Jean1999", "Moreau1988", "Silcowitz2010"]
     (found,) = document["results"]
     assert set(found) >= KEYS
     assert found["overturned"] == ["sao"]
@@ -57,7 +57,7 @@ def test_the_document_keeps_the_contract(pulse):
     assert set(found["max_tilt_rad"]) == set(found["residual_slip_m"]) == {"gedai", "mizubachi", "chudai", "jodai", "sao"}
     assert found["max_tilt_rad"]["sao"] > 1.0
     assert document["parameters"]["mu"] == 0.438
-    assert document["parameters"]["points"] == 5
+    assert document["parameters"]["points"] == 2
 
 
 def test_the_dowel_holds_the_sao(pulse):
@@ -90,7 +90,7 @@ def test_each_component_asked_for_is_a_run():
 
 def test_stones_can_be_left_out_and_fixed(pulse):
     """--without and --fix change the pile."""
-    (found,) = answer(pulse, "--without", "mizubachi", "--fix", "gedai", "--points", "2", "--mu", "0.6")["results"]
+    (found,) = answer(pulse, "--without", "mizubachi", "--fix", "gedai", "--contact", "edges", "--mu", "0.6")["results"]
     assert "mizubachi" not in found["max_tilt_rad"]
     assert found["max_tilt_rad"]["gedai"] == 0.0
 
@@ -126,7 +126,7 @@ def test_own_stones(pulse, tmp_path):
 
 def test_records_beside_the_study(pulse):
     """With RECORD the study also scales it to each amplitude, and says its equivalent frequency (fig. 10)."""
-    (found,) = answer(pulse, "--criterion", "--grid", "14", "--points", "2", "--without", "mizubachi")["results"]
+    (found,) = answer(pulse, "--criterion", "--grid", "14", "--contact", "edges", "--without", "mizubachi")["results"]
     (scaled,) = found["scaled_records"]
     assert len(scaled["thresholds"]) == 1
     assert 0.4 < scaled["thresholds"][0]["frequency_hz"] < 1.2
@@ -135,7 +135,7 @@ def test_records_beside_the_study(pulse):
 def test_thinned_criterion_study(tmp_path):
     """The study prints thresholds beside (9), redraws its figures, and takes up what was finished."""
     held, picture, table = tmp_path / "study.jsonl", tmp_path / "study.png", tmp_path / "study.csv"
-    arguments = ("--criterion", "--grid", "13", "--points", "3", "--resume", held, "--without", "mizubachi")
+    arguments = ("--criterion", "--grid", "13", "--contact", "grid=3", "--resume", held, "--without", "mizubachi")
     document = answer(*arguments, "--csv", table, "--plot", picture)
     (found,) = document["results"]
     lines = held.read_text(encoding="utf-8").splitlines()
@@ -155,7 +155,9 @@ BAD = {
     "no such stone": (("--without", "nose"), "--without names 'nose'"),
     "a stone stands on it": (("--without", "jodai"), "stands on 'jodai'"),
     "fixed unknown": (("--fix", "nose"), "'nose'"),
-    "too coarse": (("--step", "0.01"), "too coarse"),
+    "too coarse": (("--step", "0.01", "--law", "springs"), "too coarse"),
+    "too coarse for rigid stones": (("--step", "0.1"), "will not do"),
+    "rigid springs": (("--law", "rigid", "--young", "1e9"), "no springs"),
     "two stiffnesses": (("--young", "1e9", "--joint-stiffness", "1e9"), "not both"),
     "negative stiffness": (("--young", "-1"), "must be positive"),
     "grid without study": (("--grid", "2"), "go with --criterion"),

@@ -23,7 +23,7 @@ COMMANDS = {
     "respond": ["--block", "stone.toml", "--mu", "0.4", "--runs", "2"],
     "jump": [],
     "uplift": ["--width", "1", "--height", "3", "--frequency-vertical", "8"],
-    "stack": ["--stones", "pile.toml", "--points", "3"],
+    "stack": ["--stones", "pile.toml", "--contact", "grid=3"],
     "criteria": ["--block", "stone.toml"],
     "spectrum": ["--steps", "2"],
     "overturn-rate": ["--cemetery", "aoyama.csv"],

@@ -82,7 +82,7 @@ FITTING: dict[str, Sequence[str]] = {
     "runs": ("2", "5"),
     "perturb": ("2", "5"),
     "steps": ("3", "5"),
-    "points": ("2", "3"),
+    "contact": ("edges", "grid=3"),
     "step": ("1e-4", "1e-3", "1"),
     "seed": ("1", "-1", "99999999999999999999"),
     "paper": ("Tsutsui", "Nobody"),
@@ -103,7 +103,12 @@ FITTING: dict[str, Sequence[str]] = {
 }
 """By the name of the option; others are lengths, shares or whole numbers, by their kind."""
 
-ALWAYS = {"validate": ["--quick"], "respond": ["--runs", "2"], "stack": ["--points", "2", "--grid", "13"], "spectrum": ["--steps", "3"]}
+ALWAYS = {
+    "validate": ["--quick"],
+    "respond": ["--runs", "2"],
+    "stack": ["--contact", "edges", "--grid", "13"],
+    "spectrum": ["--steps", "3"],
+}
 """Words that keep a command short, unless the dice say otherwise later on the line."""
 
 COMMONLY = {

@@ -21,7 +21,7 @@ FIGURES = (
     ("jump", *SHORT, "--component", "EW"),
     ("uplift", *SHORT, *BLOCK, "--frequency-vertical", "8", "--component", "EW"),
     ("uplift", "--harmonic", "--alpha", "1"),
-    ("stack", "synthetic_jma.csv", "--window", "25.5:26.2", "--component", "NS", "--points", "2"),
+    ("stack", "synthetic_jma.csv", "--window", "25.5:26.2", "--component", "NS"),
     ("criteria", *SHORT, "--block", "gravestone", "--component", "NS"),
     ("spectrum", *SHORT, "--component", "NS", "--sizes", "1:3:1", "--height-over-width", "2:4:1"),
     ("spectrum", *SHORT, "--kind", "sliding", "--mu", "0.1:0.3:0.1", "--component", "NS"),

@@ -42,7 +42,7 @@ ASKED = {
     ),
     "points of regions": (["uplift", "--harmonic", "--phi", "0:90:0.1", "--alpha", "1,2"], 3, "1081200 points of curves, and 1000000"),
     "shakings": (["overturn-rate", "--cemetery", "aoyama.csv", "--pga", "1:1e5:1", "--frequency", "1:9:0.1"], 3, "8100000 shakings"),
-    "steps of a pile": (["stack", "--step", "1e-12"], 3, "finer than does any good"),
+    "steps of a pile": (["stack", "--step", "1e-12"], 3, "will not do for the rigid stones"),
     "time to settle": (["respond", "--block", "gravestone", "--settle", "1e9"], 3, "between 0 and 3600 s"),
     "padding of a filter": (["measure", "--highpass", "1e-6"], 3, "samples of padding"),
     "stones of a cemetery": (["overturn-rate", "--cemetery", "huge.csv"], 3, "200000000 gravestones, and 1000000 are allowed"),

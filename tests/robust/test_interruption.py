@@ -26,7 +26,7 @@ WELL_UNDER_WAY = 1.0
 """Processor time, s, that the run itself has had before it is interrupted."""
 
 COMMANDS = {
-    "a pile on 25 x 25 points": ["stack", "--points", "25"],
+    "a pile on 25 x 25 points": ["stack", "--contact", "grid=25", "--law", "springs"],
     "a pile in fine steps": ["stack", "--step", "1e-6"],
     "a criterion study": ["stack", "--criterion"],
     "versions of a stone": ["rock", "--block", "gravestone", "--perturb", "100000"],
@@ -187,7 +187,7 @@ main()
 def test_a_program_that_was_interrupted_is_not_taken_apart_first(tmp_path):
     """Freeing what matplotlib and numba hold took most of the time between Ctrl-C and the prompt."""
     pipe = subprocess.PIPE
-    command = [sys.executable, "-c", FIGURE, "stack", "--points", "25", "--quiet"]
+    command = [sys.executable, "-c", FIGURE, "stack", "--contact", "grid=25", "--law", "springs", "--quiet"]
     with subprocess.Popen(command, cwd=tmp_path, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
         assert process.stdout.readline() == "go\n"
         began = spent(process.pid)

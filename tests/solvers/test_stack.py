@@ -1,4 +1,4 @@
-"""A pile of stones obeys the mechanics that are known without it."""
+"""A pile of stones on springs obeys the mechanics that are known without it."""
 
 import math
 from dataclasses import replace
@@ -14,10 +14,17 @@ from seisblock.bodies.pile.toml import load_pile
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
 from seisblock.solvers.stack.outcome import CREATED_AT_MOST, Track, inverse, rotated, tilt_of, turn_of
-from seisblock.solvers.stack.solve import solve_stack
+from seisblock.solvers.stack.solve import solve_stack as solve_stack_by
 from seisblock.units import STANDARD_GRAVITY as G
 
 WIDTH = 0.24
+
+
+def solve_stack(body, motion, *, law="springs", points=5, **more):
+    """The paper's law, with its 5 x 5 points; rigid stones have a file of their own."""
+    return solve_stack_by(body, motion, law=law, points=points, **more)
+
+
 STIFF = PileContact(stiffness=1e9)
 
 

@@ -16,6 +16,7 @@ from seisblock.present.documents.kind import Document, Kind, Result
 from seisblock.records import Record
 from seisblock.references import papers
 from seisblock.results import Response
+from seisblock.solvers.stack.base import Base, base_of
 from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.studies.agreement import Agreement
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, frequencies_of
@@ -26,24 +27,35 @@ class StackParameters(Struct, frozen=True, kw_only=True):
 
     Parameters
     ----------
+    law : str
+        Of contact: rigid or springs.
     points : int
-        Contact points along each side of a joint.
-    mu : float
-        Friction of the joints.
+        Contact points along each side of a joint; 2: its edges.
+    mu, mu_kinetic : float
+        Friction of the joints, and of what slides on them.
+    restitution : float or None
+        Of the joints, a ratio of velocities; null: what angular momentum gives.
+    base : Base
+        What the contact points make of the top stone's base.
     vertical, across : bool
         Whether the vertical and the other horizontal component act.
     gravity_m_s2, step_s : float
-    contact : PileContactEntry
+    contact : PileContactEntry or None
+        Null where stones are rigid.
     pile : PileEntry
     """
 
+    law: str
     points: int
     mu: float
+    mu_kinetic: float
+    restitution: float | None
+    base: Base
     vertical: bool
     across: bool
     gravity_m_s2: float
     step_s: float
-    contact: PileContactEntry
+    contact: PileContactEntry | None
     pile: PileEntry
 
 
@@ -52,22 +64,26 @@ class StudyParameters(Struct, frozen=True, kw_only=True):
 
     Parameters
     ----------
+    law : str
+        Of contact: rigid or springs.
     points : int
-        Contact points along each side of a joint.
+        Contact points along each side of a joint; 2: its edges.
     gravity_m_s2 : float
     criterion : bool
         True.
     grid : int
         Every so many-th amplitude and height was taken.
-    contact : PileContactEntry
+    contact : PileContactEntry or None
+        Null where stones are rigid.
     pile : PileEntry
     """
 
+    law: str
     points: int
     gravity_m_s2: float
     criterion: bool
     grid: int
-    contact: PileContactEntry
+    contact: PileContactEntry | None
     pile: PileEntry
 
 
@@ -131,10 +147,11 @@ STUDY = Kind("stack", StudyParameters, StudyResult, name="criterion")
 
 
 def document(
-    responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact, agreements: Sequence[Agreement | None]
+    responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact | None, agreements: Sequence[Agreement | None]
 ) -> Document:
-    """Return the document of one run per direction."""
-    options: dict[str, Any] = {**responses[0].options, "contact": pile_contact_entry(contact)}
+    """Return the document of one run per direction; a contact of None is rigid."""
+    options: dict[str, Any] = {**responses[0].options, "base": base_of(responses[0])}
+    options["contact"] = None if contact is None else pile_contact_entry(contact)
     options |= {name: bool(options[name]) for name in ("vertical", "across")}
     return STACK.document(
         StackParameters(**options, pile=pile_entry(pile)),
@@ -152,7 +169,8 @@ def study_document(
     *,
     reinforced: bool,
     pile: Pile,
-    contact: PileContact,
+    law: str,
+    contact: PileContact | None,
     points: int,
     gravity: float,
     grid: int,
@@ -175,6 +193,12 @@ def study_document(
         scaled_records=tuple(ScaledEntry(record=name, thresholds=found) for name, found in scaled.items()),
     )
     parameters = StudyParameters(
-        points=points, gravity_m_s2=gravity, criterion=True, grid=grid, contact=pile_contact_entry(contact), pile=pile_entry(pile)
+        law=law,
+        points=points,
+        gravity_m_s2=gravity,
+        criterion=True,
+        grid=grid,
+        contact=None if contact is None else pile_contact_entry(contact),
+        pile=pile_entry(pile),
     )
-    return STUDY.document(parameters, [(None, result)], records=records, citations=papers("pile"))
+    return STUDY.document(parameters, [(None, result)], records=records, citations=papers("rigid pile" if contact is None else "pile"))

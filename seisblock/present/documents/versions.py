@@ -7,7 +7,7 @@ VERSIONS = {
     "rock": 1,
     "jump": 2,
     "uplift": 1,
-    "stack": 2,
+    "stack": 3,
     "criteria": 1,
     "spectrum": 1,
     "overturn-rate": 2,

@@ -10,10 +10,12 @@ from seisblock.bodies.pile.stone import GROUND
 from seisblock.present.directions import towards
 from seisblock.present.scales import Unit, length_cell, length_unit
 from seisblock.present.text.agreement import agreement_line
-from seisblock.present.text.tables import answered, fixed, line, seconds, table
+from seisblock.present.text.tables import NOTHING, answered, fixed, line, seconds, table
 from seisblock.records import Motion
 from seisblock.results import Response
+from seisblock.solvers.stack.base import base_of
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
+from seisblock.solvers.stack.solve import EDGES, RIGID
 from seisblock.studies.agreement import Agreement
 from seisblock.words import strung, tell
 
@@ -34,12 +36,12 @@ def tables(responses: Stacks, agreements: Sequence[Agreement | None], *, gal: bo
 
 def _details(response: Response[StackOutcome], found: Agreement | None, *, gal: bool) -> Iterator[Any]:
     """Yield the table of one run, its energies, and how far the models of the top stone are apart."""
-    unit = length_unit((stone.residual_slip_m for stone in response.outcome.stones), gal=gal)
+    unit = length_unit((stone.residual_slip_m for stone in response.outcome.stones if stone.state != "fallen"), gal=gal)
     slip = tell("slip ({unit})", unit=unit.name)
     columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), slip, tell("turn (deg)")]
     title = tell("{name}: {what}", name=f"+x = {response.motion.name}", what=tell(response.body.name))
     yield table(title, columns, (_row(stone, unit) for stone in reversed(response.outcome.stones)))
-    yield line(books(response))
+    yield line(standing(response))
     if found is not None:
         top = tell("{stone}, {name}", stone=tell(response.body.names[-1]), name=response.motion.name)
         yield line(agreement_line(top, found))
@@ -47,14 +49,15 @@ def _details(response: Response[StackOutcome], found: Agreement | None, *, gal: 
 
 
 def _row(stone: StoneFate, unit: Unit) -> list[str]:
-    """Return what became of one stone."""
+    """Return what became of one stone; where a fallen one lies is no slip, and which way it faces no turn."""
+    fell = stone.state == "fallen"
     return [
         tell(stone.name),
         tell(stone.state),
         seconds(stone.fell_at_s),
         fixed(math.degrees(stone.max_tilt_rad), 2),
-        length_cell(stone.residual_slip_m, unit),
-        fixed(math.degrees(stone.residual_turn_rad), 2),
+        NOTHING if fell else length_cell(stone.residual_slip_m, unit),
+        NOTHING if fell else fixed(math.degrees(stone.residual_turn_rad), 2),
     ]
 
 
@@ -79,12 +82,18 @@ def verdict(response: Response[StackOutcome]) -> str:
     return tell("Every stone stands where it was.")
 
 
-def books(response: Response[StackOutcome]) -> str:
-    """Return whether the books of energy balance."""
-    outcome = response.outcome
+def standing(response: Response[StackOutcome]) -> str:
+    """Return in words on what the stones stand, and what that makes of the top stone."""
+    found, points = base_of(response), response.options["points"]
+    told = {"stone": tell(found.stone), "kept": found.restitution, "sharp": found.housner_ratio}
+    law = tell("Rigid stones") if response.options["law"] == RIGID else tell("Stones that press on springs")
+    if points == EDGES:
+        return tell("{law} on their edges; an impact leaves {stone}, on firm ground, {kept:.2f} of its angular velocity.", law=law, **told)
     return tell(
-        "The shaking did {work:.0f} J of work, friction and dashpots took {lost:.0f} J; energy created by the steps: {created:.2g} J.",
-        work=outcome.ground_work_j,
-        lost=outcome.lost_j,
-        created=outcome.created_j,
+        "{law} at {points} x {points} points a joint, as in the paper: {stone} turns about lines at {share:.2f} of its half width, as if "
+        "it were so much narrower, and an impact leaves {kept:.2f} of its angular velocity; on its edges {sharp:.2f}.",
+        law=law,
+        points=points,
+        share=found.width_ratio,
+        **told,
     )

@@ -16,9 +16,9 @@ class PileLayout(NamedTuple):
 
     Parameters
     ----------
-    joints, constants, grids : (n, 4), (n, 7), (n, orbits, 4, 3) arrays
+    joints, constants, grids : (n, 4), (n, 10), (n, orbits, 4, 3) arrays
         Joints between boxes: integers, constants, and points on the carrier's face.
-    pairs, pair_constants : (p, 2), (p, 5) arrays
+    pairs, pair_constants : (p, 2), (p, 8) arrays
         Boxes that may meet, and the constants of one of their corners.
     corners, counts, edges : (b, 16, 3), (b,), (b, 12, 2) arrays
         Corners of each box, how many, and the pairs of corners that make its edges.
@@ -48,7 +48,9 @@ class PileMemory(NamedTuple):
     ----------
     stretches : (n, orbits, 4, 2) array, m
         Shear springs at the points of joints.
-    corner_slots, edge_slots : (p, 2, 16, 7), (p, 2, 24, 7) arrays
+    joint_slots : (n, orbits, 4, 17) array
+        Rigid contacts at the points of joints.
+    corner_slots, edge_slots : (p, 2, 16, 14), (p, 2, 24, 17) arrays
         Contacts of corners and of edges of each pair, in both roles.
     handled : (p,) array of int
         Which pairs their joint takes care of.
@@ -58,15 +60,27 @@ class PileMemory(NamedTuple):
         Centres of the boxes and how far they reach.
     work : (13, 18) array
         Scratch.
+    who, table : (k, 6), (k, 60) arrays
+        Rigid contacts of a step: their bodies and the slots they are remembered in, and what they are solved with.
+    inverses, speeds : (m + 1, 9), (m + 1, 6) arrays
+        Inverse inertia of the bodies as they lie, velocities and spins.
+    pace : (7,) array
+        Of the steps.
     """
 
     stretches: FloatArray
+    joint_slots: FloatArray
     corner_slots: FloatArray
     edge_slots: FloatArray
     handled: IntArray
     touched: FloatArray
     bounds: FloatArray
     work: FloatArray
+    who: IntArray
+    table: FloatArray
+    inverses: FloatArray
+    speeds: FloatArray
+    pace: FloatArray
 
 
 class PileSettings(NamedTuple):
@@ -79,6 +93,8 @@ class PileSettings(NamedTuple):
         Sampling interval.
     steps : int
         How many of them are in it.
+    rigid : bool
+        Whether contacts are rigid, or springs.
     stop_at_fall : bool
     moved : float, m and rad
         Movement that makes a row.
@@ -93,6 +109,7 @@ class PileSettings(NamedTuple):
     gravity: float
     dt: float
     steps: int
+    rigid: bool
     stop_at_fall: bool
     moved: float
     longest_gap: int
@@ -150,7 +167,9 @@ LAYOUT = _t.NamedTuple(
     ),
     PileLayout,
 )
-MEMORY = _t.NamedTuple((FOURFOLD, FOURFOLD, FOURFOLD, INTEGERS, MATRIX, MATRIX, MATRIX), PileMemory)
-SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.float64, _t.int64, _t.int64, _t.int64), PileSettings)
+MEMORY = _t.NamedTuple(
+    (FOURFOLD, FOURFOLD, FOURFOLD, FOURFOLD, INTEGERS, MATRIX, MATRIX, MATRIX, INTEGER_TABLE, MATRIX, MATRIX, MATRIX, VECTOR), PileMemory
+)
+SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.boolean, _t.float64, _t.int64, _t.int64, _t.int64), PileSettings)
 CURSOR = _t.NamedTuple((INTEGERS, MATRIX), PileCursor)
 KEPT = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR), PileKept)

@@ -12,8 +12,10 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import Joint
 from seisblock.limits import check_budget
 from seisblock.solvers.stack.arguments import PileLayout, PileMemory
-from seisblock.solvers.stack.contact import SLOT
+from seisblock.solvers.stack.contact import FRICTION, KINETIC, SLOT
 from seisblock.solvers.stack.frames import AT, BODY, BOX, INERT, INERTIA, INVERSE, MASS, Q, R, X
+from seisblock.solvers.stack.impulse import ROW, SPEEDS
+from seisblock.solvers.stack.meet import PACE
 from seisblock.solvers.stack.step import ALL_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH, SIGMA
 from seisblock.typing import FloatArray, IntArray
 from seisblock.words import noted
@@ -21,7 +23,14 @@ from seisblock.words import noted
 GROUND_HALF = 50.0
 """Half size, m, of the box that is the ground."""
 
+PLASTIC = -1.0
+"""The rebound of joints that are given none."""
+
+NO_SPRINGS = (0.0, 0.0, 0.0, 0.0)
 MOST_CORNERS = 16
+MOST_MET = 80
+"""Rigid contacts beyond those of joints for which there is room, a body."""
+
 _SIGNS = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], dtype=np.float64)
 _RINGS = [(i, (i + 1) % 4) for i in range(4)]
 
@@ -43,7 +52,7 @@ class PileArrays:
         Half sizes and places of the boxes, and the bodies they belong to; the ground last.
     joints, constants, grids : arrays
         See ``stack_step``.
-    pairs, pair_constants : (p, 2), (p, 5) arrays
+    pairs, pair_constants : (p, 2), (p, 7) arrays
     corners, counts, edges : arrays
         Corners of each box, how many, and the pairs of corners that make its edges.
     members : tuple of tuples of int
@@ -74,27 +83,39 @@ class PileArrays:
     def memory(self) -> PileMemory:
         """Return empty memory."""
         n, p, bodies = self.joints.shape[0], self.pairs.shape[0], self.bodies.shape[0]
+        most = n * self.points**2 + MOST_MET * bodies
         return PileMemory(
             np.zeros((n, self.grids.shape[1], 4, 2)),
+            np.zeros((n, self.grids.shape[1], 4, SLOT)),
             np.zeros((p, 2, MOST_CORNERS, SLOT)),
             np.zeros((p, 2, 2 * ALL_EDGES, SLOT)),
             np.zeros(p, dtype=np.int64),
             np.zeros((bodies, bodies)),
             np.zeros((self.boxes.shape[0], BOX)),
             np.zeros((SCRATCH, 18)),
+            np.zeros((most, 6), dtype=np.int64),
+            np.zeros((most, ROW)),
+            np.zeros((bodies, 9)),
+            np.zeros((bodies, SPEEDS)),
+            np.zeros(PACE),
         )
 
 
-def pile_arrays(body: Pile, contact: PileContact, points: int) -> PileArrays:
+def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: float = 1.0, rebound: float = PLASTIC) -> PileArrays:
     """Return the arrays of a pile ([Furukawa2009]_ section 3(1)).
 
     Parameters
     ----------
     body : Pile
-    contact : PileContact
+    contact : PileContact or None
+        Of springs; None: rigid.
     points : int
         Contact points along each side of a joint: 2 stand at its corners, and go with the corners of what the faces share as stones
         slide; 3 or more at the centres of so many segments, as 5 do in [Furukawa2009]_, whose pivots so lie at 0.8 of the half width.
+    kinetic : float, 1
+        Kinetic friction over static friction.
+    rebound : float, 1
+        Of the joints, a ratio of velocities; negative: what angular momentum gives.
 
     Raises
     ------
@@ -114,7 +135,7 @@ def pile_arrays(body: Pile, contact: PileContact, points: int) -> PileArrays:
         boxes[i, AT:] = centres[i] - bodies[owner[i], X : X + 3]
     boxes[-1] = (GROUND_HALF, GROUND_HALF, GROUND_HALF, 0.0, 0.0, -GROUND_HALF)
     pairs = np.array([(i, j) for i in range(len(boxes)) for j in range(i + 1, len(boxes)) if owner[i] != owner[j]], dtype=np.int64)
-    integers, constants, grids, worn = _joint_arrays(body, contact, points, joints, boxes, owner, inert, pairs)
+    integers, constants, grids, worn = _joint_arrays(body, contact, points, kinetic, rebound, joints, boxes, owner, inert, pairs)
     corners, counts, edges = _hulls(boxes, worn)
     return PileArrays(
         body,
@@ -127,7 +148,7 @@ def pile_arrays(body: Pile, contact: PileContact, points: int) -> PileArrays:
         constants,
         grids,
         pairs,
-        _pair_constants(body, contact, points, pairs, boxes, owner, inert, integers, constants),
+        _pair_constants(body, contact, points, kinetic, pairs, boxes, owner, inert, integers, constants),
         corners,
         counts,
         edges,
@@ -160,8 +181,10 @@ def _bodies(body: Pile, members: tuple[tuple[int, ...], ...], centres: FloatArra
 
 def _joint_arrays(
     body: Pile,
-    contact: PileContact,
+    contact: PileContact | None,
     points: int,
+    kinetic: float,
+    rebound: float,
     joints: list[Joint],
     boxes: FloatArray,
     owner: IntArray,
@@ -186,9 +209,10 @@ def _joint_arrays(
         sides = (joint.x[1] - joint.x[0], joint.y[1] - joint.y[0])
         above = stone.height if lower == len(boxes) - 1 else stone.height + body.stones[lower].height
         mass = inert[owner[upper], MASS] if owner[upper] < len(inert) else inert[owner[lower], MASS]
-        law = contact.of_joint(float(mass), sides[0] * sides[1], 0.5 * above, points**2)
+        law = NO_SPRINGS if contact is None else contact.of_joint(float(mass), sides[0] * sides[1], 0.5 * above, points**2)
         constants[j, [SIGMA, LEVEL]] = sigma, sigma * boxes[carrier, 2]
-        constants[j, POINT:] = (*law, body.mu if stone.mu is None else stone.mu, float(points == 2))
+        mu = body.mu if stone.mu is None else stone.mu
+        constants[j, POINT:] = (*law, mu, float(points == 2), kinetic * mu, rebound)
         place = np.array(body.centres()[carrier])
         grids[j] = _orbits(points, joint.x, joint.y, place)
         if points > 2:
@@ -213,8 +237,9 @@ def _orbits(points: int, x: tuple[float, float], y: tuple[float, float], place: 
 
 def _pair_constants(
     body: Pile,
-    contact: PileContact,
+    contact: PileContact | None,
     points: int,
+    kinetic: float,
     pairs: IntArray,
     boxes: FloatArray,
     owner: IntArray,
@@ -222,21 +247,23 @@ def _pair_constants(
     joints: IntArray,
     constants: FloatArray,
 ) -> FloatArray:
-    """Return the five constants of one corner of each pair.
+    """Return the constants of one corner of each pair.
 
     Four corners resist turning as much as a whole joint does, whose points stand at a third of their square distance: no stiffer, so
     that the step of the joints serves them too.
     """
-    made = np.zeros((pairs.shape[0], 5))
+    made = np.zeros((pairs.shape[0], JOINT - POINT))
     heights = [stone.height for stone in body.stones]
     for p, (a, b) in enumerate(pairs.tolist()):
         mass = min(inert[owner[i], MASS] for i in (a, b) if owner[i] < len(inert))
         sizes = [(4.0 * boxes[i, 0] * boxes[i, 1], i) for i in (a, b) if i < len(heights)]
         long = 0.5 * sum(heights[i] for _, i in sizes)
-        made[p, :4] = np.array(contact.of_joint(float(mass), min(sizes)[0], long, points**2)) * points**2 / 12.0
-        made[p, 4] = body.mu
+        if contact is not None:
+            made[p, :FRICTION] = np.array(contact.of_joint(float(mass), min(sizes)[0], long, points**2)) * points**2 / 12.0
+        made[p, [FRICTION, KINETIC]] = body.mu, kinetic * body.mu
     for j in range(joints.shape[0]):
-        made[joints[j, PAIR]] = [*constants[j, POINT : POINT + 4] * points**2 / 12.0, constants[j, POINT + 4]]
+        made[joints[j, PAIR]] = constants[j, POINT:]
+        made[joints[j, PAIR], :FRICTION] *= points**2 / 12.0
     return made
 
 

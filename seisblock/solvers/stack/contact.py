@@ -27,21 +27,25 @@ REL_S, REL_D, REL_V, REL_W = 0, 9, 12, 15
 """Where a relative state keeps the carrier's axes (row-major), its centre, its velocity there, and its relative spin."""
 
 RELATIVE = 18
-NORMAL_SPRING, NORMAL_DASHPOT, SHEAR_SPRING, SHEAR_DASHPOT, FRICTION, CLINGS = range(6)
+NORMAL_SPRING, NORMAL_DASHPOT, SHEAR_SPRING, SHEAR_DASHPOT, FRICTION, CLINGS, KINETIC, REBOUND = range(8)
 FORCE, TORQUE, ENERGY, TOUCHING, OUTSIDE = 0, 3, 6, 7, 8
 SUM = 9
 """A sum over contact points: force (3) and torque (3) on the carrier, spring energy, points in touch, points beyond the face."""
 
 STRETCH, BIRTH, ALIVE, FACE, LAST = 0, 3, 4, 5, 6
-SLOT = 7
 """What a wandering contact remembers: stretch of its shear spring (3), depth at birth, whether it lives, the face it is on, last depth."""
+
+PUSH, SLIDES, DEPTH, ENTERED, PLACE, EARLIER = 0, 3, 6, 7, 8, 14
+SLOT = 17
+"""What a rigid one does instead: the last force (3), whether it slid, depth, whether it was solved; place and normal in the partner's
+axes; and the force before (3)."""
 
 ROUNDING = 1e-6
 """How much, m, a depth may change in a step beyond what the velocities explain."""
 
 
 @kernel(_t.boolean(VECTOR, VECTOR, VECTOR), inline=True)
-def _share(rel, own, half):
+def share(rel, own, half):
     """Whether two faces still lie over each other."""
     x, y = abs(rel[0]) * own[0] + abs(rel[1]) * own[1], abs(rel[3]) * own[0] + abs(rel[4]) * own[1]
     return abs(rel[REL_D]) < half[0] + x and abs(rel[REL_D + 1]) < half[1] + y
@@ -85,7 +89,7 @@ def press_joint(n_orbits, rel, points, sigma, own, half, level, k, load, dt, str
     d0, d1, d2 = rel[9], rel[10], rel[11]
     v0, v1, v2 = rel[12], rel[13], rel[14]
     w0, w1, w2 = rel[15], rel[16], rel[17]
-    clings = k[CLINGS] > 0.0 and _share(rel, own, half)
+    clings = k[CLINGS] > 0.0 and share(rel, own, half)
     for o in range(n_orbits):
         for q in range(4):
             f0 = 0.0
@@ -170,10 +174,18 @@ def press_joint(n_orbits, rel, points, sigma, own, half, level, k, load, dt, str
 def touch(rel, y, depth, normal, k, dt, slot, total):
     """Add the force at one wandering contact point ([Furukawa2009]_); return the normal force.
 
-    The point is at `y` in the partner's axes, `depth` inside along `normal`, which points out of the partner.
+    The point is at `y` in the partner's axes, `depth` inside along `normal`, which points out of the partner. Without a spring it is
+    noted and no more: rigid contacts are solved all at once.
     """
     if depth <= 0.0:
         slot[ALIVE] = 0.0
+        return 0.0
+    if k[NORMAL_SPRING] == 0.0:
+        slot[ALIVE] = 1.0
+        slot[DEPTH] = depth
+        for i in range(3):
+            slot[PLACE + i] = y[i]
+            slot[PLACE + 3 + i] = normal[i]
         return 0.0
     if slot[ALIVE] == 0.0:
         slot[ALIVE] = 1.0

@@ -57,6 +57,8 @@ class Course:
     gravity : float, m/s^2
     steps : int
         Of a sampling interval.
+    rigid : bool
+        Whether contacts are rigid, or springs.
     stop_at_fall : bool
     tilts : mapping of str to float, rad
         Stones let go from a lean about y.
@@ -67,6 +69,7 @@ class Course:
     factors: tuple[float, float]
     gravity: float
     steps: int
+    rigid: bool
     stop_at_fall: bool
     tilts: Mapping[str, float]
 
@@ -75,7 +78,7 @@ class Course:
         """How the loop goes."""
         motion, quiet = self.motion, math.ceil(AFTERWARDS / self.motion.dt)
         gap, last = max(1, round(LONGEST_GAP / motion.dt)), motion.samples - 1
-        return PileSettings(self.gravity, motion.dt, self.steps, self.stop_at_fall, MOVED, gap, last, last + quiet)
+        return PileSettings(self.gravity, motion.dt, self.steps, self.rigid, self.stop_at_fall, MOVED, gap, last, last + quiet)
 
     def follow(self, rows: int | None = None, *, progress: Callable[[int, int], None] | None = None) -> End:
         """Follow the pile to the end.
@@ -97,7 +100,8 @@ class Course:
             rows = ENDS if self.motion.is_long else settings.last + 1
         memory = pile.memory()
         cursor = PileCursor(np.zeros(PLACE, dtype=np.int64), pile.bodies.copy())
-        sink(pile, self.gravity, cursor.bodies, memory.stretches)
+        if not self.rigid:
+            sink(pile, self.gravity, cursor.bodies, memory.stretches)
         kept = PileKept(
             fates=_fates(pile, cursor.bodies),
             rows=np.zeros((rows, 1 + 7 * len(pile.members))),

@@ -23,6 +23,9 @@ SAFETY = 0.7
 FINEST = 1e-3
 """Smallest part of it that may be asked for: the error of a step falls with its square, so that less only takes longer."""
 
+RIGID_STEP, RIGID_FINEST, RIGID_COARSEST = 0.018, 1e-5, 0.1
+"""Parts of the time in which a stone swings: the step by default where contacts are rigid, the finest and the coarsest."""
+
 _AXES = np.eye(3)
 
 
@@ -117,6 +120,34 @@ def _mass_matrix(pile: PileArrays) -> FloatArray:
         mass[6 * b : 6 * b + 3, 6 * b : 6 * b + 3] = pile.inert[b, MASS] * _AXES
         mass[6 * b + 3 : 6 * b + 6, 6 * b + 3 : 6 * b + 6] = pile.inert[b, INERTIA:INVERSE].reshape(3, 3)
     return mass
+
+
+def rigid_steps(pile: PileArrays, dt: float, step: float | None, gravity: float) -> int:
+    """Return how many steps a sampling interval takes where contacts are rigid.
+
+    Any step is stable. By default it is a part of the time in which the smallest stone would swing, at which thresholds of
+    toppling stand within 0.5 % of those of much finer steps.
+
+    Raises
+    ------
+    ParameterError
+        If the step asked for is so coarse that a stone would swing in a few of them, or so fine that the answer would never come.
+    """
+    least = float(np.linalg.norm(pile.boxes[:-1, :3], axis=1).min())
+    swing = math.sqrt(least / gravity)
+    if step is not None:
+        checks.positive("the time step", step, "s")
+        if not RIGID_FINEST * swing <= step <= RIGID_COARSEST * swing:
+            raise ParameterError(
+                "a step of {step:g} s will not do for the rigid stones of the pile {name}, the smallest of which swings in {swing:.2g} s: "
+                "leave it out, or give {least:.2g} to {most:.2g} s",
+                step=step,
+                name=pile.body.name,
+                swing=swing,
+                least=RIGID_FINEST * swing,
+                most=RIGID_COARSEST * swing,
+            )
+    return max(1, math.ceil(dt / (RIGID_STEP * swing if step is None else step) * (1.0 - 1e-12)))
 
 
 def sink(pile: PileArrays, gravity: float, bodies: FloatArray, stretches: FloatArray) -> None:

@@ -28,6 +28,8 @@ from seisblock.solvers.stack.arguments import (
     STEPS_LEFT,
 )
 from seisblock.solvers.stack.frames import MASS, F, R, V, W, X
+from seisblock.solvers.stack.meet import BEFORE
+from seisblock.solvers.stack.rigid import hold
 from seisblock.solvers.stack.step import drift, energy_of, kick, press_all
 
 _t = types()
@@ -102,6 +104,15 @@ def _work(n, bodies, inert, a0, a1, a2, dt):
     return work * dt
 
 
+@kernel(_t.float64(_t.int64, MATRIX, MATRIX, _t.float64, _t.float64), inline=True)
+def _rise(n, bodies, inert, gravity, dt):
+    """Return by how much the stones' potential energy will have grown after `dt`, J."""
+    rise = 0.0
+    for i in range(n):
+        rise += inert[i, MASS] * bodies[i, V + 2]
+    return gravity * rise * dt
+
+
 @kernel(_t.void(VECTOR, _t.float64), inline=True)
 def _balance(books, held):
     """Book the energy held now; what is lost may only grow."""
@@ -143,6 +154,46 @@ def _keep_sample(sample, n, last, settings, memory, cursor, kept):
                 memory.touched[i, j] = 0.0
 
 
+@kernel(_t.boolean(READ_ONLY_MATRIX, _t.int64, _t.boolean, _t.float64, SETTINGS, LAYOUT, MEMORY, CURSOR, KEPT))
+def _stride(motion, k, look, total_mass, settings, pile, memory, cursor, kept):
+    """Take one step of rigid contacts, in as many parts as impacts make of it; return whether all is finite.
+
+    Energy is that of the new velocities at the middle of the part: gravity then does there exactly what it does to the velocities.
+    """
+    place, bodies = cursor
+    inert, books, g, s = pile.inert, kept.books, settings.gravity, place[SAMPLE]
+    n = bodies.shape[0] - 1
+    whole = settings.dt / settings.steps
+    left = whole
+    while left > 0.0:
+        part = (k + (whole - left) / whole) / settings.steps
+        a0, a1, a2 = _ground(motion, s - place[BASE], part)
+        step = hold(bodies, a0, a1, a2 + g, whole, left, look and left == whole, pile, memory)
+        kicked = 0.5 * (memory.pace[BEFORE] + step)
+        memory.pace[BEFORE] = step
+        books[IMPULSE] -= kicked * (bodies[n, F] + total_mass * a0)
+        books[IMPULSE + 1] -= kicked * (bodies[n, F + 1] + total_mass * a1)
+        books[IMPULSE + 2] -= kicked * (bodies[n, F + 2] + total_mass * (a2 + g))
+        books[WORK] -= _work(n, bodies, inert, a0, a1, a2, 0.5 * kicked)
+        kick(n, bodies, inert, a0, a1, a2 + g, kicked)
+        books[WORK] -= _work(n, bodies, inert, a0, a1, a2, 0.5 * kicked)
+        if k == 0 and left == whole:
+            held = energy_of(n, bodies, inert, g) + _rise(n, bodies, inert, g, 0.5 * step)
+            if s == 0:
+                books[START] = held
+            _balance(books, held - books[START])
+            if not math.isfinite(held):
+                return False
+            _keep_sample(s, n, s == settings.last, settings, memory, cursor, kept)
+        if s == settings.last:
+            return True
+        drift(n, bodies, inert, step)
+        left = left - step if step < left else 0.0
+        if _watch(n, bodies, (s + part) * settings.dt, kept.fates) and settings.stop_at_fall:
+            place[FELL] = 1
+    return True
+
+
 @kernel(_t.int64(READ_ONLY_MATRIX, SETTINGS, LAYOUT, MEMORY, CURSOR, KEPT))
 def run(motion, settings, pile, memory, cursor, kept):
     """Follow a pile through a motion ([Furukawa2009]_) on from its cursor; return a status.
@@ -176,6 +227,11 @@ def run(motion, settings, pile, memory, cursor, kept):
             place[STEPS_LEFT] -= 1
             k = place[STEP]
             part = k / settings.steps
+            if settings.rigid:
+                if not _stride(motion, k, k % look == 0, total_mass, settings, pile, memory, cursor, kept):
+                    return NOT_FINITE
+                place[STEP] = k + 1
+                continue
             a0, a1, a2 = _ground(motion, given, part)
             springs = press_all(bodies, dt, k % look == 0, pile, memory)
             books[IMPULSE] -= dt * (bodies[n, F] + total_mass * a0)

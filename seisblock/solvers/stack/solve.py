@@ -11,24 +11,34 @@ import numpy as np
 from seisblock import checks
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
-from seisblock.errors import SolverError
+from seisblock.errors import ParameterError, SolverError
 from seisblock.records.given import Factor, check_call, vertical_gain
 from seisblock.records.motion import Motion
 from seisblock.references import papers
 from seisblock.results import Event, Histories, Phase, Response, Status
-from seisblock.solvers.stack.arrays import pile_arrays
+from seisblock.solvers.stack.arrays import PLASTIC, pile_arrays
 from seisblock.solvers.stack.course import Course
 from seisblock.solvers.stack.outcome import End, StackOutcome, channels, stack_outcome
-from seisblock.solvers.stack.rest import steps_per_sample
+from seisblock.solvers.stack.rest import rigid_steps, steps_per_sample
 from seisblock.units import STANDARD_GRAVITY
+from seisblock.words import noted
+
+RIGID, SPRINGS = "rigid", "springs"
+"""Laws of contact."""
+
+EDGES = 2
+"""Points along each side of a joint that stands on its edges."""
 
 
 def solve_stack(
     body: Pile,
     motion: Motion,
     *,
-    points: int = 5,
+    law: str | None = None,
+    points: int = 2,
     contact: PileContact | None = None,
+    mu_kinetic: float | None = None,
+    restitution: float | None = None,
     vertical: Factor | None = None,
     across: Factor = True,
     gravity: float = STANDARD_GRAVITY,
@@ -39,25 +49,33 @@ def solve_stack(
 ) -> Response[StackOutcome]:
     """Follow a pile of stones through a ground motion ([Furukawa2009]_ section 3(1)).
 
-    Every stone is rigid, with quaternions for its turns; stones press on each other through springs, dashpots and Coulomb sliders at n x n
-    points of each joint, and at corners and edges once they have tilted or moved off it. Valid for any tilt and any fall.
+    Every stone is rigid, with quaternions for its turns. Stones meet at points of each joint, and at corners and edges once they have
+    tilted or moved off it; there they are rigid too, with impulses that obey Signorini's condition and Coulomb's cone ([Jean1999]_,
+    [Moreau1988]_), or press on each other through springs, dashpots and sliders ([Furukawa2009]_). Valid for any tilt and any fall.
 
     Parameters
     ----------
     body : Pile
     motion : Motion
         Ground acceleration; +x is its first row.
+    law : str
+        ``rigid`` or ``springs``; default: springs where `contact` is given, else rigid.
     points : int
         Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
     contact : PileContact
-        Default: [Furukawa2009]_ table 2.
+        Of springs; default: [Furukawa2009]_ table 2.
+    mu_kinetic : float, 1
+        Friction of what slides, at most that of what clings; default: the same. Rigid stones only.
+    restitution : float, 1
+        Of the joints: with what part of the velocity of the edge that strikes the opposite edge leaves. Default: what angular momentum
+        about the edge that strikes gives, Housner's ratio for one block. Rigid stones on edges only.
     vertical : bool, float or None
         Whether the vertical ground motion acts, or a factor on it; None: where the record has one.
     across : bool or float
         Whether the motion's transverse row acts, or a factor on it.
     gravity : float, m/s^2
     step : float, s
-        Fixed step; default: 0.7 of the stable step of the stiffest contact.
+        Fixed step; default: 1/55 of the time in which the smallest stone swings; of springs, 0.7 of what the stiffest contact admits.
     stop_at_fall : bool
         Whether to end at the first fall.
     tilts : mapping of str to float, rad
@@ -89,12 +107,14 @@ def solve_stack(
     ()
     """
     check_call(body, Pile, motion)
-    contact = PileContact() if contact is None else checks.instance(contact, PileContact)
     checks.gravity(gravity)
-    pile = pile_arrays(body, contact, points)
-    steps = steps_per_sample(pile, motion.dt, step)
+    rigid = _is_rigid(law, contact)
+    springs = None if rigid else PileContact() if contact is None else checks.instance(contact, PileContact)
+    kinetic, rebound = _impact(body, rigid, points, mu_kinetic, restitution)
+    pile = pile_arrays(body, springs, points, kinetic, rebound)
+    steps = rigid_steps(pile, motion.dt, step, gravity) if rigid else steps_per_sample(pile, motion.dt, step)
     up = vertical_gain(motion, vertical)
-    course = Course(pile, motion, (float(across), up), gravity, steps, stop_at_fall, tilts or {})
+    course = Course(pile, motion, (float(across), up), gravity, steps, rigid, stop_at_fall, tilts or {})
     end = course.follow(progress=progress)
     if end.status == Status.NOT_FINITE:
         raise SolverError(
@@ -110,17 +130,47 @@ def solve_stack(
         phases=_phases(outcome, motion.start_s, motion.start_s + end.time),
         events=_events(outcome),
         options={
+            "law": RIGID if rigid else SPRINGS,
             "points": points,
             "mu": body.mu,
+            "mu_kinetic": kinetic * body.mu,
+            "restitution": restitution,
             "vertical": up,
             "across": float(across),
             "gravity_m_s2": gravity,
             "step_s": motion.dt / steps,
-            "contact": asdict(contact),
+            "contact": None if springs is None else asdict(springs),
         },
         status=end.status,
-        citations=papers("pile"),
+        citations=papers("rigid pile" if rigid else "pile"),
     )
+
+
+def _is_rigid(law: str | None, contact: PileContact | None) -> bool:
+    """Return whether contacts are rigid."""
+    if law not in (None, RIGID, SPRINGS):
+        raise ParameterError("the law of contact must be {rigid!r} or {springs!r}, found {law!r}", rigid=RIGID, springs=SPRINGS, law=law)
+    if law == RIGID and contact is not None:
+        raise ParameterError("rigid stones have no springs: leave `contact` out, or choose the law {springs!r}", springs=SPRINGS)
+    return contact is None if law is None else law == RIGID
+
+
+def _impact(body: Pile, rigid: bool, points: int, mu_kinetic: float | None, restitution: float | None) -> tuple[float, float]:
+    """Return kinetic over static friction, and the rebound of the joints."""
+    if not rigid and not (mu_kinetic is None and restitution is None):
+        raise ParameterError("springs have one friction and their own dashpots: `mu_kinetic` and `restitution` go with rigid stones")
+    if restitution is not None:
+        checks.fraction(noted("the restitution of the joints, a ratio of velocities,"), restitution)
+        if points != EDGES:
+            raise ParameterError(
+                "a restitution is one of stones that stand on their edges: leave out {points} points a side", points=points
+            )
+    if mu_kinetic is not None:
+        checks.not_negative("kinetic friction", mu_kinetic)
+        if not mu_kinetic <= body.mu:
+            raise ParameterError("kinetic friction, {kinetic:g}, is more than static friction, {mu:g}", kinetic=mu_kinetic, mu=body.mu)
+    kinetic = 1.0 if mu_kinetic is None or body.mu == 0.0 else mu_kinetic / body.mu
+    return kinetic, PLASTIC if restitution is None else float(restitution)
 
 
 def _curves(course: Course, end: End) -> Histories:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import INTEGERS, MATRIX, VECTOR
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
-from seisblock.solvers.stack.contact import ALIVE, ENERGY, OUTSIDE, SUM, TOUCHING, press_joint
+from seisblock.solvers.stack.contact import ALIVE, ENERGY, ENTERED, OUTSIDE, SUM, TOUCHING, press_joint
 from seisblock.solvers.stack.frames import AT, MASS, F, L, Q, R, T, V, W, X, act, orient, relative, spin, turn
 from seisblock.solvers.stack.solid import boxes_meet, press_corners, press_edges
 
@@ -19,8 +19,8 @@ CARRIER, PARTNER, ORBITS, PAIR = range(4)
 """A joint's integers: its boxes, the number of its orbits of points, and the pair of boxes it belongs to."""
 
 SIGMA, LEVEL, POINT = 0, 1, 2
-JOINT = 8
-"""A joint's constants: which face of the carrier (-1 lower, +1 upper), z of that face, and the six of one point."""
+JOINT = 10
+"""A joint's constants: which face of the carrier (-1 lower, +1 upper), z of that face, and the eight of one point."""
 
 COSINE = 0.7071067811865476
 """Two stones whose upward axes are within 45 degrees meet at their joint's points; beyond, at corners and edges."""
@@ -41,20 +41,22 @@ SLOW_SPIN = 1e-6
 
 
 @kernel(_t.int64(_t.float64, VECTOR, VECTOR, VECTOR))
-def _seated(sigma, rel, carrier, partner):
+def seated(sigma, rel, carrier, partner):
     """Whether two boxes still face each other with the faces of their joint: 1 or 0."""
     above = -sigma * rel[11]
     return 1 if rel[8] > COSINE and above > partner[2] + APPROACH * carrier[2] else 0
 
 
 @kernel(_t.void(_t.int64, MEMORY))
-def _forget(pair, memory):
+def forget(pair, memory):
     """Let the contacts of a pair die."""
     for role in range(2):
         for i in range(memory.corner_slots.shape[2]):
             memory.corner_slots[pair, role, i, ALIVE] = 0.0
+            memory.corner_slots[pair, role, i, ENTERED] = 0.0
         for i in range(memory.edge_slots.shape[2]):
             memory.edge_slots[pair, role, i, ALIVE] = 0.0
+            memory.edge_slots[pair, role, i, ENTERED] = 0.0
 
 
 @kernel(_t.void(INTEGERS, MATRIX, _t.int64, _t.int64, VECTOR), inline=True)
@@ -105,28 +107,28 @@ def _press_joint(j, bodies, dt, pile, memory):
     c, p, pair = joint[CARRIER], joint[PARTNER], joint[PAIR]
     rel, total, arms, four = work[0], work[1], work[2:4], work[4:8]
     relative(c, p, bodies, boxes, owner, arms, rel)
-    seated = _seated(k[SIGMA], rel, boxes[c], boxes[p])
+    acts = seated(k[SIGMA], rel, boxes[c], boxes[p])
     for i in range(SUM):
         total[i] = 0.0
     grid, stretch = pile.grids[j], memory.stretches[j]
-    press_joint(joint[ORBITS], rel, grid, k[SIGMA], boxes[c], boxes[p], k[LEVEL], k[POINT:], seated, dt, stretch, four, total)
+    press_joint(joint[ORBITS], rel, grid, k[SIGMA], boxes[c], boxes[p], k[LEVEL], k[POINT:], acts, dt, stretch, four, total)
     _mark(owner, memory.touched, c, p, total)
     act(bodies[owner[c]], bodies[owner[p]], arms, total)
     energy = total[ENERGY]
     role = 0 if pile.pairs[pair, 0] == c else 1
-    if seated == 1 and total[OUTSIDE] > 0.0:
+    if acts == 1 and total[OUTSIDE] > 0.0:
         energy += _meet(pair, role, 0, ON_FACE if k[SIGMA] > 0.0 else 0, ON_FACE, 0, bodies, dt, pile, memory)
         energy += _meet(pair, 1 - role, pile.counts[p], 0, 0, 0, bodies, dt, pile, memory)
         handled[pair] = 2
     else:
-        if handled[pair] == 2 and seated == 1:
-            _forget(pair, memory)
-        handled[pair] = seated
+        if handled[pair] == 2 and acts == 1:
+            forget(pair, memory)
+        handled[pair] = acts
     return energy
 
 
 @kernel(_t.void(MATRIX, MATRIX, INTEGERS, MATRIX))
-def _bound(bodies, boxes, owner, bounds):
+def bound(bodies, boxes, owner, bounds):
     """Write the centres of the boxes and how far they reach along the ground's axes."""
     for i in range(boxes.shape[0]):
         b = bodies[owner[i]]
@@ -138,7 +140,7 @@ def _bound(bodies, boxes, owner, bounds):
 
 
 @kernel(_t.boolean(_t.int64, _t.int64, MATRIX), inline=True)
-def _near(i, j, bounds):
+def near(i, j, bounds):
     """Whether the bounds of two boxes overlap."""
     return (
         abs(bounds[i, 2] - bounds[j, 2]) <= bounds[i, 5] + bounds[j, 5]
@@ -158,20 +160,20 @@ def press_all(bodies, dt, look, pile, memory):
     for j in range(pile.joints.shape[0]):
         energy += _press_joint(j, bodies, dt, pile, memory)
     if look:
-        _bound(bodies, pile.boxes, pile.owner, memory.bounds)
+        bound(bodies, pile.boxes, pile.owner, memory.bounds)
     for pair in range(pairs.shape[0]):
         if handled[pair] > 0:
             continue
         i, j = pairs[pair, 0], pairs[pair, 1]
         stored = -1.0
-        if _near(i, j, memory.bounds):
+        if near(i, j, memory.bounds):
             stored = _meet(pair, 0, counts[i], 0, ALL_EDGES, 1, bodies, dt, pile, memory)
         if stored >= 0.0:
             energy += stored + _meet(pair, 1, counts[j], 0, 0, 0, bodies, dt, pile, memory)
             handled[pair] = -1
         elif handled[pair] == -1:
             handled[pair] = 0
-            _forget(pair, memory)
+            forget(pair, memory)
     return energy
 
 

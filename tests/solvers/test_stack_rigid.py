@@ -1,0 +1,190 @@
+"""A pile of rigid stones obeys the mechanics that are known without it."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.bodies.pile.toml import load_pile
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.solvers.respond.solve import solve_respond
+from seisblock.solvers.stack.base import base, base_of
+from seisblock.solvers.stack.solve import solve_stack
+from seisblock.units import STANDARD_GRAVITY as G
+from tests.crosscheck.test_stack_against_housner import housner
+
+WIDTH = 0.2424
+FINE = 5e-4
+
+
+def block(ratio=3.0, **more):
+    return Pile("block", (PileStone("block", WIDTH, WIDTH, ratio * WIDTH),), **more)
+
+
+def still(seconds, dt=0.002):
+    return Motion.from_arrays(np.zeros(round(seconds / dt)), dt)
+
+
+def cycle(pga, hertz, dt=0.01):
+    """Return one cycle of a sine and 1.5 s of rest."""
+    time = np.arange(0.0, 1.0 / hertz + 0.5 * dt, dt)
+    return Motion.from_arrays(np.append(pga * np.sin(2.0 * math.pi * hertz * time), np.zeros(150)), dt)
+
+
+def lean_of(response):
+    return 2.0 * np.arctan2(response["block_qy"], response["block_qw"])
+
+
+def after_one_impact(response, alpha, start):
+    """Return the ratio of angular velocities, from the leans before and after the first impact."""
+    lean = lean_of(response)
+    crossed = int(np.argmax(lean < 0.0))
+    beyond = -lean[crossed : crossed + int(np.argmax(np.diff(lean[crossed:]) > 0.0)) + 1].min()
+    return math.sqrt((math.cos(alpha - beyond) - math.cos(alpha)) / (math.cos(alpha - start) - math.cos(alpha)))
+
+
+@pytest.mark.parametrize("ratio", [3.0, 6.0])
+def test_free_rocking_is_housners(ratio):
+    """Six impacts at the default step: times within 0.5 %, amplitudes within 2 % of the closed form."""
+    alpha = math.atan(1.0 / ratio)
+    times, amplitudes = housner(ratio, WIDTH, 0.6, 6)
+    response = solve_stack(block(ratio, mu=5.0), still(times[-1] + 0.2), tilts={"block": 0.6 * alpha})
+    lean = lean_of(response) / alpha
+    crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:6]
+    part = lean[crossings] / (lean[crossings] - lean[crossings + 1])
+    np.testing.assert_allclose(response.time[crossings] + part * np.diff(response.time)[crossings], times, rtol=5e-3)
+    peaks = [np.abs(lean[a + 1 : b + 1]).max() for a, b in pairwise(crossings)]
+    np.testing.assert_allclose(peaks, amplitudes[1:], rtol=2e-2)
+
+
+def test_the_error_of_rocking_falls_with_the_step():
+    """A quarter of the step leaves less than half of the error of the sixth amplitude."""
+    alpha = math.atan(0.25)
+    times, amplitudes = housner(4.0, WIDTH, 0.6, 4)
+    errors = []
+    for step in (2e-3, 5e-4):
+        lean = lean_of(solve_stack(block(4.0, mu=5.0), still(times[-1] + 0.2), tilts={"block": 0.6 * alpha}, step=step)) / alpha
+        crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:4]
+        errors.append(abs(np.abs(lean[crossings[2] : crossings[3]]).max() / amplitudes[3] - 1.0))
+    assert errors[1] < 0.5 * errors[0] < 0.01
+
+
+@pytest.mark.parametrize("hertz", [1.0, 2.0])
+def test_a_stone_on_its_edges_topples_where_respond_topples(hertz):
+    """Threshold amplitudes under one cycle of a sine agree within 1 %: just below both stand, just above both fall."""
+    plane, pile = Block(WIDTH, 3.0 * WIDTH), block(mu=1.0)
+
+    def falls(pga):
+        return bool(solve_respond(plane, cycle(pga, hertz), mu=1.0).outcome.overturned)
+
+    low, high = 3.0, 6.0
+    while high - low > 1e-3 * low:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if falls(middle) else (middle, high)
+    assert not solve_stack(pile, cycle(0.99 * high, hertz), stop_at_fall=True).outcome.overturned_any
+    assert solve_stack(pile, cycle(1.01 * high, hertz), stop_at_fall=True).outcome.overturned_any
+
+
+@pytest.mark.parametrize("given", [None, 0.7, 0.95])
+def test_an_impact_leaves_what_is_asked_of_it(given):
+    """Without a restitution Housner's ratio is left of the turning; with one, that, whether more or less than Housner's."""
+    alpha = math.atan(0.25)
+    response = solve_stack(block(4.0, mu=5.0), still(1.2), tilts={"block": 0.6 * alpha}, restitution=given, step=FINE)
+    expected = 1.0 - 1.5 * math.sin(alpha) ** 2 if given is None else given
+    assert after_one_impact(response, alpha, 0.6 * alpha) == pytest.approx(expected, abs=0.008)
+    assert base_of(response).restitution == pytest.approx(expected, abs=1e-12)
+    assert response.outcome.created_j < 1e-3 * response.outcome.lost_j
+
+
+@pytest.mark.parametrize(("points", "contact"), [(5, None), (5, PileContact()), (5, PileContact(stiffness=1e9))])
+def test_what_a_grid_makes_of_a_base_is_what_it_does(points, contact):
+    """The stone falls from beyond the lean that the narrower base says, and an impact leaves of it what the answer says."""
+    stone = block(3.0).stones[0]
+    found = base(stone, points, contact, None, G)
+    assert (found.stone, found.width_ratio) == ("block", 0.8)
+    assert found.restitution > found.housner_ratio + 0.05
+    alpha = math.atan(0.8 / 3.0)
+    tall = block(3.0, mu=5.0)
+    seen = solve_stack(tall, still(1.2), points=points, contact=contact, tilts={"block": 0.6 * alpha})
+    assert after_one_impact(seen, alpha, 0.6 * alpha) == pytest.approx(found.restitution, abs=0.02)
+    assert solve_stack(tall, still(3.0), points=points, contact=contact, tilts={"block": 1.04 * alpha}).outcome.overturned_any
+
+
+def test_a_block_on_a_slope_slides_with_kinetic_friction():
+    """Below the angle of static friction it stays; beyond it slides with g (sin - mu_k cos)."""
+    static, kinetic, seconds = 0.4, 0.3, 3.0
+    ramp = np.minimum(np.arange(0.0, seconds, 0.01), 1.0)
+
+    def slope(angle):
+        return Motion.from_arrays(G * np.sin(ramp * angle), 0.01, vertical=G * (np.cos(ramp * angle) - 1.0))
+
+    flat = block(0.5, mu=static)
+    below = solve_stack(flat, slope(math.atan(0.99 * static)), mu_kinetic=kinetic)
+    assert below.outcome.stones[0].residual_slip_m < 1e-5
+    angle = math.atan(1.1 * static)
+    above = solve_stack(flat, slope(angle), mu_kinetic=kinetic)
+    inside = (above.time > 1.2) & (above.time < seconds - 0.1)
+    found = 2.0 * np.polynomial.Polynomial.fit(above.time[inside], above["block_x"][inside], 2).convert().coef[2]
+    assert found == pytest.approx(-G * (math.sin(angle) - kinetic * math.cos(angle)), rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["wagata", "lantern"])
+def test_energy_is_lost_and_momentum_kept_as_stones_fall_on_each_other(name):
+    """Through rocking, sliding, tumbling and coming to rest; the impulse is the momentum; who fell lies flat."""
+    rng = np.random.default_rng(3)
+    shaking = np.cumsum(rng.normal(size=(3, 600)) * np.array([[6.0], [6.0], [3.0]]) * np.hanning(600), axis=1) * 0.2
+    outcome = solve_stack(load_pile(name), Motion(shaking, 0.01)).outcome
+    assert outcome.created_j < 1e-3 * outcome.lost_j
+    assert outcome.momentum_error < 1e-12
+    assert outcome.overturned_any
+
+
+def test_a_pile_at_rest_stays():
+    """Five stones under a shaking that moves none of them stay within a hundredth of a millimetre."""
+    time = np.arange(0.0, 5.0, 0.01)
+    response = solve_stack(load_pile("wagata"), Motion.from_arrays(1.5 * np.sin(12.0 * time), 0.01))
+    assert max(float(np.ptp(response[f"{name}_{axis}"])) for name in response.body.names for axis in "xyz") < 1e-5
+    assert all(stone.state == "standing" for stone in response.outcome.stones)
+
+
+def test_turning_pile_and_shaking_by_a_right_angle_changes_little():
+    """A square pile shaken along y does what it does along x, to what the order of the points leaves."""
+    stones = (PileStone("foot", 0.5, 0.5, 0.2), PileStone("head", WIDTH, WIDTH, 0.7, on="foot"))
+    along = cycle(4.0, 1.5)
+    across = Motion(along.acceleration[[1, 0, 2]], along.dt)
+    one, other = (solve_stack(Pile("two", stones), motion, stop_at_fall=True) for motion in (along, across))
+    assert one.outcome.overturned == other.outcome.overturned
+    assert one.outcome.max_tilt_rad["head"] == pytest.approx(other.outcome.max_tilt_rad["head"], rel=5e-3)
+
+
+def test_where_the_run_pauses_changes_no_bit(monkeypatch):
+    """Slices of a few steps end with the same state and books as one slice."""
+    motion, body = cycle(6.0, 2.0), load_pile("wagata")
+    whole = solve_stack(body, motion)
+    monkeypatch.setattr("seisblock.solvers.stack.course.POINTS_AT_ONCE", 1000)
+    assert solve_stack(body, motion).outcome == whole.outcome
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ({"law": "jelly"}, "'rigid' or 'springs', found 'jelly'"),
+        ({"law": "rigid", "contact": PileContact()}, "rigid stones have no springs"),
+        ({"law": "springs", "restitution": 0.9}, "go with rigid stones"),
+        ({"restitution": 1.5}, "restitution of the joints"),
+        ({"restitution": 0.9, "points": 5}, "stand on their edges"),
+        ({"mu_kinetic": 0.9}, "more than static friction"),
+        ({"step": 0.1}, "will not do for the rigid stones"),
+        ({"step": 1e-9}, "will not do for the rigid stones"),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused(more, said):
+    """Each in one sentence."""
+    with pytest.raises(ParameterError, match=said):
+        solve_stack(block(), cycle(1.0, 1.0), **more)
