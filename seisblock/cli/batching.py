@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from itertools import groupby, tee
 from pathlib import Path
@@ -20,7 +20,7 @@ from seisblock.errors import OutputError, ParameterError, RecordError
 from seisblock.present.documents.batch import document
 from seisblock.present.documents.write import to_json
 from seisblock.present.files import checked_target, read_table, write_table
-from seisblock.present.journal import Journal, Key, journal_path
+from seisblock.present.journal import Journal, Key, alone_with, journal_path
 from seisblock.present.parquet import check_parquet, read_parquet, write_parquet
 from seisblock.present.text import batch as shown
 from seisblock.readers import DEFAULT_SAMPLE
@@ -31,7 +31,7 @@ from seisblock.studies.batch.cluster import connected
 from seisblock.studies.batch.run import each_record, make_plan
 from seisblock.studies.batch.table import REASON, Row, cells_of, columns_of
 from seisblock.studies.batch.tally import Tally
-from seisblock.studies.batch.task import Plan
+from seisblock.studies.batch.task import Plan, rows_of
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -71,18 +71,18 @@ def run(
     _check_files(out)  # once more: now it is known what was read
     tally, columns, reasons = Tally(plan.model), _columns(plan), dict[str, str]()
     if resume and out.exists() and not journal_path(out).exists():
-        for rows in _whole(out, columns, plan, [path for path, _ in keys]):
+        for rows in _whole(out, columns, plan, files, {path for path, _ in keys}):
             tally.counted(rows)
         say("{path} is whole: nothing is left to do; --force makes it anew", path=out)
     else:
         with ExitStack() as stack:
             client = None if cluster is None else stack.enter_context(connected(cluster))
-            journal = _journal(journal_path(out), plan, resume=resume, force=force)
+            journal = stack.enter_context(_journal(journal_path(out), plan, resume=resume))
             reasons = _solve(files, plan, journal, keys, workers=workers, client=client)
-        write = write_parquet if out.suffix.lower() == PARQUET else _write_csv
-        with progress("writing {file}", file=str(out)):
-            write(out, columns, (cells_of(columns, row) for rows in map(journal.rows, keys) for row in tally.counted(rows)))
-        journal.remove()
+            write = write_parquet if out.suffix.lower() == PARQUET else _write_csv
+            with progress("writing {file}", file=str(out)):
+                write(out, columns, (cells_of(columns, row) for rows in map(journal.rows, keys) for row in tally.counted(rows)))
+            journal.remove()
         say("wrote {path}", path=out)
     if as_json:
         answer(to_json(document(tally, plan, str(out), notes)))
@@ -92,15 +92,32 @@ def run(
         raise RecordError("no row of {path} has an answer: its column `failure` says why", path=out)
 
 
-def _whole(out: Path, columns: Mapping[str, type], plan: Plan, paths: Sequence[str]) -> Iterator[list[Row]]:
-    """Yield the rows of a table that is whole, record by record, if it is of the same records, bodies and solver."""
+def _whole(out: Path, columns: Mapping[str, type], plan: Plan, files: Sequence[str], paths: set[str]) -> Iterator[list[Row]]:
+    """Yield the rows of a table that is whole, record by record, if it is of the same records, bodies, solver and options.
+
+    What was done to the records a table does not say: the record under which most happened is followed anew.
+    """
     rows = list((read_parquet if out.suffix.lower() == PARQUET else read_table)(out, columns))
-    bodies = {body.name for body in plan.bodies}
-    same = {row["path"] for row in rows} == set(paths) and {row["body"] for row in rows} - {None} <= bodies
-    if not same or any(row["solver"] != plan.solver for row in rows):
-        raise OutputError("{path} is whole, and of other records, bodies or another solver: --force makes it anew", path=out)
-    for _, some in groupby(rows, key=lambda row: row["path"]):
-        yield list(some)
+    tables: dict[str, list[Row]] = {path: list(some) for path, some in groupby(rows, key=lambda row: row["path"])}
+    same = tables.keys() == paths or (plan.reading.station is not None and tables.keys() <= paths)
+    if same and tables:
+        telling = max(tables, key=lambda path: sum(_eventful(row, plan) for row in tables[path]))
+        recording = next(each for each in recordings(files, plan.reading) if each.path == telling)
+        anew = [cells_of(columns, row) for row in rows_of(recording, plan)]
+        same = _written(anew) == _written([cells_of(columns, row) for row in tables[telling]])
+    if not same:
+        raise OutputError("{path} is whole, and of other records, bodies, options or another solver: --force makes it anew", path=out)
+    yield from tables.values()
+
+
+def _eventful(row: Row, plan: Plan) -> int:
+    """Return how much a row tells: nothing without an answer, more where what is asked about happened."""
+    return 0 if row.get(REASON) else 1 + bool(row[plan.model.happens])
+
+
+def _written(rows: Iterable[Sequence[Any]]) -> list[list[str]]:
+    """Return rows as their cells are written."""
+    return [["" if cell is None else str(cell) for cell in row] for row in rows]
 
 
 def _solve(
@@ -180,17 +197,18 @@ def _check_files(out: Path) -> None:
     checked_target(journal_path(out))
 
 
-def _journal(path: Path, plan: Plan, *, resume: bool, force: bool) -> Journal:
-    """Return the journal of a batch: the one that was interrupted, or a new one."""
+@contextmanager
+def _journal(path: Path, plan: Plan, *, resume: bool) -> Iterator[Journal]:
+    """Give the journal of a batch, which no other run writes meanwhile: the one that was interrupted, or a new one."""
     told = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
     reading = repr([getattr(plan.reading, key) for key in ("format", "units", "dt", "station", "level")])
     purpose = {"seisblock": "batch", "of": hashlib.sha256((told + reading).encode()).hexdigest()}
-    if not (resume and path.exists()):
-        return Journal.begin(path, purpose)
-    journal = Journal.resume(path, purpose)
-    if journal.damaged:
-        warn("{path}: {count} line(s) are damaged: the records they held are followed anew", path=path, count=journal.damaged)
-    return journal
+    interrupted = resume and path.exists()
+    with alone_with(path):
+        journal = Journal.resume(path, purpose) if interrupted else Journal.begin(path, purpose)
+        if journal.damaged:
+            warn("{path}: {count} line(s) are damaged: the records they held are followed anew", path=path, count=journal.damaged)
+        yield journal
 
 
 def _write_csv(path: Path, columns: Mapping[str, type], rows: Iterable[Sequence[Any]]) -> None:

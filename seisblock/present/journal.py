@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.errors import OutputError, reason
+from seisblock.present.leftovers import held
 
 Key = tuple[str, str]
 """Where a record is, and what tells its bytes."""
@@ -19,6 +20,23 @@ Key = tuple[str, str]
 def journal_path(target: Path) -> Path:
     """Return the file in which the rows of a table are kept until it is whole."""
     return target.with_name(target.name + ".journal")
+
+
+@contextlib.contextmanager
+def alone_with(path: Path) -> Iterator[None]:
+    """Keep other runs from a journal, which is made if need be, inside the block.
+
+    Raises
+    ------
+    OutputError
+        If another run writes it, or it cannot be written.
+    """
+    with _told(path):
+        path.touch()
+    with held(path) as alone:
+        if not alone:
+            raise OutputError("{path} is written by another run: let it end, or give the table another name", path=path)
+        yield
 
 
 @dataclass(eq=False)

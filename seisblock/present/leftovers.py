@@ -16,16 +16,23 @@ LEAST_AGE_S = 60.0
 
 
 @contextlib.contextmanager
-def held(path: Path) -> Iterator[None]:
-    """Keep hold of a file inside the block, so that no other run takes it for a leftover; the system lets go when a process dies."""
+def held(path: Path) -> Iterator[bool]:
+    """Keep hold of a file inside the block, so that no other run takes it for a leftover; the system lets go when a process dies.
+
+    False where another run has hold of it.
+    """
+    alone = True
     with contextlib.ExitStack() as stack:
         with contextlib.suppress(ImportError, OSError):  # no such locks on this system, or on this disk
             import fcntl
 
             descriptor = os.open(path, os.O_RDONLY)
             stack.callback(os.close, descriptor)
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        yield
+            try:
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                alone = False
+        yield alone
 
 
 def sweep(folder: Path) -> None:

@@ -6,11 +6,14 @@ import subprocess
 import sys
 import time
 import tracemalloc
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from seisblock.present.journal import Journal, alone_with
+from seisblock.samples import sample_directory
 from seisblock.studies.batch import cluster
 from tests.batch.conftest import document, run, write_record
 
@@ -87,6 +90,47 @@ def test_parquet_is_the_same_table(folder):
     assert kept["overturned"].tolist() == text["overturned"].tolist()
     assert kept["max_rotation_rad"].tolist() == text["max_rotation_rad"].tolist()
     assert run(LINE.replace("t.csv", "t.parquet") + " --resume").exit_code == 0
+
+
+def test_a_table_that_is_whole_is_of_the_same_options(folder):
+    """Going on with it under another factor, body, component or number of bodies is refused; it said that nothing was left to do."""
+    assert run(LINE).exit_code == 0
+    whole = Path("t.csv").read_bytes()
+    text = Path("bodies.csv").read_text(encoding="utf-8")
+    (folder / "wider.csv").write_text(text.replace("slender,20", "slender,21"), encoding="utf-8")
+    (folder / "more.csv").write_text(text + "fourth,30,1.0,0.5,\n", encoding="utf-8")
+    for change in ("--scale 1.01", "--component NS", "--gravity 9.7", "--bodies wider.csv", "--bodies more.csv"):
+        line = LINE if "--bodies" not in change else LINE.replace("--bodies bodies.csv ", "")
+        other = run(f"{line} {change} --resume")
+        assert other.exit_code == 3 and "options" in other.stderr, change
+        assert Path("t.csv").read_bytes() == whole
+
+
+def test_the_table_of_one_station_is_whole_without_the_others(folder):
+    """Stations of a bundle that were not asked for have no rows, and none is missed."""
+    with zipfile.ZipFile(folder / "event.zip", "w") as archive:
+        for station in ("AAA001", "BBB002"):
+            for code in ("NS", "EW", "UD"):
+                data = (sample_directory() / f"synthetic_knet.{code}").read_bytes()
+                archive.writestr(f"{station}1604160125.{code}", data.replace(b"SYN001", station.encode()))
+    line = "batch event.zip --bodies bodies.csv --solver slide --out s.csv"
+    assert run(line + " --station BBB002").exit_code == 0
+    assert run(line + " --station BBB002 --resume").exit_code == 0
+    assert run(line + " --station AAA001 --resume").exit_code == 3
+    assert run(line + " --resume").exit_code == 3
+
+
+def test_two_runs_never_write_one_table(folder):
+    """The second is refused while the first lives, whatever it says; it wrote into the journal of the first, which then lost its rows."""
+    journal = folder / "t.csv.journal"
+    with alone_with(journal):
+        Journal.begin(journal, {"of": "another run"})
+        held = journal.read_bytes()
+        for how in ("--resume", "--force"):
+            answer = run(f"{LINE} {how}")
+            assert answer.exit_code == 3 and "written by another run" in answer.stderr, how
+        assert journal.read_bytes() == held and not Path("t.csv").exists()
+    assert run(LINE + " --force").exit_code == 0
 
 
 def _start(*more):
