@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.lengths import all_but_slow
+
 ONE = (
     "import sys; from seisblock import _jit; _jit.announce = lambda text: print(text, file=sys.stderr)\n"
     "import numpy as np; from seisblock.dynamics.polynomial import evaluate, first_crossing\n"
@@ -110,7 +112,7 @@ def test_a_full_disk_is_no_reason_to_stop(tmp_path):
     assert len(said) == 2 and "compiling afresh" in said[1] and os.strerror(27) in said[1]
 
 
-@pytest.mark.parametrize("where", ["file", "file/below"])
+@pytest.mark.parametrize("where", all_but_slow(["file", "file/below"], {"file/below"}))
 def test_a_folder_that_cannot_be_made_is_no_reason_to_stop(tmp_path, where):
     """A file stands where the folder should be: compiled for this run, and one line says how to name another."""
     (tmp_path / "file").touch()

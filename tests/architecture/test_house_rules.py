@@ -15,6 +15,7 @@ import pytest
 
 import seisblock
 from seisblock.references import REFERENCES
+from tests.trees import tree_of
 
 PACKAGE = Path(seisblock.__file__).parent
 CITATION = re.compile(r"\[(\w+)\]_")
@@ -52,7 +53,7 @@ def sources(*folders):
 
 def public_functions(path):
     """Return the public functions at the top of a file as (name, docstring)."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    tree = tree_of(path)
     nodes = [node for node in tree.body if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")]
     return [(node.name, ast.get_docstring(node) or "") for node in nodes]
 
@@ -60,7 +61,7 @@ def public_functions(path):
 def docstrings(folder):
     """Yield (place, docstring) of every module, class and function of a folder."""
     for path in sources(folder):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in ast.walk(tree_of(path)):
             if isinstance(node, (ast.FunctionDef, ast.ClassDef, ast.Module)) and ast.get_docstring(node):
                 yield f"{path.relative_to(PACKAGE).as_posix()}:{getattr(node, 'name', 'module')}", ast.get_docstring(node)
 
@@ -144,7 +145,7 @@ def test_every_reference_stands_once_and_is_used():
 
 def test_papers_are_named_in_one_table():
     """No answer brings a list of papers of its own: a key alone is written in the table of references only."""
-    trees = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sources() if path.parent.name != "references"}
+    trees = {path: tree_of(path) for path in sources() if path.parent.name != "references"}
     constants = [(path.name, node.value) for path, tree in trees.items() for node in ast.walk(tree) if isinstance(node, ast.Constant)]
     assert [(name, value) for name, value in constants if isinstance(value, str) and value in REFERENCES] == []
 
@@ -207,7 +208,7 @@ def test_no_command_imports_heavy_packages_at_its_top():
     """Files of the command line import large packages inside functions only."""
     found = []
     for path in sources("cli"):
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        for node in tree_of(path).body:
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
             found += [f"{path.name}: {name}" for name in names if name.split(".")[0] in HEAVY]
@@ -252,7 +253,7 @@ def test_one_name_means_one_thing():
     """No two public classes share a name."""
     found = {}
     for path in sources():
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        for node in tree_of(path).body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 found.setdefault(node.name, []).append(path.relative_to(PACKAGE).as_posix())
     assert {name: files for name, files in found.items() if len(files) > 1} == {}
@@ -266,6 +267,6 @@ def test_lower_floors_name_quantities_never_flags():
     found = []
     for path in PACKAGE.rglob("*.py"):
         if path.relative_to(PACKAGE).parts[0] not in {"cli", "present", "validation"}:
-            texts = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Constant)]
+            texts = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.Constant)]
             found += [f"{path.name}: {node.value}" for node in texts if isinstance(node.value, str) and FLAG.search(node.value)]
     assert found == []

@@ -37,6 +37,7 @@ def test_the_same_table(client, records):
     assert list(together.cells()) == list(alone.cells())
 
 
+@pytest.mark.slow
 def test_records_that_were_read_already(client, records):
     """They travel as they are."""
     read = [seisblock.read(name) for name in records[:3]]

@@ -80,6 +80,7 @@ def test_study_of_ten_thousand_points(benchmark):
     assert seconds < STUDY_S / share(benchmark)
 
 
+@pytest.mark.slow
 def test_faster_than_pyslammer(benchmark):
     """An analysis of a study takes a hundredth of pySLAMMER's rigid analysis of the same record; side by side, one core each."""
     from pyslammer.ground_motion import GroundMotion

@@ -17,6 +17,7 @@ from click.testing import CliRunner
 from seisblock import samples
 from seisblock.cli import COMMANDS, main
 from tests.brief_record import brief_record
+from tests.lengths import all_but_slow
 
 HEAVY = ("numba", "obspy", "scipy", "matplotlib", "PIL", "pandas")
 SEISBLOCK = f"{shlex.quote(sys.executable)} -m seisblock"
@@ -56,7 +57,10 @@ def test_start_costs_little_more_than_python_and_click():
     assert min(ours) < 4.0 * min(least)
 
 
-@pytest.mark.parametrize("line", ["jump --json", "validate --paper Housner1963", "measure --json", "samples", "cite --bibtex"])
+@pytest.mark.parametrize(
+    "line",
+    all_but_slow(["jump --json", "validate --paper Housner1963", "measure --json", "samples", "cite --bibtex"], {"jump --json", "samples"}),
+)
 def test_a_reader_that_goes_away_is_no_event(line, tmp_path):
     """`| head -1` leaves stderr without a word about pipes and a traceback least of all."""
     done = shell(f"{SEISBLOCK} {line} --quiet | head -1" if "cite" not in line else f"{SEISBLOCK} {line} | head -1", tmp_path)
@@ -189,7 +193,7 @@ def examples(name):
     return [line for line in lines if line]
 
 
-SECONDS = ("fit", "measure", "report", "spectrum", "stack", "uplift", "validate")
+SECONDS = ("fit", "measure", "report", "rock", "spectrum", "stack", "uplift", "validate")
 """Commands some of whose examples take seconds."""
 
 

@@ -194,6 +194,7 @@ def test_one_card_per_body_says_what_governs(pages):
     assert re.search(r"<td>Sliding</td><td class=\"text\">EW</td><td class=\"text\">slides up to \d+\.\d\xa0cm</td><td>0\.\d\d</td>", page)
 
 
+@pytest.mark.slow
 def test_a_body_of_unknown_friction_is_said_to_hold(tmp_path):
     """Sizes alone: the card says which friction it takes, and that it was not given."""
     page = tmp_path / "report.html"
@@ -212,6 +213,7 @@ def test_what_the_user_must_mend_is_one_sentence(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_record_of_one_component_is_enough(tmp_path):
     """No vertical, no intensity: the page says what there is."""
     page = tmp_path / "report.html"

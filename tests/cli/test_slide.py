@@ -13,6 +13,7 @@ import seisblock
 from seisblock.bodies.sliding_base import sliding_base
 from seisblock.cli import main
 from seisblock.readers import read
+from tests.lengths import all_but_slow
 
 KEYS = {"component", "slips", "slip_start_s", "max_slip_m", "residual_slip_m", "slip_count", "fell_off_slope"}
 
@@ -120,7 +121,9 @@ def test_slopes_too_steep_are_left_out_of_a_study_and_counted():
     assert "1 combinations were left out" in result.stderr
 
 
-@pytest.mark.parametrize("extra", [(), ("--slope", "0:20:2", "--kappa", "0.5"), ("--slope", "5", "--slope-length", "1m", "--vertical")])
+@pytest.mark.parametrize(
+    "extra", all_but_slow([(), ("--slope", "0:20:2", "--kappa", "0.5"), ("--slope", "5", "--slope-length", "1m", "--vertical")], {()})
+)
 def test_every_figure_can_be_drawn(tmp_path, extra):
     """Histories, the plane of fig. 16 and the slope with a foot each make a file."""
     target = tmp_path / "figure.svg"

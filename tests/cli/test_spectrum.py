@@ -14,6 +14,7 @@ from seisblock.records import Motion
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.rocking import verdicts
 from seisblock.studies.rocking.spectra import rocking_spectrum
+from tests.lengths import all_but_slow
 
 GRID = ("--component", "NS", "--scale", 0.6, "--sizes", "30cm,1,3", "--height-over-width", "2,4")
 
@@ -53,7 +54,7 @@ def test_frequency_parameter_and_alpha_say_the_same(run):
     np.testing.assert_allclose(ours["max_rotation_ratio"], theirs["max_rotation_ratio"], rtol=1e-6)
 
 
-@pytest.mark.parametrize("kind", ["rocking", "overturning"])
+@pytest.mark.parametrize("kind", all_but_slow(["rocking", "overturning"], {"overturning"}))
 def test_table_file_and_figure(run, tmp_path, kind):
     """The table is thinned, the file holds every block, the figure is drawn."""
     answer = run("--scale", 0.6, "--steps", 14, "--kind", kind, "--csv", "s.csv", "--plot", "s.png")

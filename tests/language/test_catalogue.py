@@ -8,6 +8,7 @@ import pytest
 
 from seisblock.words import LANGUAGES, percent, said, tell
 from tests.catalogue import CHECKS, PACKAGE, PLURALS, catalogue, everything_said, key_of, sayings, texts_in
+from tests.trees import tree_of
 
 TYPED = "10%"
 """What one types, where a blank would make two words of it."""
@@ -42,7 +43,7 @@ def test_a_percentage_has_one_form(every_text, held):
     """Templates and translations have a blank before the sign, or leave it to the format; no f-string writes its own."""
     told = [*every_text, *(str(message.string) for message in held.values())]
     assert not [text for text in told if re.search(r"[\d}][%％]", text.replace(TYPED, "").replace("%}", "}"))]
-    specs = (node for path in SOURCES for node in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(node, ast.FormattedValue))
+    specs = (node for path in SOURCES for node in ast.walk(tree_of(path)) if isinstance(node, ast.FormattedValue))
     assert not [
         ast.unparse(node) for node in specs if node.format_spec is not None and ast.unparse(node.format_spec).rstrip("'\"").endswith("%")
     ]
@@ -74,7 +75,7 @@ def test_a_translation_takes_the_same_values(held):
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_a_text_is_a_template_with_its_values(path):
     """No sentence is made by the language it is written in: what is said is a literal, and each of its fields has a value."""
-    for call, argument in sayings(ast.parse(path.read_text(encoding="utf-8"))):
+    for call, argument in sayings(tree_of(path)):
         where = f"{path.relative_to(PACKAGE)}, line {call.lineno}"
         assert not is_glued(argument), f"{where}: {ast.unparse(argument)} cannot be translated"
         function = getattr(call.func, "attr", getattr(call.func, "id", ""))

@@ -11,6 +11,7 @@ from seisblock.cli import main
 from tests.catalogue import catalogue, key_of
 from tests.language.english import english_in
 from tests.language.test_commands import BLOCK, SHORT
+from tests.lengths import all_but_slow
 
 FIGURES = (
     ("measure", *SHORT),
@@ -52,7 +53,7 @@ def translated():
     return {key_of(message) for message in catalogue("ja") if message.id and message.string != message.id}
 
 
-@pytest.mark.parametrize("line", FIGURES, ids=" ".join)
+@pytest.mark.parametrize("line", all_but_slow(FIGURES, {line for line in FIGURES if line[0] not in {"measure", "stack"}}), ids=" ".join)
 def test_a_figure_is_in_japanese(line, drawn, translated, tmp_path):
     """Titles, axes, legends and notes; no piece of a text is one that the catalogue has a Japanese word for."""
     answer = CliRunner().invoke(main, ["--lang", "ja", *line, "--plot", str(tmp_path / "figure.svg"), "--quiet"])

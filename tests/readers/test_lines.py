@@ -91,6 +91,7 @@ def test_no_line_is_looked_for_one_by_one(tmp_path, monkeypatch):
     assert len(made) < 20 * 11
 
 
+@pytest.mark.slow
 def test_a_file_of_jma_in_pieces_is_the_same_record(monkeypatch):
     """Samples, header and doubts."""
     whole = read(sample_path("synthetic_jma.csv"))

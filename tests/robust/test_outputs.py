@@ -225,6 +225,7 @@ def test_stdout_that_takes_nothing(command, end, tmp_path):
         assert done.returncode == 0
 
 
+@pytest.mark.slow
 def test_stdout_in_latin_1(tmp_path):
     """R16: a terminal that cannot write Greek shows a sign in its place."""
     environment = {**os.environ, "PYTHONIOENCODING": "latin-1"}

@@ -26,6 +26,7 @@ from seisblock.studies.inverse.survey import (
     marked_survey,
     parse_rate,
 )
+from tests.lengths import all_but_slow
 
 AOYAMA = read_cemetery("aoyama.csv")
 SHARP = Assumptions(stone_error=0.02, bias=0.0, frequency_error=0.0)
@@ -68,7 +69,7 @@ def held_of_200(form: str, seed: int) -> float:
     return held / 200
 
 
-@pytest.mark.parametrize("form", ["stone by stone", "counted"])
+@pytest.mark.parametrize("form", all_but_slow(["stone by stone", "counted"], {"stone by stone"}))
 def test_the_interval_holds_the_truth_as_often_as_it_claims(form):
     """Of 200 simulated surveys the 90 % interval holds the truth in 85 to 95 %; where none or all fell the bound counts."""
     assert 0.85 <= held_of_200(form, 20001006) <= 0.95
@@ -149,7 +150,7 @@ def test_stones_that_are_not_marked_are_left_out():
     assert (other.fallen, other.standing) == (3, 1)
 
 
-@pytest.mark.parametrize("limits", [fitted_limits, rigid_limits])
+@pytest.mark.parametrize("limits", all_but_slow([fitted_limits, rigid_limits], {fitted_limits}))
 def test_the_likelihood_is_the_integral_over_the_common_error(limits):
     """The convolution agrees with adaptive quadrature, at whatever frequency it was asked for before."""
     from scipy.integrate import quad
