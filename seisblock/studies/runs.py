@@ -6,6 +6,7 @@ import itertools
 import os
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
 from threading import Event
 from typing import TypeVar
 
@@ -59,9 +60,14 @@ def in_threads(
         with heeding(events):
             return work(item)
 
+    def told(item: Item) -> Answer:
+        """Do one run in the language, and whatever else holds, where the answers are asked for: threads begin with nothing of it."""
+        return context.copy().run(run, item)
+
+    context = copy_context()
     try:
         while chunk := list(itertools.islice(remaining, CHUNK)):
-            yield from pool.map(run, chunk)
+            yield from pool.map(told, chunk)
             finished += len(chunk)
             if progress is not None and isinstance(items, Sequence):
                 progress(finished, len(items))
