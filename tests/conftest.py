@@ -43,7 +43,12 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    """Leave what is marked slow out of a run of the whole suite: ``-m slow`` runs it by itself, and a file that is named runs whole."""
+    """Leave what is marked slow out of a run of the whole suite: ``-m slow`` runs it by itself, and a file that is named runs whole.
+
+    How tests are shared out among workers is said where there are workers alone: benchmarks are not measured beside it.
+    """
+    if config.option.numprocesses is None:
+        config.option.dist = "no"
     if config.args_source is pytest.Config.ArgsSource.TESTPATHS and not config.option.markexpr:
         config.option.markexpr = "not slow"
 

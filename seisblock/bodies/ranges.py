@@ -10,7 +10,7 @@ from seisblock import checks
 from seisblock.bodies.toml import lengths, refuse_unknown, source_of, subtable
 from seisblock.errors import BodyError
 from seisblock.typing import FloatArray
-from seisblock.words import Said, noted, said
+from seisblock.words import Said, noted, roughly, said
 
 Range = tuple[float, float]
 """Least and largest."""
@@ -62,22 +62,46 @@ class Ranges:
     @property
     def says(self) -> Said:
         """What is known, in words."""
-        parts = [
-            said(text, low=told[0], high=told[1])
-            for told, text in (
-                (self.width_m, noted("width {low:.4g} to {high:.4g} m")),
-                (self.height_m, noted("height {low:.4g} to {high:.4g} m")),
-                (self.inset_m, noted("edges {low:.4g} to {high:.4g} m in")),
-                (self.mu, noted("mu {low:g} to {high:g}")),
-            )
-            if told is not None
-        ]
-        return said("{parts}", parts=parts)
+        return said("{parts}", parts=[part for part in (*self._sizes, self.edges, self.friction) if part is not None])
+
+    @property
+    def _sizes(self) -> tuple[Said | None, Said | None]:
+        """What is known of width and height, in words."""
+        return _told(self.width_m, noted("width {low:.4g} to {high:.4g} m")), _told(
+            self.height_m, noted("height {low:.4g} to {high:.4g} m")
+        )
+
+    @property
+    def edges(self) -> Said | None:
+        """What is known of the worn edges, in words."""
+        return _told(self.inset_m, noted("edges {low:.4g} to {high:.4g} m in"))
+
+    @property
+    def friction(self) -> Said | None:
+        """What is known of the friction, in words."""
+        return _told(self.mu, noted("mu {low:g} to {high:g}"))
+
+    def sizes(self, share: float) -> Said:
+        """Return how far width and height differ, in words: within their ranges, or by a share where they have none.
+
+        Examples
+        --------
+        >>> print(Ranges(width_m=(0.6, 0.75)).sizes(0.05))
+        width 0.6 to 0.75 m, height ±5 %
+        """
+        width, height = self._sizes
+        wide, tall = (said(text, share=roughly(share)) for text in (noted("width ±{share}"), noted("height ±{share}")))
+        return said("{parts}", parts=[width or wide, height or tall])
 
     def without(self, *names: str) -> Ranges | None:
         """Return the ranges but for some, which are known; None where none is left."""
         left = replace(self, **dict.fromkeys(names))
         return left if left != Ranges() else None
+
+
+def _told(known: Range | None, text: str) -> Said | None:
+    """Return a range in words, None where there is none."""
+    return None if known is None else said(text, low=known[0], high=known[1])
 
 
 def within(known: Range, draws: FloatArray) -> FloatArray:

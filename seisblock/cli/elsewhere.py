@@ -18,8 +18,21 @@ DEPTH = "DEPTH"
 
 def respond_line(source: Source, *words: str) -> str:
     """Return the command line of `respond` for what was asked of the record, with some more words."""
-    given = {"--scale": source.scale, "--target-pga": source.target_pga, "--highpass": source.highpass, "--station": source.station}
+    given = {
+        "--scale": source.scale,
+        "--target-pga": source.target_pga,
+        "--highpass": source.highpass,
+        "--floor": source.floor and source.floor.written,
+        "--format": source.format,
+        "--units": source.units,
+        "--dt": source.dt,
+        "--station": source.station,
+        "--level": source.level,
+    }
     options = [word for name, value in given.items() if value is not None for word in (name, str(value))]
+    options += [word for window in source.window for word in ("--window", ":".join("" if end is None else f"{end:g}" for end in window))]
+    options += [] if source.demean is None else ["--demean" if source.demean else "--no-demean"]
+    options += ["--strict"] * source.strict
     return shlex.join(
         ["seisblock", "respond", *source.record, *(w for c in source.component for w in ("--component", c)), *options, *words]
     )

@@ -10,7 +10,7 @@ import click
 from seisblock.cli import offered
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, gravity_option, output_options, suite_record_options
 from seisblock.cli.output import Output
 from seisblock.cli.types import FLOATS, Count
 from seisblock.words import noted
@@ -27,7 +27,7 @@ METHODS = ("stripes", "ida", "cloud")
         "seisblock fragility --suite synthetic:M6.5:R15:20 --suite-out records --block gravestone --solver rock --im pgv",
     ),
 )
-@record_options
+@suite_record_options
 @option(
     "--suite",
     metavar="synthetic:M7:R20:40",

@@ -146,7 +146,8 @@ def map(  # noqa: A001 - the command's name
         if surveys:
             yield from shown.survey_tables(surveys)
 
-    emit(document(found, subject, surveys), output, tables=tables, csv=table, figure=figure)
+    told = document(found, subject, surveys, upstairs=source.floor is not None)
+    emit(told, output, tables=tables, csv=table, figure=figure)
 
 
 def _subject(

@@ -72,6 +72,7 @@ def _record(told: str) -> Callable[[Function], Function]:
 
 _RECORD = _record(noted("Files, or names of bundled samples; - is stdin. [default: synthetic_jma.csv, bundled]"))
 _REAL_RECORD = _record(noted("Files, or names of bundled samples; - is stdin. [default: hanmer_springs_2016, bundled]"))
+_SUITE_RECORD = _record(noted("Files, or names of bundled samples; - is stdin. [default: those of --suite]"))
 _RECORD_OPTIONS = (
     option(
         "--component",
@@ -199,6 +200,11 @@ def record_options(function: Function) -> Function:
 def real_record_options(function: Function) -> Function:
     """Give a command the same, where a recording stands for none."""
     return _collected(function, (_REAL_RECORD, *_RECORD_OPTIONS), Source, "source")
+
+
+def suite_record_options(function: Function) -> Function:
+    """Give a command the same, where a suite stands for none."""
+    return _collected(function, (_SUITE_RECORD, *_RECORD_OPTIONS), Source, "source")
 
 
 def preparing_options(function: Function) -> Function:

@@ -14,7 +14,7 @@ from seisblock.limits import check_budget
 from seisblock.records.oscillator import oscillator_path
 from seisblock.records.record import Component, Record
 from seisblock.typing import FloatArray
-from seisblock.words import noted, said
+from seisblock.words import Said, noted, said
 
 DAMPING = 0.05
 """Of a building, a ratio to critical, unless another is given."""
@@ -83,6 +83,11 @@ class Storey:
     def share(self) -> float:
         """How much of the oscillator's motion relative to the ground the storey has (the class's Notes, [Chopra2012]_ section)."""
         return 1.0 if self.height is None else PARTICIPATION * self.height
+
+    @property
+    def written(self) -> str:
+        """As :func:`parse_storey` reads it: ``T=0.6,zeta=0.05``."""
+        return f"T={self.period_s:g},zeta={self.damping:g}" + ("" if self.height is None else f",height={self.height:g}")
 
     @property
     def omega(self) -> float:
@@ -204,18 +209,34 @@ def _swing(ground: FloatArray, dt: float, storey: Storey) -> int:
     return math.ceil(math.log(left / (DIED * max(largest, left))) / (decay * dt))
 
 
+DID = noted(
+    "floor motion T {period:g} s, damping {damping:g}{height} (absolute acceleration of a linear oscillator from rest{model}; {kept})"
+)
+"""What is said of a record that is the motion of a storey."""
+
+
+def was_upstairs(record: Record) -> bool:
+    """Return whether a record is the motion of a storey, not of the ground.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> record = read("synthetic_jma.csv")
+    >>> was_upstairs(record), was_upstairs(on_storey(record, Storey(0.6)))
+    (False, True)
+    """
+    return any(isinstance(did, Said) and did.template == DID for did in record.history)
+
+
 def _did(storey: Storey, parts: int, after: float) -> str:
     """Return the line of the history."""
-    text = (
-        "floor motion T {period:g} s, damping {damping:g}{height} (absolute acceleration of a linear oscillator from rest{model}; {kept})"
-    )
     if parts > 1:
         kept = said("vertical as it was; {count} samples for each, and {after:.4g} s more of free swing", count=parts, after=after)
     else:
         kept = said("vertical as it was; {after:.4g} s more of free swing", after=after)
     high = storey.height is not None
     return said(
-        text,
+        DID,
         period=storey.period_s,
         damping=storey.damping,
         height=said(", height {height:g}", height=storey.height) if high else "",

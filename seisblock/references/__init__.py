@@ -25,6 +25,7 @@ SOFTWARE = Reference(
 RESTS_ON: dict[str, tuple[str, ...]] = {
     "measures": ("Furukawa2009", "JMA1996", "JMA2016", "Arias1970", "TrifunacBrady1975", "Parzen1961"),
     "response spectrum": ("NigamJennings1969",),
+    "storey": ("NigamJennings1969", "Chopra2012"),
     "sliding": ("Fujino1978",),
     "one-way sliding": ("Newmark1965",),
     "rocking": ("Housner1963", "Zhang2001", "Ishiyama1982"),

@@ -1,6 +1,9 @@
 """What the documents for developers say is so: versions agree, floors are the contract's, files that they name exist."""
 
+import os
 import re
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -39,6 +42,22 @@ def test_the_floors_are_the_contract():
     assert drawn == layers[: len(drawn)]
     ground = next(line for line in text.splitlines() if line.startswith("| ground floor"))
     assert set(re.findall(r"`(\w+)`", ground.split("|")[2])) == set().union(*layers[len(drawn) :])
+
+
+def test_benchmarks_can_be_measured_alone():
+    """As CONTRIBUTING says it, without workers: pytest-benchmark refuses where tests are shared out."""
+    words = re.search(r"python -m (pytest tests/benchmarks \S+)", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"))[1].split()
+    words[1] = "tests/benchmarks/test_film_speed.py"
+    env = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST_")}
+    found = subprocess.run(
+        [sys.executable, "-m", *words, "--collect-only", "-p", "no:cacheprovider"],
+        cwd=ROOT,
+        env=env,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert found.returncode == 0, found.stdout + found.stderr
 
 
 def test_what_the_suite_leaves_out_is_run():

@@ -81,11 +81,21 @@ def test_what_is_given_is_known():
 
 
 def test_the_terminal_says_where_versions_come_from():
-    """`rock`, `respond` and `fragility` alike."""
+    """`rock` and `respond`: each number once, its range or the usual share, never both; of one stone and of a pile."""
     record = ("synthetic_jma.csv", "--window", "25:28", "--component", "NS", "--block", "refrigerator")
     for words in (("rock", *record, "--perturb", "3"), ("respond", *record, "--runs", "3")):
         said = " ".join(CliRunner().invoke(main, [*words, "--quiet"]).stdout.split())
-        assert "the body's own ranges: width 0.6 to 0.75 m, height 1.6 to 1.9 m, edges 0.02 to 0.06 m in" in said
+        assert "width 0.6 to 0.75 m, height 1.6 to 1.9 m, edges 0.02 to 0.06 m in, " in said and "±5 %, edges" not in said
+    for words, told in (
+        (("rock", *record[:-1], "bookcase", "--perturb", "3"), "varied: width ±5 %, height 0.7366 to 2.064 m, edges worn by 0 to 10 % of"),
+        (
+            ("respond", *record[:-1], "bookcase", "--runs", "3"),
+            "alone: width ±5 %, height 0.7366 to 2.064 m, edges worn by 0 to 10 % of the",
+        ),
+        (("respond", *record[:-1], "statue", "--runs", "3"), "width 0.4 to 0.6 m, height 1.4 to 2.2 m, edges worn by 0 to 10 % of the"),
+    ):
+        said = " ".join(CliRunner().invoke(main, [*words, "--quiet"]).stdout.split())
+        assert told in said and said.count("friction ±") == 0
 
 
 def test_wider_ranges_scatter_more():

@@ -127,7 +127,7 @@ def test_a_margin_leads_with_the_first_fall_and_shows_a_share(run):
     assert "falls from 1.23 times this record on (first found, looked at every 0.002 up to 3)" in shown
     assert shown.index("falls from 1.23") < shown.index("falls were found at factors") < shown.index("versions of body and shaking")
     assert "is the 95 % interval of this model's own scatter, no more" in shown
-    assert "varied: size by 5 %" in shown
+    assert "varied: size ±5 %" in shown
 
 
 def test_no_share_below_three_hundredths_is_a_chance(run):

@@ -15,6 +15,7 @@ from seisblock.errors import ParameterError
 from seisblock.measures import response_spectrum
 from seisblock.records import Component, Preparation, Record, motion_of, process
 from seisblock.records.storey import DIED, Storey, on_storey, parse_storey
+from seisblock.references import papers
 
 RNG = np.random.default_rng(7)
 SHAKING = Record(
@@ -185,3 +186,34 @@ def test_the_command_line_tells_of_the_floor():
     assert told["record"]["history"][-1].startswith("floor motion T 0.6 s, damping 0.03, height 0.8 (absolute acceleration")
     assert told["results"][0]["pga_m_s2"] == np.abs(floor.horizontals[0].acceleration).max()
     assert "floor motion T 0.6 s" in found.stderr
+    assert set(papers("storey")) <= set(told["citations"])
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("respond", "elcentro_1940_ns.csv", "--block", "gravestone"),
+        (
+            "fragility",
+            "elcentro_1940_ns.csv",
+            "synthetic_jma.csv",
+            "--block",
+            "gravestone",
+            "--solver",
+            "rock",
+            "--steps",
+            "8",
+            "--bootstrap",
+            "2",
+        ),
+        ("batch", "elcentro_1940_ns.csv", "--bodies", "gravestone", "--solver", "rock", "--out", "out.csv"),
+    ],
+    ids=lambda words: words[0],
+)
+def test_answers_on_a_storey_rest_on_its_papers(words, tmp_path, monkeypatch):
+    """Whether the records stand in the document or not; on the ground they do not."""
+    monkeypatch.chdir(tmp_path)
+    for more, there in (((), False), (("--floor", "T=0.6"), True)):
+        cited = json.loads(CliRunner().invoke(main, [*words, "--json", "--quiet", *more]).stdout)["citations"]
+        assert ("Chopra2012" in cited) is there
+        (tmp_path / "out.csv").unlink(missing_ok=True)

@@ -219,6 +219,35 @@ class TestRuns:
         slid = [solve_slide(0.2, each).outcome for each in scaled]
         assert ends["slide"].slip_m == pytest.approx([max(each.max_slip_m, abs(each.final_slip_m)) for each in slid], abs=1e-12)
 
+    def test_versions_lean_as_each_does_alone(self, records):
+        """A lean is over the slenderness of the version that leans, worn and resized as it is, not of the body in the middle."""
+        motion, factors, draws = motion_of(records[1], "EW"), np.array([0.5, 1.0, 1.6]), version_draws(5, 4)
+        size, second, rough, bouncy, _, wear, _ = draws.T
+        larger, rocking = 1.0 + 0.05 * size, [0.9 * (1.0 + 0.05 * each) for each in rough]
+        blocks = {
+            "rock": [
+                Block(0.3 * a * (1.0 + 0.05 * b), 1.2 * a, inset=0.1 * c * 0.3 * a * (1.0 + 0.05 * b))
+                for a, b, c in zip(larger, second, wear, strict=True)
+            ],
+            "respond": [Block(0.3 * a, 1.2 * a, inset=(0.05 + 0.05 * b) * 0.3 * a) for a, b in zip(larger, second, strict=True)],
+        }
+        for solver, options in (("rock", {"restitution": 0.9}), ("respond", {"mu": 0.5})):
+            (placed,) = bodies_of([SHELF], solver, options)
+            ends = FOLLOWERS[solver](placed, motion, factors, draws)
+            alone = [
+                solve_rock(block, each, restitution=rocking[v]).outcome
+                if solver == "rock"
+                else solve_respond(
+                    block, each, mu=0.5 * (1.0 + 0.2 * rough[v]), restitution=0.05 * (1.0 + bouncy[v]), sensitivity=False
+                ).outcome
+                for each in (Motion(motion.acceleration * factor, motion.dt) for factor in factors)
+                for v, block in enumerate(blocks[solver])
+            ]
+            stood = ~ends.overturned
+            assert ends.overturned.tolist() == [each.overturned for each in alone]
+            assert stood.sum() >= 5 and (ends.lean[stood] > 0.1).any()
+            assert ends.lean[stood] == pytest.approx([each.max_rotation_ratio for each in alone if not each.overturned], rel=1e-6, abs=1e-9)
+
     def test_a_pile_is_followed_too(self):
         """A stone that falls at some factor is what the pile's own solver says."""
         (placed,) = bodies_of("lantern", "stack", {"points": 2})

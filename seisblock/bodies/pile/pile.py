@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.pile.checks import check_pile
 from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, overlap, span
+from seisblock.bodies.ranges import Ranges
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,8 @@ class Pile:
         Stones that move with the ground.
     mu : float, 1
         Friction of the joints that have none of their own; 0.438 is that of [Furukawa2009]_ table 2.
+    ranges : Ranges or None
+        Of its kind, as one block; a pile itself has no versions.
 
     Raises
     ------
@@ -37,6 +40,7 @@ class Pile:
     dowels: tuple[tuple[str, ...], ...] = ()
     fixed: tuple[str, ...] = ()
     mu: float = 0.438
+    ranges: Ranges | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         check_pile(self)
@@ -119,6 +123,7 @@ class Pile:
             centroid_offset=x - 0.5 * (low + high),
             centroid_inertia=inertia,
             name=self.name,
+            ranges=self.ranges,
         )
 
     def dowelled(self, *names: str) -> Pile:

@@ -9,12 +9,13 @@ from typing import Any
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import GRANITE, GROUND, PileStone
+from seisblock.bodies.ranges import ranges_of
 from seisblock.bodies.toml import length, lengths, number, of_kind, read_table, refuse_unknown, source_of, text, text_groups, texts
 from seisblock.errors import BodyError
 from seisblock.limits import check_budget
 from seisblock.words import noted, said
 
-_PILE_KEYS = {"name", "kind", "mu", "density", "reinforced", "fixed", "stone", "note"}
+_PILE_KEYS = {"name", "kind", "mu", "density", "reinforced", "fixed", "stone", "note", "ranges"}
 _STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "bottom"}
 
 
@@ -26,7 +27,8 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     name : str or Path
         ``kind = "pile"``, and one ``[[stone]]`` table per stone, from below upwards: ``name``, ``width``, ``depth``, ``height``
         (numbers in m or texts such as ``"8sun"``); optional ``offset`` (two lengths), ``on``, ``density``, ``mu``, ``bottom``.
-        On top: ``name``, ``mu``, ``density``, ``fixed`` (list of names), ``reinforced`` (list of lists of names that dowels hold).
+        On top: ``name``, ``mu``, ``density``, ``fixed`` (list of names), ``reinforced`` (list of lists of names that dowels hold);
+        ``[ranges]`` of its kind, as of a block.
     reinforced : bool
         Whether the dowels of the file are in place.
     mu : float or None, 1
@@ -61,7 +63,9 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
         raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or leave `reinforced` out", source=source)
     own = number(table, "mu")
     friction = mu if mu is not None else Pile.mu if own is None else own
-    return Pile(text(table, "name", Path(source).stem), tuple(stones), dowels if reinforced else (), texts(table, "fixed"), friction)
+    pile = Pile(text(table, "name", Path(source).stem), tuple(stones), dowels if reinforced else (), texts(table, "fixed"), friction)
+    whole = pile.as_block()
+    return replace(pile, ranges=ranges_of(table, {"width": whole.width, "height": whole.height, "inset": whole.inset, "mu": own}))
 
 
 def _stone(entry: Mapping[str, Any], below: str, table: Mapping[str, Any]) -> PileStone:

@@ -70,6 +70,7 @@ def document(tally: Tally, plan: Plan, table: str, notes: Sequence[str]) -> Docu
         found,
         citations=CITED[plan.solver],
         warnings=notes,
+        upstairs=plan.preparation.floor is not None,
         records_count=tally.records,
         unread_count=tally.unread,
     )

@@ -139,7 +139,14 @@ def document(
     )
     found = ((None, entry_of(FRAGILITY_RESULT, curve)) for curve in study.curves)
     citations = papers("fragility", RESTS_ON[study.solver], *(["synthetic records"] if asked.get("suite") else []))
-    return FRAGILITY.document(parameters, found, records=study.records, citations=citations, warnings=[*notes, *study.notes])
+    return FRAGILITY.document(
+        parameters,
+        found,
+        records=study.records,
+        citations=citations,
+        warnings=[*notes, *study.notes],
+        upstairs=study.floor is not None,
+    )
 
 
 def _body(placed: Placed) -> FragilityBody:

@@ -16,6 +16,8 @@ from seisblock.present.documents.versions import schema_name
 from seisblock.records import Doubt, Record
 from seisblock.records.doubtful import sentences
 from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, site_of, told_time
+from seisblock.records.storey import was_upstairs
+from seisblock.references import papers
 
 
 class Document(Struct, frozen=True, kw_only=True, tag_field="schema", tag="seisblock"):
@@ -227,6 +229,7 @@ class Kind:
         records: Sequence[Record] = (),
         citations: Sequence[str] = (),
         warnings: Iterable[str] = (),
+        upstairs: bool = False,
         **beside: Any,
     ) -> Document:
         """Return the document of some results; with several records each result says which it is of.
@@ -241,6 +244,8 @@ class Kind:
             Those that no single result is of.
         citations, warnings : sequences of str
             Each is said once.
+        upstairs : bool
+            Whether the motions are those of a storey, where no record here says so.
         beside
             The further keys.
         """
@@ -254,6 +259,6 @@ class Kind:
             parameters=parameters,
             results=[msgspec.structs.replace(entry, record_index=index[id(r)]) if id(r) in index else entry for r, entry in pairs],
             warnings=list(dict.fromkeys([*sentences(records), *warnings])),
-            citations=list(dict.fromkeys(citations)),
+            citations=list(dict.fromkeys([*citations, *(papers("storey") if upstairs or any(map(was_upstairs, records)) else ())])),
             **beside,
         )

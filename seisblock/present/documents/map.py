@@ -148,7 +148,9 @@ FAILED = noted("{station}: {failure}")
 DOUBTED = noted("{count} record(s) are doubtful; {station}: {doubt}")
 
 
-def document(found: Stations, subject: WhatStands | None, surveys: Sequence[SurveyAnswer] = ()) -> Document:
+def document(
+    found: Stations, subject: WhatStands | None, surveys: Sequence[SurveyAnswer] = (), *, upstairs: bool = False
+) -> Document:
     """Return the document of an earthquake's stations, the worst first.
 
     Parameters
@@ -156,6 +158,8 @@ def document(found: Stations, subject: WhatStands | None, surveys: Sequence[Surv
     found : Stations
     subject : StandingBody, StandingStones or None
     surveys : sequence of SurveyAnswer
+    upstairs : bool
+        Whether they stand on a storey.
     """
     body = isinstance(subject, StandingBody)
     parameters = MapParameters(
@@ -172,6 +176,7 @@ def document(found: Stations, subject: WhatStands | None, surveys: Sequence[Surv
             dict.fromkeys((*papers("measures"), *(subject.citations if subject else ()), *(_BEHIND_SURVEYS if surveys else ())))
         ),
         warnings=warnings(found),
+        upstairs=upstairs,
         earthquake=None if found.earthquake is None else entry_of_earthquake(found.earthquake),
         surveys=tuple(map(survey_entry, surveys)),
         contradictions=tuple(contradictions(surveys)),

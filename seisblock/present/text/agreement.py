@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from seisblock.bodies.ranges import Ranges
 from seisblock.studies.agreement import GRAVESTONES, Agreement, Opinion
 from seisblock.studies.cemetery.models import RateOpinion
 from seisblock.studies.rocking.perturb import Perturbation
-from seisblock.words import noted, strung, tell
+from seisblock.words import noted, roughly, said, strung, tell
 
 LEAST, MOST = 0.03, 0.98
 """Shares of perturbed runs beyond which no share is a chance: of fitted real rocks 3 % fell where no version did, and 2 % stood where
@@ -116,17 +117,14 @@ def chance_lines(found: Perturbation) -> tuple[str, str]:
         text = noted(
             "falls in {fallen} of {runs} versions of body and shaking: {share}; {low} to {high} is the 95 % interval of {of}, no more."
         )
-    s = found.spread
+    s, known = found.spread, found.ranges or Ranges()
+    drawn = said("size ±{size}, slenderness ±{slenderness}", size=roughly(s.size), slenderness=roughly(s.slenderness))
     varied = tell(
-        "varied: size by {size:.0%}, slenderness {slenderness:.0%}, restitution {restitution:.0%}, amplitude {amplitude:.0%}, azimuth "
-        "{azimuth:g} deg, edges worn by up to {inset:.0%} of the width.",
-        size=s.size,
-        slenderness=s.slenderness,
-        restitution=s.restitution,
-        amplitude=s.amplitude,
+        "varied: {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g} deg.",
+        sizes=drawn if found.ranges is None else known.sizes(s.size),
+        edges=known.edges or said("edges worn by 0 to {share} of the width", share=roughly(s.inset)),
+        restitution=roughly(s.restitution),
+        amplitude=roughly(s.amplitude),
         azimuth=s.azimuth_deg,
-        inset=s.inset,
     )
-    if found.ranges is not None:
-        varied = strung([varied, tell("Instead of shares, the body's own ranges: {ranges}.", ranges=found.ranges.says)])
     return tell(text, **values, low=chance(low), high=chance(high)), varied

@@ -8,6 +8,7 @@ from typing import Any
 
 from rich.text import Text
 
+from seisblock.bodies.ranges import Ranges
 from seisblock.present.directions import moved, side
 from seisblock.present.scales import Unit, acceleration_unit, length_cell, length_unit, told_length
 from seisblock.present.text.onset import ROCKS, SLIDES, onset
@@ -16,7 +17,7 @@ from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.studies.standing.azimuths import AzimuthFate
 from seisblock.studies.standing.probability import Probability
-from seisblock.words import listed, noted, roughly, tell
+from seisblock.words import listed, noted, roughly, said, tell
 
 Responds = Sequence[Response[RespondOutcome]]
 
@@ -174,21 +175,20 @@ def falls_to(azimuth: float, towards: str | None) -> str:
 
 def varied(found: Probability) -> str:
     """Return what was varied, and what the share is worth."""
-    by = found.versions
-    told = tell(
-        "of this model's scatter alone: size ±{size}, edges worn by 0 to {inset} of the width, friction ±{mu}, restitution up to "
-        "+{restitution:g}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees; on shaking tables 3 % of two granite rocks fell where "
-        "none of 20 versions did, and 2 % stood where all fell",
-        size=roughly(by.size),
-        inset=roughly(by.inset),
-        mu=roughly(by.mu),
+    by, known = found.versions, found.ranges or Ranges()
+    sizes = said("size ±{share}", share=roughly(by.size)) if found.ranges is None else known.sizes(by.size)
+    worn = said("edges worn by 0 to {share} of the width", share=roughly(by.inset))
+    return tell(
+        "of this model's scatter alone: {sizes}, {edges}, {friction}, restitution up to +{restitution:g}, amplitude ±{amplitude}, "
+        "direction ±{azimuth:g} degrees; on shaking tables 3 % of two granite rocks fell where none of 20 versions did, and 2 % stood "
+        "where all fell",
+        sizes=sizes,
+        edges=known.edges or worn,
+        friction=known.friction or said("friction ±{share}", share=roughly(by.mu)),
         restitution=by.restitution,
         amplitude=roughly(by.amplitude),
         azimuth=by.azimuth_deg,
     )
-    if found.ranges is None:
-        return told
-    return tell("{told}; instead of shares, the body's own ranges: {ranges}", told=told, ranges=found.ranges.says)
 
 
 def _table(responses: Responds, *, gal: bool) -> Any:
