@@ -129,6 +129,8 @@ WRONG = {
     "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.02\n": "cannot be more frequent than weaker, as it is in this hazard curve from 0.2 to 0.6",
     "pgv_m_s,annual_rate\n0.2,0.01\n0.6,0.01\n": "does not fall at its end",
     "pgv_m_s,annual_rate\n0.2,0.01\n0.2,0.001\n": "0.2 is there twice",
+    "pga_g,annual_rate\n0.1,0.01\n0.2,0.02\n": "in this hazard curve from 0.1 to 0.2",
+    "pga_gal,annual_rate\n100,0.01\n100,0.001\n": "100 is there twice",
     "pgv,annual_rate\n0.2,0.01\n0.6,0.001\n": "'pgv' has no unit",
     "pgv_furlong,annual_rate\n0.2,0.01\n0.6,0.001\n": "the unknown unit 'furlong'",
     "pgv_g,annual_rate\n0.2,0.01\n0.6,0.001\n": "the unknown unit 'g'",

@@ -189,7 +189,7 @@ def run_fragility(
     factors = [factors_for(grid, value[0][:, None], measures[0]) for grid, value in zip(grids, values, strict=True)]
     range_ = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
     directions = (said(AROUND, step=STEP_DEG),) if suite.around else ()
-    ranges = ranges_noted(stand) if perturb else []
+    ranges = ranges_noted(stand, solver) if perturb else []
     upstairs = (said("the bodies stand on a storey; the intensities are those of the ground under it"),) if preparation.floor else ()
     notes = (*left_out, *directions, *upstairs, *notes_on(curves, [value[0] for value in values], rules), *ranges)
     return FragilityStudy(curves, measures[0], solver, method, confidence, bands, range_, suite.records, notes, preparation.floor)

@@ -114,7 +114,7 @@ def _hazard(text: str, wanted: IntensityMeasure | None) -> Hazard:
         except InputError as error:
             raise HazardError("line {line}: {text}", line=line, text=error.said) from None
         found.setdefault(row.branch, []).append(row)
-    branches, notes = _branches(found)
+    branches, notes = _branches(found, columns.factor)
     return Hazard(columns.measure.name, columns.measure.unit, branches, (*columns.notes, *notes), columns.factor)
 
 
@@ -190,7 +190,7 @@ def _row(cells: Mapping[str, str], columns: _Columns) -> _Row:
     return _Row(cells.get("branch", ""), level, rate, weight)
 
 
-def _branches(found: Mapping[str, Sequence[_Row]]) -> tuple[tuple[HazardCurve, ...], list[str]]:
+def _branches(found: Mapping[str, Sequence[_Row]], unit: float) -> tuple[tuple[HazardCurve, ...], list[str]]:
     """Return the curves of a table, and what was left out of it."""
     curves, left = [], 0
     for name, rows in found.items():
@@ -203,7 +203,9 @@ def _branches(found: Mapping[str, Sequence[_Row]]) -> tuple[tuple[HazardCurve, .
         if weight is None:
             raise HazardError("the branch {name!r} has no weight: add a column weight, the same in all lines of a branch", name=name)
         try:
-            curves.append(HazardCurve([row.level for row in kept], [row.rate for row in kept], name, weight))
+            rates = [row.rate for row in kept]
+            HazardCurve([row.level / unit for row in kept], rates)  # refused in the numbers of the table, where there is something to refuse
+            curves.append(HazardCurve([row.level for row in kept], rates, name, weight))
         except InputError as error:
             raise (HazardError("the branch {name!r}: {text}", name=name, text=error.said) if name else error) from None
     text = said("{count} levels of the hazard that are never, or surely, exceeded were left out", count=left)
