@@ -148,9 +148,7 @@ FAILED = noted("{station}: {failure}")
 DOUBTED = noted("{count} record(s) are doubtful; {station}: {doubt}")
 
 
-def document(
-    found: Stations, subject: WhatStands | None, surveys: Sequence[SurveyAnswer] = (), *, upstairs: bool = False
-) -> Document:
+def document(found: Stations, subject: WhatStands | None, surveys: Sequence[SurveyAnswer] = (), *, upstairs: bool = False) -> Document:
     """Return the document of an earthquake's stations, the worst first.
 
     Parameters

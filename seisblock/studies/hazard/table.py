@@ -204,7 +204,9 @@ def _branches(found: Mapping[str, Sequence[_Row]], unit: float) -> tuple[tuple[H
             raise HazardError("the branch {name!r} has no weight: add a column weight, the same in all lines of a branch", name=name)
         try:
             rates = [row.rate for row in kept]
-            HazardCurve([row.level / unit for row in kept], rates)  # refused in the numbers of the table, where there is something to refuse
+            HazardCurve(
+                [row.level / unit for row in kept], rates
+            )  # refused in the numbers of the table, where there is something to refuse
             curves.append(HazardCurve([row.level for row in kept], rates, name, weight))
         except InputError as error:
             raise (HazardError("the branch {name!r}: {text}", name=name, text=error.said) if name else error) from None
