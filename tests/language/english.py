@@ -11,6 +11,7 @@ NAMES = (
     r"\b(?:NS|EW|UD|PGA|PGV|PGD|DEM|HZ|gal|kine|Hz|mm|cm|rad|kg|kN|deg|rms|ln|omega_V|pi)\b",  # directions, measures, units
     r"'[^']*'|\{[a-z|]+\}|\[[a-z|-]+\]",  # what was typed, and what may be
     r"\b[\w-]+(?:[./][\w-]+)+\b",  # names of files and of pairs of surfaces
+    r"Hanmer Springs Emergency Centre|\d+ km [a-z-]+ of Waiau|San Francisco, 1295 Shafter",  # places, as bundled records name them
     r"INTEGER RANGE|INTEGER|FLOAT|TEXT|COMMAND|ARGS|OPTIONS",  # kinds of values
 )
 WORD = r"[A-Za-z][a-z]+"

@@ -103,6 +103,8 @@ REFUSALS = (
     ("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", *BLOCK, "--solver", "rock", "--levels", "1,2"),
     ("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", *BLOCK, "--solver", "rock", "--limit", "fall"),
     ("fragility", "synthetic_jma.csv", "elcentro_1940_ns.csv", *BLOCK, "--solver", "rock", "--compare", "1"),
+    ("map", "gone.csv"),
+    ("map", "hanmer_springs_2016", "shafter_1989", *BLOCK),
     ("nosuch",),
     ("measure", "--nosuch"),
     ("measure", "nofile"),
