@@ -17,7 +17,6 @@ from seisblock.bodies.toml import length, mass, number, read_table, refuse_unkno
 from seisblock.bodies.two_layer import contact, two_layer_block
 from seisblock.errors import BodyError
 from seisblock.records import Motion
-from seisblock.words import said
 
 AnyBody = TypeVar("AnyBody")
 
@@ -103,19 +102,6 @@ def _inset(table: Mapping[str, Any]) -> Inset:
     """Return the inset of a table: a text with a length or a share, or a share of the width per side."""
     value = table["inset"]
     return parse_inset(value) if isinstance(value, str) else Inset(share=number(table, "inset") or 0.0)
-
-
-def edges(block: Block | ScannedBody) -> str:
-    """Return what is to be known of a body's edges, empty when they are those of its drawing."""
-    if isinstance(block, ScannedBody):
-        return said("turns about edges {inset:.3g} mm in from the sides of its base", inset=block.inset_m * 1e3) if block.inset_m else ""
-    if not block.inset:
-        return ""
-    return said(
-        "turns about edges {inset:.3g} mm in from its sides ({share:.3g} of the width)",
-        inset=block.inset * 1e3,
-        share=block.inset / block.width,
-    )
 
 
 def restitution_of(table: Mapping[str, Any], name: str) -> float | None:

@@ -58,7 +58,7 @@ def criteria(
     from seisblock.records import motion_of
     from seisblock.studies.criteria_card import criteria_card
 
-    chosen = choose_block({**body, "restitution": restitution})
+    chosen = choose_block({**body, "restitution": restitution, "gal": output.gal})
     say("body: {says}", says=chosen.says)
     source = along(source, azimuth)
     if mu is None and body.get("block"):

@@ -94,6 +94,7 @@ def measure(
     from seisblock.measures import Conventions
     from seisblock.measures import measure as measured
     from seisblock.present.documents.measure import document
+    from seisblock.present.scales import acceleration_unit
 
     rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=SIDES[direction], gravity_m_s2=gravity)
     level, origin = _threshold(gravity=gravity, **threshold)
@@ -113,7 +114,8 @@ def measure(
             raise InputError("--plot draws one record, found {count}: give one, or run the command for each", count=len(records))
         return measure_figure(records[0], answers[0], gal=output.gal)
 
-    say("threshold of the durations: {level:.4g} m/s^2 ({origin})", level=level, origin=origin)
+    size, unit = acceleration_unit(gal=output.gal)
+    say("threshold of the durations: {level:.4g} {unit} ({origin})", level=level / size, unit=unit, origin=origin)
     emit(answer, output, tables=shown, csv=lambda path: _write(path, records, answers), figure=figure)
 
 

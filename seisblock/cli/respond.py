@@ -83,7 +83,7 @@ def respond(
     from seisblock.studies.standing.probability import Versions, respond_probability
 
     widths = {name: given.pop(f"vary_{name.removesuffix('_deg')}") for name in VARIED}
-    chosen = choose_standing(given)
+    chosen = choose_standing({**given, "gal": output.gal})
     say("body: {says}", says=chosen.says)
     options: dict[str, Any] = {
         "mu": chosen.mu,

@@ -91,7 +91,7 @@ def rock(
     from seisblock.studies.rocking.perturb import Spread
     from seisblock.studies.rocking.perturb import perturb as perturbed
 
-    chosen = choose_block({**body, "restitution": restitution})
+    chosen = choose_block({**body, "restitution": restitution, "gal": output.gal})
     say("body: {says}", says=chosen.says)
     options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}
     source = along(source, azimuth)

@@ -9,6 +9,8 @@ import secrets
 import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -137,8 +139,18 @@ def check_film(path: Path | str) -> None:
     suffix = Path(path).suffix.lower()
     if suffix not in FILMS:
         raise OutputError("cannot animate {target}: the name must end in {suffixes}", target=path, suffixes=list(FILMS))
-    if suffix == ".mp4" and shutil.which("ffmpeg") is None:
-        raise OutputError("cannot write {suffix}: ffmpeg is not installed; write a .gif or a .html instead", suffix=suffix)
+    if suffix == ".mp4" and ffmpeg() is None:
+        text = "cannot write {suffix}: ffmpeg is not installed, nor is the package imageio-ffmpeg; write a .gif or a .html instead"
+        raise OutputError(text, suffix=suffix)
+
+
+def ffmpeg() -> str | None:
+    """Return the program that makes an .mp4: that of the system, else that of the package imageio-ffmpeg; None where there is neither."""
+    found = shutil.which("ffmpeg")
+    if found is None and find_spec("imageio_ffmpeg") is not None:
+        with contextlib.suppress(RuntimeError):  # the package stands there without its program
+            return str(import_module("imageio_ffmpeg").get_ffmpeg_exe())
+    return found
 
 
 def _umask() -> int:

@@ -31,6 +31,7 @@ KEYS = {
     "contact_lost",
     "contact_lost_s",
     "verdict_flips_within_2_percent",
+    "flips_at_factor",
 }
 
 
@@ -242,8 +243,10 @@ def test_fragile_verdict_is_said_everywhere(run):
     shown, found = run(*words), json.loads(run(*words, "--json").stdout)
     assert found["results"][0]["verdict_flips_within_2_percent"] is True
     assert any("2 %" in text for text in found["warnings"])
-    assert "2 % changes this" in " ".join(shown.stdout.split())
-    assert "2 %" in shown.stderr
+    factor = found["results"][0]["flips_at_factor"]
+    would = "stand" if found["results"][0]["overturned"] else "fall"
+    assert f"it would {would} at {factor:.3f} times this record" in " ".join(shown.stdout.split())
+    assert f"2 %, to {factor:.3f} times itself" in shown.stderr
 
 
 def test_animation_of_the_first_component(run, pulse, tmp_path):

@@ -1,7 +1,8 @@
 """Animations are whole files of the kind their name says, and show the block where the solver put it."""
 
-import shutil
 import subprocess
+import sys
+import types
 
 import numpy as np
 import pytest
@@ -9,6 +10,8 @@ from PIL import Image
 
 from seisblock.bodies.block import Block
 from seisblock.errors import OutputError
+from seisblock.present import files
+from seisblock.present.files import ffmpeg
 from seisblock.present.films.animation import MOST_FRAMES, animate, frame_times
 from seisblock.present.films.rock import animate_rocking, centre_of, corners, to_the_end
 from seisblock.records import Motion
@@ -39,17 +42,33 @@ def test_gif_holds_every_picture_at_true_speed(tmp_path):
         assert image.info["loop"] == 0
 
 
-@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is not installed")
+@pytest.mark.skipif(ffmpeg() is None, reason="neither ffmpeg nor imageio-ffmpeg is installed")
 def test_mp4_is_a_film(tmp_path):
     """Odd sizes are cut to even ones, as the codec wants."""
     animate(pictures(9), tmp_path / "a.mp4")
     assert b"ftyp" in (tmp_path / "a.mp4").read_bytes()[:16]
-    assert subprocess.run([shutil.which("ffmpeg"), "-v", "error", "-i", tmp_path / "a.mp4", "-f", "null", "-"], check=True).returncode == 0
+    assert subprocess.run([ffmpeg(), "-v", "error", "-i", tmp_path / "a.mp4", "-f", "null", "-"], check=True).returncode == 0
+
+
+def test_an_mp4_needs_no_ffmpeg_of_the_system(tmp_path, monkeypatch):
+    """The package imageio-ffmpeg brings one along; where it lacks its program, it is as if it were not there."""
+    package = types.SimpleNamespace(get_ffmpeg_exe=lambda: "its-own-ffmpeg")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr(files, "find_spec", lambda name: package)
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", package)
+    assert ffmpeg() == "its-own-ffmpeg"
+
+    def missing():
+        raise RuntimeError("No ffmpeg exe could be found")
+
+    package.get_ffmpeg_exe = missing
+    assert ffmpeg() is None
 
 
 def test_mp4_without_ffmpeg_is_one_sentence(tmp_path, monkeypatch):
     """It says what is missing and what works instead, and leaves no file."""
     monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr(files, "find_spec", lambda name: None)
     with pytest.raises(OutputError, match="ffmpeg is not installed"):
         animate(pictures(3), tmp_path / "a.mp4")
     assert list(tmp_path.iterdir()) == []

@@ -1,15 +1,36 @@
 """What figures without a clock draw is the answer they were given: bars, curves, maps and roses, in the unit of their axes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from matplotlib.lines import Line2D
 
+from seisblock import Block, solve_rock
+from seisblock.bodies.scan.directions import scan_azimuths
+from seisblock.bodies.scan.scan import scan_body
+from seisblock.present.figures.criteria import figure as criteria_figure
+from seisblock.present.figures.fragility import figure as fragility_figure
+from seisblock.present.figures.rock import figure as rock_figure
+from seisblock.present.text.fragility import verdict
+from seisblock.records import Motion
+from seisblock.studies.cemetery.rate import overturning_rate
+from seisblock.validation.furukawa_field import MODELS, SURVEYED
+from seisblock.validation.furukawa_field import rates as field_rates
+from seisblock.validation.furukawa_surveys import SURVEYS
 from tests.present.long_record import (
+    AOYAMA,
     EVERY,
+    PLANE,
     cards,
+    criterion,
+    estimated,
     every_azimuth,
     factors,
+    fitted_block,
     fragilities,
     maps,
+    rates,
     record,
     regions,
     risks,
@@ -126,3 +147,164 @@ def test_a_map_of_modes_is_its_cells():
     """Each cell is the worst mode of its friction and its slenderness."""
     for axis, (_, found) in zip(axes_of("modes"), maps(), strict=False):
         assert np.array_equal(np.asarray(axis.collections[0].get_array()), found.governing)
+
+
+def test_an_estimate_is_its_medians_and_its_intervals():
+    """A point and the two ends of its interval at each frequency asked for, gal; the likelihoods are one at their largest."""
+    left, right = axes_of("estimate")
+    *_, estimates = estimated()
+    for each in estimates:
+        assert holds(left, [each.frequency_hz], [100.0 * each.pga_m_s2])
+        assert holds(left, [each.frequency_hz] * 2, [100.0 * end for end in each.pga_interval_m_s2])
+    curves = drawn(right)
+    assert len(curves) == len(estimates)
+    for curve, each in zip(curves, estimates, strict=True):
+        assert curve[:, 1].max() == 1.0
+        low, high = (100.0 * end for end in each.pga_interval_m_s2)
+        assert low < curve[curve[:, 1].argmax(), 0] < high
+
+
+def test_a_fit_is_its_draws_and_its_outcomes():
+    """Each parameter's median and the share of its draws per bin; each outcome at its shaking, none twice."""
+    found = fitted_block()
+    *known, calibration, outcomes = EVERY["fit"][1](True).axes
+    assert len(known) == len(found.axes)
+    for panel, axis in zip(known, found.axes, strict=True):
+        assert holds(panel, [found[axis.name].median] * 2, [0.0, 1.0]) or any(
+            list(line.get_xdata()) == [found[axis.name].median] * 2 for line in panel.get_lines()
+        )
+        bars = [patch for patch in panel.patches if patch.get_width() > 0.0 and patch.get_facecolor()[3] == 1.0]
+        edges = [bar.get_x() for bar in bars] + [bars[-1].get_x() + bars[-1].get_width()]
+        counts, _ = np.histogram(found.draws[axis.name], bins=edges, density=True)
+        np.testing.assert_allclose([bar.get_height() for bar in bars], counts)
+    points = np.concatenate([np.asarray(each.get_offsets()) for each in outcomes.collections[:2]])
+    strong = found.pga_m_s2 > 0.0
+    wanted = np.column_stack([found.pgv_m_s[strong] / found.pga_m_s2[strong], 100.0 * found.pga_m_s2[strong]])
+    assert np.allclose(np.sort(points, axis=0), np.sort(wanted, axis=0)) and len(points) == len(wanted)
+    for step in found.held_out.calibration if found.held_out else ():
+        assert holds(calibration, [step.mean_probability], [step.share])
+
+
+def test_a_scan_is_its_plan_and_its_azimuths():
+    """The polygons are the base and what carries, seen from above; the roses alpha and p towards each degree, closed."""
+    body = scan_body("boulder.ply", inset=0.1).body
+    plan, alpha, p = axes_of("a scan")
+    areas = [polygon_area(patch.get_xy()[:-1]) for patch in plan.patches]
+    assert areas[1] == pytest.approx(polygon_area(body.corners)) and areas[2] == pytest.approx(polygon_area(body.carrying))
+    around = scan_azimuths(body, step_deg=1.0)
+    angles = np.radians([each.azimuth_deg for each in (*around, around[0])])
+    for panel, values in (
+        (alpha, [np.degrees(each.slenderness_rad) for each in (*around, around[0])]),
+        (p, [each.frequency_parameter_rad_s for each in (*around, around[0])]),
+    ):
+        assert any(np.allclose(np.column_stack(line.get_data()), np.column_stack([angles, values])) for line in panel.get_lines())
+
+
+def polygon_area(corners):
+    """Return the area of a polygon, by the shoelace formula."""
+    x, y = np.asarray(corners).T
+    return 0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
+
+
+def test_a_plane_is_its_cells():
+    """The slip of each slope and friction, cm, a panel per ratio of frictions."""
+    panels = [axis for axis in axes_of("plane") if axis.collections and axis.get_label() != "<colorbar>"]
+    (points,) = study(**PLANE)
+    for axis, kappa in zip(panels, PLANE["kappa"], strict=True):
+        mine = {(p.mu, p.slope_deg): p.max_slip_m for p in points if p.kappa == pytest.approx(kappa)}
+        cells = np.ma.filled(axis.collections[0].get_array().astype(float), np.nan).reshape(len(PLANE["mu"]), len(PLANE["slope_deg"]))
+        for row, mu in enumerate(PLANE["mu"]):
+            for column, slope in enumerate(PLANE["slope_deg"]):
+                slip = mine[mu, slope]
+                assert (
+                    np.isnan(cells[row, column]) if slip is None else cells[row, column] == pytest.approx(100.0 * max(slip, 1e-4), rel=1e-6)
+                )
+
+
+def test_a_criterion_is_its_thresholds_and_its_levels():
+    """Each threshold at its PGA, gal, and the level of each frequency, beside those of the rigid block."""
+    left, right = axes_of("criterion")
+    found, rigid, scaled = criterion()
+    for f in found.levels:
+        part = [t for t in found.thresholds if t.frequency_hz == f]
+        assert not part or holds(left, [100.0 * t.pga_m_s2 for t in part], [t.ratio for t in part])
+    (own,) = scaled.values()
+    assert holds(left, [100.0 * t.pga_m_s2 for t in own], [t.ratio for t in own])
+    for levels in (found.levels, rigid):
+        assert holds(right, list(levels), [100.0 * level for level in levels.values()])
+
+
+def test_a_field_test_is_its_rates():
+    """A bar per survey, and a marker per model and survey, at the rate that the model gives."""
+    (axis,) = axes_of("field test")
+    assert [bar.get_height() for bar in axis.patches] == list(SURVEYED)
+    shown = [curve[:, 1] for curve in drawn(axis)]
+    for model in MODELS:
+        assert sum(np.allclose(values, field_rates(model.key)) for values in shown) == 1
+
+
+def test_rates_of_a_cemetery_are_those_of_the_formula():
+    """Curves of fig. 16 and points of fig. 20 against single rates; the share above each H/B of fig. 14 against a count."""
+    (distribution,), (curves,), (points,) = (axes_of(f"as fig. {number}") for number in (14, 16, 20))
+    (above,) = [curve for curve in drawn(distribution) if len(curve) > 50]
+    for ratio in (1.5, 2.5, 3.5):
+        seen = above[above[:, 0] >= ratio][0, 1]
+        assert seen == pytest.approx(np.mean(AOYAMA.ratios >= ratio), abs=1e-12)
+    lines = [line for line in curves.get_lines() if line.get_label().endswith("Hz")]
+    assert len(lines) == 6
+    for line in lines:
+        frequency = float(line.get_label().split()[0])
+        for pga, rate in list(zip(*line.get_data(), strict=True))[::37]:
+            assert rate == pytest.approx(overturning_rate(AOYAMA, pga / 100.0, frequency).rate)
+    where = [tuple(np.asarray(each.get_offsets())[0]) for each in points.collections]
+    for survey in SURVEYS:
+        assert (pytest.approx(overturning_rate(AOYAMA, survey.pga, survey.frequency).rate), survey.rate) in where
+
+
+def test_the_key_of_rates_names_the_curve_of_each_component():
+    """What is red in the panel is red in the key, in the same line, with the mark of its point."""
+    _, axis = axes_of("rate")
+    shown = [each for each in rates() if each.component in ("NS", "EW")]
+    red = [line for line in axis.get_legend().findobj(Line2D) if line.get_color() == "#c0392b" and line.get_linestyle() == "-"]
+    assert len(red) == len(shown) == 2
+    for each in shown:
+        own = [point for point in each.curve if point.frequency_hz == each.equivalent_frequency_hz]
+        assert holds(axis, [100.0 * point.pga_m_s2 for point in own], [point.rate for point in own])
+
+
+def test_a_card_says_of_which_block_it_is():
+    """The title of the criteria names the block and its size, as the table does."""
+    assert criteria_figure(cards()).heading.get_text().endswith("block 0.3 × 0.9 m")
+
+
+@pytest.mark.parametrize(("gal", "told"), [(True, "moved 5 cm"), (False, "moved 0.05 m")])
+def test_a_limit_of_slip_is_told_in_the_unit_of_the_figure(gal, told):
+    """F: cm, or with --si m, in the key of the figure and in the table's sentence."""
+    found = fragilities()
+    found = replace(found, curves=(replace(found.curves[0], limit="slip=0.05m"), *found.curves[1:]))
+    texts = [text.get_text() for text in fragility_figure(found, gal=gal).axes[0].get_legend().get_texts()]
+    assert any(text.startswith(told) for text in texts)
+    assert f"stone, {told}" in verdict(found, found.curves[0], gal=gal)
+
+
+def test_a_phase_plane_has_no_corners_but_at_impacts():
+    """Between two samples the state goes as it turns: what is drawn is that of samples ten times as close, to a 200th of the plane."""
+    time = np.arange(301) * 0.01
+    coarse = Motion.from_arrays(3.4 * np.sin(2.0 * np.pi * 2.7 * time), 0.01)
+    slow, close = (solve_rock(Block(0.3, 0.9), each) for each in (coarse, finer_motion(coarse)))
+    axes = rock_figure([slow]).axes
+    (plane,) = [axis for axis in axes if "p α" in axis.get_ylabel()]
+    (shown,) = [curve for curve in drawn(plane) if len(curve) >= slow.time.size]
+    outcome = slow.outcome
+    scale = np.array([plane.get_xlim()[1], plane.get_ylim()[1]])
+    exact = np.column_stack([close["rotation"], close["angular_velocity"] / outcome.frequency_parameter_rad_s]) / outcome.slenderness_rad
+    outer = shown[np.abs(shown / scale).max(axis=1) > 0.2]
+    apart = [np.abs((exact - point) / scale).max(axis=1).min() for point in outer]
+    assert len(outer) > 50 and max(apart) < 0.05
+    assert np.quantile(apart, 0.9) < 0.01
+
+
+def finer_motion(given):
+    """Return a motion with nine samples between each two, on the straight lines between them."""
+    time = np.linspace(given.time[0], given.time[-1], 10 * (given.samples - 1) + 1)
+    return Motion.from_arrays(np.interp(time, given.time, given.horizontal), given.dt / 10.0)

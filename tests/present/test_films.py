@@ -155,6 +155,20 @@ def test_accelerations_are_in_the_unit_asked_for(model):
     np.testing.assert_allclose(gal.levels, np.multiply(si.levels, 100.0))
 
 
+@pytest.mark.parametrize(("gal", "unit", "size"), [(True, "cm", 0.01), (False, "m", 1.0)])
+def test_the_enlarged_window_tells_places_in_the_unit_asked_for(gal, unit, size):
+    """cm, or with --si m, in pictures; a page's bar of scale knows which, too."""
+    shown = film("jump", 40)
+    stage = set_up(shown, gal=gal)
+    stage.sheet.canvas.draw()
+    axis = stage.actors[1].trails[0][1].axes
+    assert (axis.get_xlabel(), axis.get_ylabel()) == (f"x ({unit})", f"z ({unit})")
+    for ruler in (axis.xaxis, axis.yaxis):
+        told = [float(label.get_text().replace("\N{MINUS SIGN}", "-")) for label in ruler.get_ticklabels()]
+        np.testing.assert_allclose(np.multiply(told, size), ruler.get_ticklocs(), atol=1e-9)
+    assert data_of(film_page(shown, Filming(gal=gal)))["si"] is not gal
+
+
 def test_a_film_of_five_minutes_has_no_more_pictures_than_the_most():
     """It plays faster and says so."""
     times, speed = frame_times(0.0, 300.0)

@@ -184,7 +184,7 @@ def test_a_film_is_looked_at_before_it_is_moved(content, good, tmp_path, monkeyp
         f"#!{sys.executable}\nimport sys, pathlib\nsys.stdin.buffer.read()\npathlib.Path(sys.argv[-1]).write_bytes({content!r})\n"
     )
     encoder.chmod(0o755)
-    monkeypatch.setattr(animation.shutil, "which", lambda name: str(encoder))
+    monkeypatch.setattr("shutil.which", lambda name: str(encoder))
     film = tmp_path / "film.mp4"
     film.write_bytes(b"old")
     frames = [Image.new("RGB", (4, 4)) for _ in range(2)]
@@ -289,6 +289,7 @@ def test_where_an_answer_goes_is_looked_at_before_it_is_computed(what, folder, m
     """The first thing that a command does; the record need not even be there."""
     words, says = REFUSED[what]
     monkeypatch.setattr("shutil.which", lambda name: None)
+    monkeypatch.setattr("seisblock.present.files.find_spec", lambda name: None)
     done = run("stack", "not_there.csv", *words)
     assert done.exit_code == 3 and says in " ".join(done.stderr.split())
     assert sorted(path.name for path in folder.iterdir()) == ["in.csv"]

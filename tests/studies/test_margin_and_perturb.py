@@ -11,7 +11,7 @@ from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.solvers.rock.verdicts import rock_verdict
-from seisblock.studies.rocking.margin import find_margin, flagged, flips_nearby
+from seisblock.studies.rocking.margin import find_margin, flagged, flips_nearby, nearest_flip
 from seisblock.studies.rocking.perturb import Spread, perturb
 from seisblock.studies.runs import CHUNK, in_threads
 from seisblock.units import STANDARD_GRAVITY as G
@@ -73,6 +73,23 @@ def test_fragile_verdicts_are_flagged():
         told = flagged(response)
         assert told.outcome.verdict_flips_within_2_percent is flips_nearby(BLOCK, motion, restitution=0.9, linear=True) is fragile
         assert any("2 %" in text for text in told.warnings) is fragile
+        factor = told.outcome.flips_at_factor
+        assert (factor is not None) is fragile
+        if fragile:
+            other = solve_rock(BLOCK, one_sine(x * factor), restitution=0.9, linear=True).outcome
+            nearer = solve_rock(BLOCK, one_sine(x * (factor + math.copysign(0.001, 1.0 - factor))), restitution=0.9, linear=True).outcome
+            assert other.overturned is not response.outcome.overturned
+            assert nearer.overturned is response.outcome.overturned
+
+
+def test_a_margin_knows_the_flips_near_the_record():
+    """However coarse the scan, what a look at 2 % finds is among its windows, and the share is that of the even factors."""
+    x = 3.019 * 0.985
+    near = nearest_flip(BLOCK, one_sine(x), restitution=0.9, linear=True)
+    margin = find_margin(BLOCK, one_sine(x), step=0.75, limit=1.5, restitution=0.9, linear=True)
+    assert near is not None and any(window.overturned and window.first <= near <= window.last for window in margin.windows)
+    assert margin.first_fall == pytest.approx(near, abs=0.001)
+    assert margin.falls_above_first == 1.0
 
 
 @pytest.mark.parametrize(("limit", "step"), [(0.0, 0.1), (-1.0, 0.1), (1.0, 2.0), (math.inf, 0.1), (math.nan, 0.1)])

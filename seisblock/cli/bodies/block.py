@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.library import body_of, edges, restitution_of
+from seisblock.bodies.library import body_of, restitution_of
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.toml import read_table
 from seisblock.errors import BodyError
+from seisblock.present.edges import edges
 from seisblock.records import Motion
 from seisblock.words import said
 
@@ -60,7 +61,7 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
     ----------
     asked : mapping
         ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI; ``restitution`` and ``inset`` override
-        what a file brings along. None where not given.
+        what a file brings along. None where not given. ``gal``: False where lengths are told in m.
 
     Raises
     ------
@@ -88,4 +89,6 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
         origin = said("block {width:g} m wide, {height:g} m high", width=body.width, height=body.height)
     if asked.get("inset") is not None:
         body = body.worn(asked["inset"])
-    return BlockChoice(body, restitution, said("{parts}", parts=[part for part in (origin, edges(body)) if part]))
+    return BlockChoice(
+        body, restitution, said("{parts}", parts=[part for part in (origin, edges(body, gal=asked.get("gal", True))) if part])
+    )

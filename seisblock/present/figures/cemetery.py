@@ -52,7 +52,7 @@ def proportions(axis: Axes, cemetery: Cemetery, threshold: float | None = None) 
     axis.step(np.concatenate([ratios, ratios[-1:]]), above, where="pre", color="0.15", linewidth=1.1, label=tell("share above"))
     axis.set_ylim(0.0, 1.02)
     label(axis, x=tell("H/B"), y=tell("share of stones"))
-    legend(axis, loc="upper right", bbox_to_anchor=(1.0, 1.0), ncols=1)
+    legend(axis, loc="upper right", bbox_to_anchor=None, ncols=1)
 
 
 def rates(axis: Axes, curve: Iterable[CurvePoint], *, gal: bool = True, frequencies: Sequence[float] = FREQUENCIES) -> None:
@@ -140,12 +140,15 @@ def _panel(
             [pga],
             [found.rate],
             yerr=[[found.rate - low], [high - found.rate]],
-            fmt=MARKERS[index % len(MARKERS)],
-            color="black",
+            fmt=MARKERS[index % len(MARKERS)] + "-",  # of one point there is no line but in the key, which so names the curve, too
+            color=ACCENT,
+            ecolor="black",
+            markeredgecolor="black",
             markersize=5,
             markerfacecolor=ACCENT,
             capsize=2.5,
-            linewidth=0.9,
+            linewidth=thick,
+            elinewidth=0.9,
             zorder=4,
             label=f"{name}{each.equivalent_frequency_hz:.3g} Hz",
         )

@@ -21,13 +21,14 @@ COLOURS = {False: "#a9bccf", True: canvas.ACCENT}
 def figure(cards: Sequence[Card], *, gal: bool = True) -> Figure:
     """Return the figure: demand over threshold of every criterion; right of one it says that the block falls."""
     records = [card.record for card in cards]
+    heading = heading_over(records, [card.component for card in cards])
     made, axes = canvas.new_figure(
         1,
         columns=len(cards),
         width=3.2 + 3.4 * len(cards),
         height=1.6 + 0.19 * len(cards[0].rows),
         sharey=True,
-        title=heading_over(records, [card.component for card in cards]),
+        title=canvas.BETWEEN.join(part for part in (heading, _body(cards)) if part),
     )
     seen: set[bool] = set()
     for axis, card in zip(axes, cards, strict=True):
@@ -46,6 +47,13 @@ def figure(cards: Sequence[Card], *, gal: bool = True) -> Figure:
     handles = [Patch(color=COLOURS[falls], label=says[falls]) for falls in sorted(seen)]
     canvas.legend_outside(made, handles, loc="outside lower right", ncols=2)
     return made
+
+
+def _body(cards: Sequence[Card]) -> str:
+    """Return which block this is; of a body that is another one in each direction its name alone."""
+    block = cards[0].block
+    name = tell(block.name)
+    return f"{name} {block.width:.3g} × {block.height:.3g} m" if all(card.block == block for card in cards) else name
 
 
 def _name(row: Row) -> str:

@@ -53,7 +53,7 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
             continue
         mine = [i for i, curve in enumerate(study.curves) if curve.body == bodies[index]]
         for place, each in enumerate(mine):
-            _curve(axis, study, each, LOOKS[place % len(LOOKS)], size)
+            _curve(axis, study, each, LOOKS[place % len(LOOKS)], size, gal=gal)
         if compare is not None:
             x = np.geomspace(*axis.get_xlim(), POINTS)
             axis.plot(x, compare.probability(x * size), color=INPUT, linewidth=1.0, linestyle=(0, (4, 2)), label=tell("compared with"))
@@ -67,7 +67,7 @@ def figure(study: FragilityStudy, *, gal: bool = True, compare: Lognormal | None
     return made
 
 
-def _curve(axis: Axes, study: FragilityStudy, index: int, look: tuple[str, Any, str], size: float) -> None:
+def _curve(axis: Axes, study: FragilityStudy, index: int, look: tuple[str, Any, str], size: float, *, gal: bool) -> None:
     """Draw one curve with its counts and its band."""
     curve, band = study.curves[index], study.bands[index]
     colour, dashes, mark = look
@@ -75,7 +75,7 @@ def _curve(axis: Axes, study: FragilityStudy, index: int, look: tuple[str, Any, 
     intensities, shares = _shares(curve)
     axis.plot(np.array(intensities) / size, shares, mark, color=colour, markersize=3, markerfacecolor="none", markeredgewidth=0.7)
     low, high = (end / size for end in (min(each.im for each in curve.levels), max(each.im for each in curve.levels)))
-    name = limit_name(curve.limit)
+    name = limit_name(curve.limit, gal=gal)
     if curve.curve is None:
         axis.plot([], [], mark, color=colour, markersize=3, markerfacecolor="none", label=tell("{limit}: no curve", limit=name))
         return

@@ -57,7 +57,7 @@ def figure(found: Sequence[tuple[GivenFragility, Risk]], hazard: Hazard, *, gal:
     """
     measure = intensity_measure(hazard.im)
     size, unit = measure.shown(gal=gal)
-    names = [name_of(given) or tell("fragility") for given, _ in found]
+    names = [name_of(given, gal=gal) or tell("fragility") for given, _ in found]
     outside = sum(columns(name) + OF_A_LINE for name in names) > MOST_ABOVE
     what = names[0] if len(found) == 1 else tell("{count} fragilities", count=len(found))
     title = tell("Risk: {what}, hazard in {measure}", what=what, measure=measure.label)

@@ -9,17 +9,20 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from seisblock.present.figures import canvas
-from seisblock.present.figures.curves import curve
+from seisblock.present.figures.curves import curve, finer
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.scales import acceleration_unit
-from seisblock.present.text.rock import Rockings
+from seisblock.present.text.rock import Rockings, flip
 from seisblock.results import Response
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.words import tell
 
 LEAST_LEAN = 1e-4
 """Lean over alpha that is drawn: what is less, a hair's breadth in a block of a metre, is no motion that one sees."""
+
+LONGEST_CHORD = 0.02
+"""Of the phase plane, a share of its half widths."""
 
 COLOURS = {"rocks to +x": "#f6dfcf", "rocks to -x": "#a6b6dc", "beyond +alpha": "#c27c58", "beyond -alpha": "#5262a4"}
 
@@ -95,8 +98,7 @@ def draw_ground(axis: Any, response: Response[RockOutcome], called: str, *, gal:
         alpha=outcome.slenderness_rad,
         restitution=outcome.restitution,
     )
-    title += tell("; a 2 % change flips the verdict") if outcome.verdict_flips_within_2_percent else ""
-    canvas.panel_title(axis, title)
+    canvas.panel_title(axis, title + flip(outcome))
 
 
 def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
@@ -140,7 +142,11 @@ def _draw_plane(axis: Any, response: Response[RockOutcome]) -> None:
             inward = np.where(u < 1, edge, -edge)
             label = tell("edge of falling, unshaken") if sign > 0 else None
             axis.plot(sign * u, sign * inward, color="0.3", linewidth=0.8, linestyle=(0, (4, 2)), label=label)
-    axis.plot(lean, rate, color=canvas.ACCENT, linewidth=0.7)
+    # from sample to sample as the state goes, where a chord would be seen
+    seen = (np.abs(lean) <= reach) & (np.abs(rate) <= high)
+    coarse = np.hypot(np.diff(lean) / reach, np.diff(rate) / high) > LONGEST_CHORD
+    _, lean, slope = finer(response.time, lean, p * rate, coarse & (seen[1:] | seen[:-1]))
+    axis.plot(lean, slope / p, color=canvas.ACCENT, linewidth=0.7)
     axis.set_xlim(-reach, reach)
     axis.set_ylim(-high, high)
     axis.xaxis.set_major_locator(MaxNLocator(4))

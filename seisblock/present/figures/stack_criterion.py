@@ -36,7 +36,7 @@ def figure(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, 
             left.plot(*zip(*part, strict=True), "-", color=(canvas.ACCENT, canvas.SECOND)[index % 2], linewidth=1.2, label=text)
     left.set_ylim(0.0, 6.8)
     left.set_title(tell("most squat stone that falls, and eq. (7)"), fontsize=9, loc="left")
-    canvas.label(left, tell("PGA ({unit})", unit=unit_name), "H/B (1)")
+    canvas.label(left, tell("PGA ({unit})", unit=unit_name), tell("H/B"))
     curve = np.linspace(0.3, 3.2, 200)
     right.plot(
         curve,
@@ -62,7 +62,7 @@ def figure(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, 
     )
     right.set_ylim(bottom=0.0)
     right.set_title(tell("level"), fontsize=9, loc="left")
-    canvas.label(right, "f (Hz)", f"a(f) ({unit_name})")
+    canvas.label(right, tell("f (Hz)"), f"a(f) ({unit_name})")
     for axis, columns in ((left, 2), (right, 1)):
         where = "upper right" if axis is left else "upper left"
         canvas.legend(axis, loc=where, bbox_to_anchor=None, borderaxespad=0.5, ncols=columns)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from seisblock.errors import OutputError
-from seisblock.present.files import check_film, replacing
+from seisblock.present.files import check_film, ffmpeg, replacing
 from seisblock.typing import Progress
 from seisblock.words import tell
 
@@ -92,14 +91,14 @@ def animate(frames: Iterable[Image.Image], path: Path | str, *, fps: int = FRAME
     ----------
     frames : iterable of RGB images of one size
     path : path
-        ``.gif`` (plays anywhere) or ``.mp4`` (needs ffmpeg).
+        ``.gif`` (plays anywhere) or ``.mp4`` (needs ffmpeg, or the package imageio-ffmpeg).
     fps : int
         Pictures per second.
 
     Raises
     ------
     OutputError
-        If the suffix is another, ffmpeg is missing for .mp4, or the file cannot be written.
+        If the suffix is another, an .mp4 has no program that makes it, or the file cannot be written.
     """
     target = Path(path)
     writers = {".gif": _write_gif, ".mp4": _write_mp4}
@@ -125,7 +124,7 @@ def _write_gif(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
 
 def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
     """Pipe the pictures through ffmpeg."""
-    program = shutil.which("ffmpeg") or "ffmpeg"
+    program = ffmpeg() or "ffmpeg"
     pictures = iter(frames)
     first = next(pictures)
     width, height = (size - size % 2 for size in first.size)

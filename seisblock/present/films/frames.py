@@ -61,7 +61,7 @@ def film_frames(film: Film, speed: float, filming: Filming) -> Iterator[Image.Im
     filming : Filming
         Progress.
     """
-    made, told = set_up(film), pace(speed)
+    made, told = set_up(film, gal=filming.gal), pace(speed)
 
     def draw(index: int) -> None:
         made.show(index, told)
@@ -71,8 +71,8 @@ def film_frames(film: Film, speed: float, filming: Filming) -> Iterator[Image.Im
     return stage(made.sheet, made.moving, draw, film.time.size)
 
 
-def set_up(film: Film) -> Stage:
-    """Return a film's figure: the scene true to scale, what is shown enlarged beside it, and the curves below."""
+def set_up(film: Film, *, gal: bool = True) -> Stage:
+    """Return a film's figure: the scene true to scale, what is shown enlarged beside it, in cm or in m, and the curves below."""
     strips, scene = film.panels, film.scene
     tall = 3.0 if isinstance(scene, Plane) else 4.4
     sheet = canvas.Sheet(8.0, 0.6 + tall + 1.15 * len(strips), dpi=100)
@@ -84,7 +84,7 @@ def set_up(film: Film) -> Stage:
     above.set_title(film.title, fontsize=9, loc="left", pad=20, parse_math=False)
     actors: list[Actor] = [PlaneActor(above, scene, moving=True) if isinstance(scene, Plane) else SpaceActor(above, scene)]
     if isinstance(scene, Plane) and beside:
-        actors.append(PlaneActor(sheet.add_subplot(grid[0, 1]), scene, moving=False))
+        actors.append(PlaneActor(sheet.add_subplot(grid[0, 1]), scene, moving=False, gal=gal))
     panels: list[Axes] = []
     for index in range(len(strips)):
         panels.append(sheet.add_subplot(grid[1 + index, :], sharex=panels[0] if panels else None))

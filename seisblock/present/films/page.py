@@ -79,6 +79,7 @@ def _data(film: Film, filming: Filming) -> dict[str, Any]:
         "count": int(film.time.size),
         "along": side(film.direction, 1.0),
         "pace": 1.0 / filming.slow,
+        "si": not filming.gal,
         "scene": _plane(film.scene, float(film.time[0]), float(film.time[-1])) if isinstance(film.scene, Plane) else _space(film.scene),
         "strips": [_strip(film, strip) for strip in film.panels],
         "phases": [[phase.start_s, phase.end_s, film.colours[phase.name]] for phase in film.seen if phase.name in film.colours],

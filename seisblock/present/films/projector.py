@@ -30,7 +30,8 @@ def animate_film(build: Build, span: tuple[float, float], path: Path | str, film
     span : (float, float), s
         First and last time shown.
     path : path
-        ``.gif``, ``.mp4`` (needs ffmpeg), or ``.html`` (one page that draws the film itself, at any size and speed).
+        ``.gif``, ``.mp4`` (needs ffmpeg, or the package imageio-ffmpeg), or ``.html`` (one page that draws the film itself, at any size and
+        speed).
     filming : Filming
         Speed and progress.
     rate : float, 1/s

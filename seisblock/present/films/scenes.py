@@ -9,10 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patches import Polygon
+from matplotlib.ticker import FuncFormatter
 
 from seisblock.present.figures import canvas
 from seisblock.present.films.plane import Plane
 from seisblock.present.films.space import Space, on_picture, view_axes
+from seisblock.present.scales import Unit, length_unit
 from seisblock.typing import FloatArray
 from seisblock.words import tell
 
@@ -36,7 +38,7 @@ class Actor(Protocol):
 class PlaneActor:
     """Bodies on their ground from the side, in a frame that stands still or in the ground's."""
 
-    def __init__(self, axis: Axes, scene: Plane, *, moving: bool) -> None:
+    def __init__(self, axis: Axes, scene: Plane, *, moving: bool, gal: bool = True) -> None:
         self.scene, self.moving = scene, moving
         left, right, bottom, top = scene.extent if moving or scene.close is None else scene.close
         axis.set_aspect("equal")
@@ -46,7 +48,7 @@ class PlaneActor:
             _bare(axis)
         else:
             canvas.dress(axis)
-            canvas.label(axis, "x (m)", "z (m)")
+            _measured(axis, length_unit([right - left], gal=gal))
             axis.set_title(tell("enlarged, seen from the ground"), fontsize=8, loc="left")
         self.floors = [Polygon(floor, facecolor=FLOOR, edgecolor="none") for floor in scene.floors]
         self.ticks = axis.plot([], [], "|", color="0.45", markersize=6, clip_on=True)[0] if moving else None
@@ -124,6 +126,14 @@ class SpaceActor:
         for dots, springs in ((self.hidden, [behind] if behind else []), (self.corners, before)):
             dots.set_offsets(np.array([on_picture(spring.top[index] + moved) for spring in springs]).reshape(-1, 2))
             dots.set_facecolor([canvas.ACCENT if spring.lifted[index] else "0.25" for spring in springs])
+
+
+def _measured(axis: Axes, unit: Unit) -> None:
+    """Let both axes of a panel, m, tell places in a unit of length."""
+    canvas.label(axis, f"x ({unit.name})", f"z ({unit.name})")
+    told = FuncFormatter(lambda metres, _: f"{metres / unit.size:.6g}".replace("-", "\N{MINUS SIGN}"))
+    axis.xaxis.set_major_formatter(told)
+    axis.yaxis.set_major_formatter(told)
 
 
 def _bare(axis: Axes) -> None:

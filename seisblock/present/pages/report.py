@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from seisblock.bodies.library import edges
 from seisblock.criteria.card import once_each
+from seisblock.present.edges import edges
 from seisblock.present.faces import figure_of
 from seisblock.present.figures.embed import Picture, picture
 from seisblock.present.figures.fonts import drawn

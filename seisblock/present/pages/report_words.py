@@ -138,8 +138,13 @@ def _rock(effect: Effect, outcome: Any) -> Iterator[str]:
         first = next((window for window in margin.windows if window.overturned), None)
         if first is not None:
             yield tell("Of the factors looked at, all below {factor:.3f} let it stand.", factor=first.first)
-    if outcome.verdict_flips_within_2_percent:
-        yield tell("A change of the record by less than 2 % changes the verdict.")
+    if outcome.flips_at_factor is not None:
+        text = (
+            noted("At {factor:.3f} times this record it would stand.")
+            if outcome.overturned
+            else noted("At {factor:.3f} times this record it would fall.")
+        )
+        yield tell(text, factor=outcome.flips_at_factor)
 
 
 def _slide(effect: Effect, outcome: Any) -> Iterator[str]:

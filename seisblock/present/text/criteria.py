@@ -8,8 +8,8 @@ from typing import Any
 
 from rich.text import Text
 
-from seisblock.bodies.library import edges
 from seisblock.criteria.card import ACCELERATION, Row, once_each
+from seisblock.present.edges import edges
 from seisblock.present.files import write_table
 from seisblock.present.scales import acceleration_unit, velocity_unit
 from seisblock.present.text.agreement import agreement_line
@@ -82,7 +82,7 @@ def _tables(card: Card, *, gal: bool) -> Iterator[Any]:
         height=card.block.height,
         pga=f"{m.pga_m_s2 / shaking.size:.4g} {shaking.name}",
         pgv=f"{m.pgv_m_s / speed.size:.4g} {speed.name}",
-    ) + (f"\n{tell(worn)}" if (worn := edges(card.block)) else "")
+    ) + (f"\n{tell(worn)}" if (worn := edges(card.block, gal=gal)) else "")
     plain = [row for row in card.rows if row.frequency is None]
     cells = []
     for row in plain:

@@ -24,14 +24,14 @@ _METHODS = {
 }
 
 
-def limit_name(name: str) -> str:
-    """Return a limit as it is told: ``overturn`` as overturns, ``slip=0.05m`` as moved 5 cm."""
+def limit_name(name: str, *, gal: bool = True) -> str:
+    """Return a limit as it is told: ``overturn`` as overturns, ``slip=0.05m`` as moved 5 cm, or 0.05 m."""
     kind, _, threshold = name.partition("=")
     if kind == LEAN:
         return tell("leans {share} alpha", share=threshold)
     if kind == SLIP:
         far = float(threshold.removesuffix("m"))
-        size, unit = length_unit([far], gal=True)
+        size, unit = length_unit([far], gal=gal)
         return tell("moved {length}", length=f"{round(far / size, 6):g} {unit}")
     return tell(_LIMITS[kind])
 
@@ -53,7 +53,7 @@ def tables(study: FragilityStudy, *, gal: bool, compare: Lognormal | None = None
     yield line(_what(study), "dim")
     if any(curve.beta_alone is not None for curve in study.curves):
         yield line(tell("The limits share one beta, so that their curves do not cross; a run past a limit is past those before it."), "dim")
-    yield from (line(text) for curve in fitted if (text := _scatter(curve, several=len(fitted) > 1)))
+    yield from (line(text) for curve in fitted if (text := _scatter(curve, several=len(fitted) > 1, gal=gal)))
     if compare is not None:
         yield from (line(_beside(study, curve, compare, gal=gal)) for curve in fitted)
     compared = [curve for curve in fitted if curve.measures]
@@ -79,7 +79,7 @@ def verdict(study: FragilityStudy, curve: Fragility, *, gal: bool) -> str:
     return tell(
         "{body}, {limit}: median {im} {median}, beta {beta:.2f}",
         body=curve.body,
-        limit=limit_name(curve.limit),
+        limit=limit_name(curve.limit, gal=gal),
         im=study.measure.label,
         median=f"{number((curve.median or 0.0) / size, 3)} {unit}".strip(),
         beta=curve.beta or 0.0,
@@ -96,7 +96,7 @@ def _curves(study: FragilityStudy, *, gal: bool) -> Any:
     rows = [
         [
             *([tell(curve.body)] if several else []),
-            limit_name(curve.limit),
+            limit_name(curve.limit, gal=gal),
             _with_range(curve.median, curve.median_interval, lambda value: number(value / size, 3)),
             _with_range(curve.beta, curve.beta_interval, lambda value: f"{value:.2f}"),
             NOTHING if curve.method == CLOUD else f"{curve.non_monotone_motions}/{curve.motions}",
@@ -133,14 +133,14 @@ def _what(study: FragilityStudy) -> str:
     )
 
 
-def _scatter(curve: Fragility, *, several: bool) -> str:
+def _scatter(curve: Fragility, *, several: bool, gal: bool) -> str:
     """Return where the scatter of a curve comes from, empty where nobody asked."""
     found = curve.dispersion
     if found is None:
         return ""
     return tell(
         "{curve}: beta {records:.2f} from record to record, {parameter:.2f} from what is not known of the body, {total:.2f} together",
-        curve=_named(curve, several=several),
+        curve=_named(curve, several=several, gal=gal),
         records=found.beta_record_to_record,
         parameter=found.beta_parameter,
         total=found.beta_sum,
@@ -152,7 +152,7 @@ def _beside(study: FragilityStudy, curve: Fragility, compare: Lognormal, *, gal:
     size, unit = study.measure.shown(gal=gal)
     return tell(
         "{curve}: {ratio:.3f} times the median compared with, {median}; beta {beta:.2f} against {other:.2f}",
-        curve=_named(curve, several=True),
+        curve=_named(curve, several=True, gal=gal),
         ratio=(curve.median or 0.0) / compare.median,
         median=f"{number(compare.median / size, 3)} {unit}".strip(),
         beta=curve.beta or 0.0,
@@ -160,9 +160,9 @@ def _beside(study: FragilityStudy, curve: Fragility, compare: Lognormal, *, gal:
     )
 
 
-def _named(curve: Fragility, *, several: bool) -> str:
+def _named(curve: Fragility, *, several: bool, gal: bool) -> str:
     """Return how a curve is called."""
-    limit = limit_name(curve.limit)
+    limit = limit_name(curve.limit, gal=gal)
     return tell("{body}, {limit}", body=curve.body, limit=limit) if several else limit
 
 
@@ -179,7 +179,7 @@ def _measures(curve: Fragility, *, several: bool, gal: bool) -> Any:
         rows.append(
             [label, number(each.median / size, 3), f"{each.beta:.2f}", *(left.get(key, NOTHING) for key in ("ln(pgv/pga)", "magnitude"))]
         )
-    title = tell("{curve}: measures of intensity", curve=_named(curve, several=several))
+    title = tell("{curve}: measures of intensity", curve=_named(curve, several=several, gal=gal))
     return table(title, [tell("measure"), tell("median"), tell("beta"), "ln(PGV/PGA)", tell("magnitude")], rows)
 
 

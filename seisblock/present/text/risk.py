@@ -30,23 +30,23 @@ def tables(found: Found, hazard: Hazard, *, gal: bool) -> Iterator[Any]:
         Whether intensities are told in gal, kine and cm, else in SI.
     """
     for given, risk in found:
-        yield line(verdict(given, risk), "bold")
+        yield line(verdict(given, risk, gal=gal), "bold")
     yield _rates(found, hazard, gal=gal)
     for given, risk in found:
-        name = name_of(given)
+        name = name_of(given, gal=gal)
         yield _shares(name if len(found) > 1 else "", risk, hazard, gal=gal)
         if len(hazard.branches) > 1 or risk.stood_years is not None:
             yield _branches(name if len(found) > 1 else "", risk)
 
 
-def name_of(given: GivenFragility) -> str:
+def name_of(given: GivenFragility, *, gal: bool = True) -> str:
     """Return what happens, and to what; empty where nobody said."""
-    return ", ".join(part for part in (given.body, limit_name(given.limit) if given.limit else "") if part)
+    return ", ".join(part for part in (given.body, limit_name(given.limit, gal=gal) if given.limit else "") if part)
 
 
-def verdict(given: GivenFragility, risk: Risk) -> str:
+def verdict(given: GivenFragility, risk: Risk, *, gal: bool = True) -> str:
     """Return how often it happens, in a sentence."""
-    name = name_of(given)
+    name = name_of(given, gal=gal)
     what = f"{name}: " if name else ""
     chance, years = roughly(risk.probability.value), risk.probability.years
     if risk.return_period_years is None:
@@ -62,7 +62,7 @@ def _rates(found: Found, hazard: Hazard, *, gal: bool) -> Any:
     heads = [tell("what"), _head(measure, tell("median"), gal=gal), "beta", tell("rate (1/year)"), tell("once in (years)")]
     rows = [
         [
-            name_of(given) or NOTHING,
+            name_of(given, gal=gal) or NOTHING,
             number(given.curve.median / size, 3),
             f"{given.curve.beta:.2f}",
             f"{risk.annual_rate:.3g}",

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.bodies.library import edges
 from seisblock.present.directions import side
+from seisblock.present.edges import edges
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.agreement import agreement_line, chance_lines
 from seisblock.present.text.onset import ROCKS, onset
@@ -63,7 +63,7 @@ def _table(responses: Rockings, *, gal: bool) -> Any:
             p=first.frequency_parameter_rad_s,
             restitution=first.restitution,
             threshold=told_acceleration(first.threshold_m_s2, gal=gal),
-        ) + (f"\n{tell(worn)}" if (worn := edges(body)) else "")
+        ) + (f"\n{tell(worn)}" if (worn := edges(body, gal=gal)) else "")
     rows: list[tuple[str, list[Any]]] = _own(outcomes, gal=gal) if own else []
     rows += [
         (f"PGA ({acceleration_unit(gal=gal).name})", [acceleration(float(np.abs(r.motion.horizontal).max()), gal=gal) for r in responses]),
@@ -171,7 +171,16 @@ def verdict(outcome: RockOutcome, direction: str) -> str:
         late = outcome.decided_after_record
         text = noted("overturns to {side} at {time:.2f} s, after the record") if late else noted("overturns to {side} at {time:.2f} s")
         told = tell(text, side=fell, time=outcome.overturning_time_s)
-    return told + (tell("; a change of the record by less than 2 % changes this") if outcome.verdict_flips_within_2_percent else "")
+    return told + flip(outcome)
+
+
+def flip(outcome: RockOutcome) -> str:
+    """Return at which factor near 1 the verdict is the other, empty where none was found or nobody looked."""
+    if outcome.flips_at_factor is None:
+        return ""
+    would = noted("; it would stand at {factor:.3f} times this record"), noted("; it would fall at {factor:.3f} times this record")
+    text = would[0] if outcome.overturned else would[1]
+    return tell(text, factor=outcome.flips_at_factor)
 
 
 def way_to_alpha(ratio: float) -> str:

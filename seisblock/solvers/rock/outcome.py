@@ -57,6 +57,8 @@ class RockOutcome:
         Whether, and when first, N <= 0: it would jump.
     verdict_flips_within_2_percent : bool or None
         Whether some factor within 0.98 ... 1.02 on the record changes the verdict; None when not looked for.
+    flips_at_factor : float or None
+        The one of these nearest to 1 at which it was found to change; None when none does, or when not looked for.
     """
 
     rocks: bool
@@ -79,6 +81,7 @@ class RockOutcome:
     contact_lost: bool
     contact_lost_s: float | None
     verdict_flips_within_2_percent: bool | None = None
+    flips_at_factor: float | None = None
 
 
 def friction_suffices(outcome: RockOutcome, mu: float, gravity: float) -> bool:

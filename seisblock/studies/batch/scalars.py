@@ -9,7 +9,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 _SCALARS = (bool, int, float, str)
 
-ON_REQUEST = ("verdict_flips_within_2_percent",)
+ON_REQUEST = ("verdict_flips_within_2_percent", "flips_at_factor")
 """What an outcome tells where somebody looked for it, which takes forty more runs: no columns."""
 
 

@@ -66,7 +66,7 @@ class Margin:
     first_fall : float or None
         The smallest factor at which it was found to fall.
     falls_above_first : float or None
-        Share of the factors looked at from there to the limit at which it falls.
+        Share of the factors, a step apart, from there to the limit at which it falls.
     step, limit : float, 1
         Of the scan.
     """
@@ -96,7 +96,8 @@ def find_margin(
     ----------
     block, motion : Block, Motion
     limit, step : float
-        Largest factor, and distance of the factors looked at; changes are then bisected to 1e-6.
+        Largest factor, and distance of the factors looked at, to which those that :func:`nearest_flip` looks at are added; changes are
+        then bisected to 1e-6.
     progress : callable
         Told the number of runs done and the number in all.
     options
@@ -118,7 +119,8 @@ def find_margin(
         raise ParameterError("the scan needs 0 < step <= limit, found step {step} and limit {limit}", step=step, limit=limit)
     one = rocker(block, motion, **options)
     check_budget(noted("factors"), math.floor(min(limit / step, 1e18)), "SEISBLOCK_RUNS")
-    grid = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
+    even = np.unique(np.append(np.arange(round(limit / step) + 1) * step, [1.0, limit]))
+    grid = np.unique(np.concatenate([even, _near()]))
     factors = grid[grid <= limit]
     verdicts = overturns_at(one, motion, factors, progress=progress)
     flips = _bisected(one, motion, factors, verdicts)
@@ -127,7 +129,8 @@ def find_margin(
     nearest = min(flips, key=lambda flip: abs(np.log(flip))) if flips else None
     at_one = bool(verdicts[factors == 1.0][0] if limit >= 1.0 else overturns_at(one, motion, [1.0])[0])
     first = next((window.first for window in windows if window.overturned), None)
-    share = float(verdicts[int(verdicts.argmax()) :].mean()) if verdicts.any() else None
+    above = np.isin(factors, even) & (factors >= factors[int(verdicts.argmax())])
+    share = float(verdicts[above].mean()) if verdicts.any() else None
     return Margin(at_one, windows, flips, nearest, first, share, step, limit)
 
 
@@ -145,17 +148,53 @@ def _bisected(block: Rocker, motion: Motion, factors: FloatArray, verdicts: Bool
 def flagged(response: Response[RockOutcome]) -> Response[RockOutcome]:
     """Return a response that knows, and warns, whether a change of the record by less than 2 % changes its verdict."""
     options = {key: response.options[key] for key in ("restitution", "linear", "vertical")}
-    flips = flips_nearby(response.body, response.motion, gravity=response.options["gravity_m_s2"], **options)
+    factor = nearest_flip(response.body, response.motion, gravity=response.options["gravity_m_s2"], **options)
     warnings = response.warnings
-    if flips:
-        warnings = (
-            *warnings,
-            said("{name}: a change of the record by less than 2 % changes the verdict", name=response.motion.name or "x"),
-        )
-    return replace(response, outcome=replace(response.outcome, verdict_flips_within_2_percent=flips), warnings=warnings)
+    if factor is not None:
+        text = "{name}: a change of the record by less than 2 %, to {factor:.3f} times itself, changes the verdict"
+        warnings = (*warnings, said(text, name=response.motion.name or "x", factor=factor))
+    outcome = replace(response.outcome, verdict_flips_within_2_percent=factor is not None, flips_at_factor=factor)
+    return replace(response, outcome=outcome, warnings=warnings)
 
 
 def flips_nearby(block: Block, motion: Motion, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Unpack[RockOptions]) -> bool:
     """Return whether some factor within `share` of 1 changes the verdict; options as in :func:`find_margin`."""
-    verdicts = overturns_at(rocker(block, motion, **options), motion, np.linspace(1.0 - share, 1.0 + share, steps))
-    return bool(verdicts.any() and not verdicts.all())
+    return nearest_flip(block, motion, share=share, steps=steps, **options) is not None
+
+
+def nearest_flip(
+    block: Block, motion: Motion, *, share: float = NEAR, steps: int = NEAR_STEPS, **options: Unpack[RockOptions]
+) -> float | None:
+    """Return the factor nearest to 1, of so many within `share` of it, whose verdict is another than that at 1.
+
+    Parameters
+    ----------
+    block, motion : Block, Motion
+    share : float, 1
+        How far from 1 the factors lie at most.
+    steps : int
+        How many are looked at; odd, so that 1 is among them.
+    options
+        As of :func:`find_margin`.
+
+    Returns
+    -------
+    float or None
+        None where all of them agree.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pulses = [Motion.from_arrays(peak * np.sin(np.linspace(0.0, np.pi, 101)), 0.01) for peak in (4.0, 3.52)]
+    >>> nearest_flip(Block(0.24, 0.8), pulses[0]) is None, nearest_flip(Block(0.24, 0.8), pulses[1])
+    (True, 1.011)
+    """
+    factors = _near(share, steps)
+    verdicts = overturns_at(rocker(block, motion, **options), motion, factors)
+    others = factors[verdicts != verdicts[steps // 2]]
+    return round(float(others[np.abs(others - 1.0).argmin()]), 12) if others.size else None
+
+
+def _near(share: float = NEAR, steps: int = NEAR_STEPS) -> FloatArray:
+    """Return the factors near 1 that are always looked at, (steps,)."""
+    return np.linspace(1.0 - share, 1.0 + share, steps)

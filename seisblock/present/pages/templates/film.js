@@ -35,7 +35,7 @@ function polygon(pen, points, fill, line) {
 function bar(pen, width, height, scale) {
   const steps = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5];
   const length = steps.filter(step => step * scale < width / 3).pop() || steps[0];
-  const text = length >= 1 ? length + " m" : length >= 0.01 ? Math.round(length * 100) + " cm" : Math.round(length * 1000) + " mm";
+  const text = film.si || length >= 1 ? length + " m" : length >= 0.01 ? Math.round(length * 100) + " cm" : Math.round(length * 1000) + " mm";
   pen.fillStyle = INK; pen.fillRect(width - 10 - length * scale, height - 10, length * scale, 2);
   pen.textAlign = "right"; pen.fillText(text, width - 10, height - 15); pen.textAlign = "left";
 }
