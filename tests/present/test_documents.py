@@ -73,7 +73,7 @@ PURE_NUMBERS = re.compile(
     r"""^(
       .*_?(ratio|ratios|magnitude|count|counts|rate|interval|probability|confidence|scale|limit|steps?|index|corners?|changes|stones|points|friction_demand|friction_to_rock|friction_needed_at_landing)
     | (ratio|rate|probability|threshold_ratio|jma_intensity)_(interval|range|reinforced)
-    | (first|last|nearest_flip|flips|first_fall|falls_above_first|largest_at_scale|factor|spread)  # factors on a record
+    | (first|last|nearest_flip|flips|flips_at_factor|first_fall|falls_above_first|largest_at_scale|factor|spread)  # factors on a record
     | (size|slenderness|amplitude|inset|share|(rocking_)?restitution(_[xy])?)  # shares, and ratios of velocities
     | (alpha|beta|gamma|kappa|mu|mu_kinetic|damping|r|over_omega_v|height_over_width|b_over_h)
     | (common_error|stone_error|bias)_ln_pga | frequency_error_ln_f | momentum_error | jma_intensity | share_on_corners | counts_by_kind
