@@ -90,6 +90,7 @@ def map(  # noqa: A001 - the command's name
     from seisblock.cli.emit import emit
     from seisblock.cli.inputs import preparation_of, refuse_windows
     from seisblock.cli.progress import progress
+    from seisblock.errors import RecordError
     from seisblock.present.documents.map import document
     from seisblock.present.files import refuse_collisions
     from seisblock.present.text import map as shown
@@ -115,6 +116,8 @@ def map(  # noqa: A001 - the command's name
             workers=workers,
             progress=advance,
         )
+    if all(answer.failure is not None and answer.pga_m_s2 is None for answer in found.answers):
+        raise RecordError("no station has an answer: {why}", why=found.answers[0].failure)
     surveys = () if surveyed is None else judge_surveys(surveyed, found, read_cemetery(cemetery or "aoyama.csv"))
     if geojson is not None:
         from seisblock.present.exports.geojson import write_geojson
