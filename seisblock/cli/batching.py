@@ -16,7 +16,7 @@ from seisblock.cli.inputs import preparation_of, refuse_windows
 from seisblock.cli.options import Source
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import answer, say, show, warn
-from seisblock.errors import OutputError, ParameterError, RecordError
+from seisblock.errors import OutputError, ParameterError, RecordError, SeisblockError
 from seisblock.present.documents.batch import document
 from seisblock.present.documents.write import to_json
 from seisblock.present.files import checked_target, read_table, write_table
@@ -138,7 +138,7 @@ def _solve(
             for rows, recording in zip(found, kept, strict=False):
                 journal.keep(recording.key, rows)
                 reasons |= {str(row[REASON]): row[REASON] for row in rows if row.get(REASON)}
-        except KeyboardInterrupt:
+        except (KeyboardInterrupt, SeisblockError):
             say("{done} of {count} records are finished and kept: --resume goes on", done=len(journal.places), count=len(keys))
             raise
     return reasons

@@ -2,10 +2,12 @@
 
 import os
 import signal
+from contextlib import suppress
 
 import pytest
 
 import seisblock
+from seisblock.errors import ParameterError
 from seisblock.studies.batch import cluster, run
 from tests.batch.conftest import write_record
 
@@ -75,3 +77,17 @@ def test_a_record_of_which_every_worker_dies_is_a_row(client, records):
 
     assert list(cluster.on_cluster(client, work, ["a", "deadly", "b"], lost=reason)) == ["a", "lost deadly", "b"]
     assert len(lost) == 1
+
+
+def test_a_scheduler_that_goes_away_is_no_fault_of_a_record(records):
+    """One sentence, and the records under way have no rows: they stood in the table as records of which every worker had died."""
+    found, read = [], [seisblock.read(name) for name in records]
+    plan, _ = run.make_plan(BODIES, "respond", options={"mu": 0.5}, reading=run.Options())
+    local = distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=60)
+    with distributed.Client(local, timeout=1) as client, pytest.raises(ParameterError, match="stopped answering"):
+        for rows in run.each_record(iter(read), plan, total=12, client=client):
+            found += rows
+            local.sync(local.scheduler.close)
+    with suppress(TimeoutError):  # its scheduler is closed already
+        local.close(timeout=1)
+    assert found and not [row for row in found if row.get("failure")]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import logging
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import contextmanager
+from concurrent.futures import CancelledError
+from contextlib import contextmanager, suppress
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -61,6 +63,7 @@ def connected(address: str) -> Iterator[Client]:
             address=address[:200],
             local=LOCAL + "2",
         ) from error
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a scheduler that goes is told here, in a sentence
     with client:
         yield client
 
@@ -87,9 +90,13 @@ def on_cluster(
         Taken as they are needed.
     lost : callable
         ``lost(task, reason)``: the answer for a task that every worker which takes it dies of.
+
+    Raises
+    ------
+    ParameterError
+        If the scheduler goes away.
     """
     from distributed import KilledWorker
-    from distributed.client import FutureCancelledError
 
     remaining = iter(tasks)
     under_way: deque[tuple[Task, Any]] = deque()
@@ -102,9 +109,22 @@ def on_cluster(
             task, future = under_way[0]
             try:
                 answer = future.result()
-            except (KilledWorker, FutureCancelledError) as error:
+            except (KilledWorker, CancelledError) as error:
+                if _is_gone(client, error):
+                    raise
                 answer = lost(task, str(error)[:200])
             under_way.popleft()
             yield answer
+    except (OSError, CancelledError) as error:
+        if not _is_gone(client, error):
+            raise
+        raise ParameterError("the Dask scheduler stopped answering: start it again, and go on") from error
     finally:
-        client.cancel([future for _, future in under_way])
+        if client.status == "running":
+            with suppress(OSError):  # it may go this very moment
+                client.cancel([future for _, future in under_way])
+
+
+def _is_gone(client: Client, error: BaseException) -> bool:
+    """Return whether an error tells of a scheduler that is gone, of which no task is to blame."""
+    return client.status != "running" or getattr(error, "reason", "") == "scheduler-connection-lost"
