@@ -15,7 +15,6 @@ from seisblock.cli.options import Source, gravity_option, output_options, real_r
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
 from seisblock.cli.types import Count
-from seisblock.errors import InputError
 from seisblock.words import noted, tell
 
 if TYPE_CHECKING:
@@ -152,8 +151,6 @@ def map(  # noqa: A001 - the command's name
 
     told = document(found, subject, surveys, upstairs=source.floor is not None)
     emit(told, output, tables=tables, csv=table, figure=figure)
-    if all(answer.failure for answer in found.answers):
-        raise InputError("no station has an answer: nothing that was named could be read")
 
 
 def _subject(
