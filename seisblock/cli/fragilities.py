@@ -164,6 +164,9 @@ def _export(study: FragilityStudy, asked: Mapping[str, Any]) -> None:
         say("wrote {path}", path=rows.with_suffix(".json"))
     if asked["nrml"] is not None:
         write_text(asked["nrml"], nrml(study, shape=asked["nrml_shape"]))
+        drawn = {curve.limit for curve in study.curves if curve.curve is not None}
+        if asked["nrml_shape"] == "logncdf" and (bare := sorted({curve.limit for curve in study.curves} - drawn)):
+            say("{path} leaves out {limits}, of which no body has a curve", path=asked["nrml"], limits=bare)
         say("wrote {path}", path=asked["nrml"])
 
 

@@ -42,6 +42,23 @@ def study():
     return run_fragility(records, bodies, "rock", limits=("lean=0.5", "overturn"), im="pga", levels=np.linspace(1, 16, 40), bootstrap=2)
 
 
+def test_a_limit_without_a_curve_is_left_out():
+    """Where rocking begins is sharp, one intensity for every record: no curve, and no reason to refuse that of falling."""
+    study = run_fragility(
+        synthetic_suite(12, seconds=15.0),
+        {"shelf": Block(0.3, 1.5)},
+        "rock",
+        limits=("rock", "overturn"),
+        im="pga",
+        levels=np.linspace(1, 16, 40),
+        bootstrap=2,
+    )
+    model = ElementTree.fromstring(nrml(study))
+    assert [curve.curve is None for curve in study.curves] == [True, False]
+    assert [state.text for state in model.iter(f"{{{NAMESPACE}}}limitStates")] == ["overturn"]
+    assert [params.get("ls") for params in model.iter(f"{{{NAMESPACE}}}params")] == ["overturn"]
+
+
 @pytest.fixture(scope="module")
 def files(study, tmp_path_factory):
     """The four files."""

@@ -40,7 +40,7 @@ def imt_of(measure: IntensityMeasure) -> tuple[str, float]:
 
 
 def nrml(study: FragilityStudy, *, shape: str = "logncdf") -> str:
-    """Return a fragility model in NRML 0.5: a function for each body, a limit state for each limit.
+    """Return a fragility model in NRML 0.5: a function for each body, a limit state for each limit that has a curve.
 
     Parameters
     ----------
@@ -62,9 +62,9 @@ def nrml(study: FragilityStudy, *, shape: str = "logncdf") -> str:
         raise OutputError("there is no shape {shape!r} of a fragility model; there are {known}", shape=str(shape)[:40], known=list(SHAPES))
     if shape == "discrete" and study.method == CLOUD:
         raise OutputError("a cloud has no levels that shares stand at: take logncdf, or the method stripes")
-    limits = list(dict.fromkeys(curve.limit for curve in study.curves))
     bodies = dict.fromkeys(curve.body for curve in study.curves if curve.curve is not None)
-    whole = {body: [c for c in study.curves if c.body == body] for body in bodies}
+    limits = list(dict.fromkeys(curve.limit for curve in study.curves if shape == "discrete" or curve.curve is not None))
+    whole = {body: [c for c in study.curves if c.body == body and c.limit in limits] for body in bodies}
     whole = {body: curves for body, curves in whole.items() if shape == "discrete" or all(c.curve is not None for c in curves)}
     if not whole:
         raise OutputError("no body has a curve for each limit, which a fragility model needs: leave a limit out, or ask for other levels")
