@@ -64,7 +64,14 @@ UPWARD = ("x", "y", "z", "-x", "-y", "-z")
     help="How far above the ground a point may lie that carries, m or with a unit. [default: 0.002 of the largest extent]",
 )
 @option("--unit", type=click.Choice(list(LENGTH_UNITS)), default="m", show_default=True, section="Body", help="Unit of the file's numbers.")
-@option("--up", type=click.Choice(UPWARD), default="z", show_default=True, section="Body", help="The file's axis that points upwards.")
+@option(
+    "--up",
+    type=click.Choice(UPWARD),
+    default="z",
+    show_default=True,
+    section="Body",
+    help="The file's axis that points upwards; its x stays x, or y stays y where that is x.",
+)
 @option(
     "--facing",
     type=float,
@@ -100,7 +107,7 @@ def body(
 
     The surface must be closed. The body is laid on level ground as it rests nearest to the position of the scan; what carries is the
     convex hull of the points within --tolerance of the ground, and --inset moves each of its sides inwards. The file of --out is a body
-    for rock, respond, criteria and batch, which take its arms for the azimuth that they solve.
+    for rock, respond, criteria, batch and fit, which take its arms for the azimuth that they solve.
     """
     from seisblock.bodies.scan.directions import scan_azimuths
     from seisblock.bodies.scan.scan import scan_body

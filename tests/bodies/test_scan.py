@@ -130,9 +130,11 @@ def test_formats_agree(write, tmp_path):
 def test_every_axis_may_point_upwards(up, tmp_path):
     """Whatever axis is up, volume and height are the same, nothing is mirrored, and the body stands."""
     vertices, faces = frustum(5, 0.3, 0.2, 0.8, sheared=(0.05, 0.02))
-    first, second, third, sign = UPWARD[up]
     shuffled = np.empty_like(vertices)
-    shuffled[:, first], shuffled[:, second], shuffled[:, third] = vertices[:, 0], vertices[:, 1], sign * vertices[:, 2]
+    for column, (axis, sign) in enumerate(UPWARD[up]):
+        shuffled[:, axis] = sign * vertices[:, column]
+    kept = 1 if up.endswith("x") else 0
+    assert UPWARD[up][kept] == (kept, 1)
     body = scan_body(write_ply(tmp_path / "body.ply", shuffled, faces), up=up).body
     upright = scan_body(write_ply(tmp_path / "upright.ply", vertices, faces)).body
     assert body.centre == pytest.approx(upright.centre, abs=1e-12)

@@ -23,8 +23,18 @@ from seisblock.words import noted
 SUFFIXES = (".stl", ".ply", ".obj")
 """Formats of meshes that are read."""
 
-UPWARD = {"x": (1, 2, 0, 1), "y": (2, 0, 1, 1), "z": (0, 1, 2, 1), "-x": (2, 1, 0, -1), "-y": (0, 2, 1, -1), "-z": (1, 0, 2, -1)}
-"""For each axis of a file that may point upwards: which of its axes become x, y and z, and the sign of z; none mirrors the body."""
+UPWARD = {
+    "x": ((2, -1), (1, 1), (0, 1)),
+    "y": ((0, 1), (2, -1), (1, 1)),
+    "z": ((0, 1), (1, 1), (2, 1)),
+    "-x": ((2, 1), (1, 1), (0, -1)),
+    "-y": ((0, 1), (2, 1), (1, -1)),
+    "-z": ((0, 1), (1, -1), (2, -1)),
+}
+"""For each axis of a file that may point upwards: which of its axes, with what sign, become x, y and z.
+
+The body is turned about the file's x, which stays x; where x itself points up or down, about y.
+"""
 
 HEAD = 2**14
 """Bytes in which a file says what it holds."""
@@ -91,8 +101,7 @@ def read_mesh(name: str | Path, *, unit: str = "m", up: str = "z") -> Mesh:
     if not whole[faces].all():
         raise BodyError("{name} has vertices that are no finite numbers: export it again, without holes filled by nothing", name=str(name))
     vertices, faces = _shared(vertices * LENGTH_UNITS[unit], faces)
-    first, second, third, sign = UPWARD[up]
-    turned = np.column_stack([vertices[:, first], vertices[:, second], sign * vertices[:, third]])
+    turned = np.column_stack([sign * vertices[:, axis] for axis, sign in UPWARD[up]])
     return Mesh(turned, faces, str(name), hashlib.sha256(data).hexdigest())
 
 
