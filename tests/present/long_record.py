@@ -108,7 +108,7 @@ SOLVED = {
     "slide": lambda c: solve_slide(SlidingBase(0.15), motion(c)),
     "jump": lambda c: solve_jump(PAVILION, motion(c, 1.6), contact=Contact(mu=0.18)),
     "uplift": lambda c: solve_uplift(SpringBlock.from_frequency(1.0, 1.0, 2.0, frequency_vertical=6.0, beta=0.7), motion(c)),
-    "stack": lambda c: solve_stack(STONES, motion(c)),
+    "stack": lambda c: solve_stack(STONES, motion(c, 2.0)),
 }
 
 

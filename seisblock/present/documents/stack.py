@@ -18,6 +18,7 @@ from seisblock.references import papers
 from seisblock.results import Response
 from seisblock.solvers.stack.base import Base, base_of
 from seisblock.solvers.stack.outcome import StackOutcome
+from seisblock.solvers.stack.solve import SPRINGS
 from seisblock.studies.agreement import Agreement
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, frequencies_of
 
@@ -151,6 +152,8 @@ def document(
 ) -> Document:
     """Return the document of one run per direction; a contact of None is rigid."""
     options: dict[str, Any] = {**responses[0].options, "base": base_of(responses[0])}
+    if contact is None and options["law"] == SPRINGS:
+        contact = PileContact()  # where rigid stones created energy
     options["contact"] = None if contact is None else pile_contact_entry(contact)
     options |= {name: bool(options[name]) for name in ("vertical", "across")}
     return STACK.document(

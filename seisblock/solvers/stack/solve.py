@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from seisblock.solvers.stack.course import Course
 from seisblock.solvers.stack.outcome import End, StackOutcome, channels, stack_outcome
 from seisblock.solvers.stack.rest import rigid_steps, steps_per_sample
 from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted
+from seisblock.words import noted, said
 
 RIGID, SPRINGS = "rigid", "springs"
 """Laws of contact."""
@@ -59,7 +60,8 @@ def solve_stack(
     motion : Motion
         Ground acceleration; +x is its first row.
     law : str
-        ``rigid`` or ``springs``; default: springs where `contact` is given, else rigid.
+        ``rigid`` or ``springs``; default: springs where `contact` is given, else rigid, and springs with a warning where rigid stones
+        created energy.
     points : int
         Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
     contact : PileContact
@@ -120,7 +122,15 @@ def solve_stack(
         raise SolverError(
             "the pile {name} left the finite numbers at {ended:.3f} s: give a finer time step", name=body.name, ended=end.time
         )
-    outcome = stack_outcome(pile, end, start=motion.start_s, gravity=gravity, step=motion.dt / steps)
+    try:
+        outcome = stack_outcome(pile, end, start=motion.start_s, gravity=gravity, step=motion.dt / steps)
+    except SolverError as error:
+        if law is not None or springs is not None or (mu_kinetic, restitution, step) != (None, None, None):
+            raise
+        rest: dict[str, Any] = {"vertical": vertical, "across": across, "gravity": gravity, "stop_at_fall": stop_at_fall, "tilts": tilts}
+        found = solve_stack(body, motion, law=SPRINGS, points=points, progress=progress, **rest)
+        why = said("{name}: springs at the same points answer instead of rigid stones: {why}", name=motion.name or "x", why=error.said)
+        return replace(found, warnings=(why, *found.warnings))
     return Response(
         model="stack",
         outcome=outcome,
