@@ -27,7 +27,7 @@ WELL_UNDER_WAY = 1.0
 
 COMMANDS = {
     "a pile on 25 x 25 points": ["stack", "--contact", "grid=25", "--law", "springs"],
-    "a pile in fine steps": ["stack", "--step", "1e-6"],
+    "a pile in fine steps": ["stack", "--step", "2e-6"],
     "a criterion study": ["stack", "--criterion"],
     "versions of a stone": ["rock", "--block", "gravestone", "--perturb", "100000"],
     "versions of a body": ["respond", "--block", "gravestone", "--runs", "100000"],

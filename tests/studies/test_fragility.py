@@ -196,6 +196,12 @@ class TestIntensity:
 
 
 class TestRuns:
+    def test_no_curve_lies_beyond_any_shaking(self, records):
+        """Records of a ten-thousandth of their strength, scaled back, are no records: what a body does under them is no fragility."""
+        faint = [process.scale(record, 1e-4) for record in records]
+        with pytest.raises(ParameterError, match="half of the runs do it only where the records are scaled by"):
+            run_fragility(faint, SHELF, "rock", levels=np.linspace(1.0, 16.0, 12), bootstrap=2)
+
     def test_many_factors_are_single_runs(self, records):
         """Each solver's rows at once say what its single runs say, factor by factor."""
         motion = motion_of(records[1], "EW")

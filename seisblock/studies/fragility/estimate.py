@@ -12,15 +12,18 @@ from seisblock.studies.fragility.answer import Dispersion, Efficiency, Fragility
 from seisblock.studies.fragility.capacities import Capacities, capacities, moments
 from seisblock.studies.fragility.comparison import efficiency_of_capacities, efficiency_of_cloud
 from seisblock.studies.fragility.goodness import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
-from seisblock.studies.fragility.intensity import IntensityMeasure
+from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for
 from seisblock.studies.fragility.limits import LimitState, at_least
 from seisblock.studies.fragility.lognormal import FALLS, Lognormal, curves, curves_together, no_curve
 from seisblock.studies.fragility.suite import Suite
 from seisblock.typing import BoolArray, FloatArray
-from seisblock.words import Said
+from seisblock.words import Said, said
 
 STRIPES, IDA, CLOUD = "stripes", "ida", "cloud"
 METHODS = (STRIPES, IDA, CLOUD)
+
+BEYOND = 1000.0
+"""Factor on half of the records at the median beyond which there is no curve: of records of 1 gal those of 1 g."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +102,9 @@ def estimate(runs: Passed, suite: Suite, rules: Rules) -> list[tuple[Fragility, 
         own = alone[good.index(k)][:, :, 0]
         both = own if together is None else together[:, :, good.index(k)]
         fitted, band = _with_curve(counted, both, runs.levels, rules.confidence)
+        if fitted.median is not None and rules.method != CLOUD and (why := _beyond(fitted.median, runs.values[0], rules.measures[0])):
+            found.append((replace(counted, problem=why), None))
+            continue
         if fitted.curve is not None:
             fitted = replace(
                 fitted,
@@ -144,6 +150,16 @@ def _with_curve(counted: Fragility, samples: FloatArray, levels: FloatArray, con
     some = np.array([medians, betas])[:, kept]
     (low, high), (least, most) = np.quantile(some, ends, axis=1).T.tolist()
     return replace(found, median_interval=(low, high), beta_interval=(least, most)), _band(some[0], some[1], levels, ends)
+
+
+def _beyond(median: float, values: FloatArray, measure: IntensityMeasure) -> Said | None:
+    """Return why a curve whose median lies beyond any shaking is none: it goes through what a few versions did there."""
+    factor = float(np.median(factors_for(np.full(values.size, median), values, measure)))
+    if factor <= BEYOND:
+        return None
+    return said(
+        "half of the runs do it only where the records are scaled by {factor:.2g} and more: to this body it hardly happens", factor=factor
+    )
 
 
 def _rows(passed: BoolArray) -> BoolArray:
