@@ -1,4 +1,4 @@
-"""The table of docs/jump_and_respond.md: one pavilion under one record, by the paper's jump and by all motions together, step by step.
+"""The table of docs/models/jump_and_respond.md: one pavilion under one record, by `jump` and by `respond`, step by step.
 
 ``python -m tests.jump_and_respond`` writes it down anew.
 """
@@ -13,7 +13,7 @@ from seisblock.records import motion_of
 from seisblock.solvers.jump.solve import solve_jump
 from seisblock.solvers.respond import solve_respond
 
-PAGE = Path(__file__).parents[1] / "docs" / "jump_and_respond.md"
+PAGE = Path(__file__).parents[1] / "docs" / "models" / "jump_and_respond.md"
 BEGIN, END = "<!-- computed -->", "<!-- end -->"
 HEADINGS = ("step", "component", "rocks at (s)", "largest lean (deg)", "in the air (s)", "slip path (cm)", "ends at (cm)")
 

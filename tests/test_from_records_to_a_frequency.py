@@ -1,32 +1,22 @@
-"""Every line of docs/from_records_to_a_frequency.md runs, one after the other, and its files lead where the page says."""
+"""Every line of docs/tutorials/from_records_to_a_frequency.md runs, one after the other, and its files lead where the page says."""
 
 import json
-import re
-import shlex
-from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-
-PAGE = Path(__file__).parents[1] / "docs" / "from_records_to_a_frequency.md"
+from tests.pages import PAGES, differences
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """The folder in which the lines were run; answers that go into a file are there."""
     there = tmp_path_factory.mktemp("frequency")
-    lines = re.findall(r"^    (seisblock .+)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
-    assert len(lines) == 8
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(there)
-        for line in lines:
-            words, _, into = line.partition(" > ")
-            answer = CliRunner().invoke(main, shlex.split(words)[1:])
-            assert answer.exit_code == 0, (line, answer.stderr)
-            if into:
-                (there / into).write_text(answer.stdout, encoding="utf-8")
+        patch.setenv("COLUMNS", "80")
+        assert differences(PAGES["docs/tutorials/from_records_to_a_frequency.md"]) == []
         for name in ("bookcase", "upstairs"):
             answer = CliRunner().invoke(main, ["risk", "--fragility", f"{name}.json", "--hazard", "synthetic_hazard.csv", "--json"])
             (there / f"{name}_risk.json").write_text(answer.stdout, encoding="utf-8")

@@ -34,7 +34,7 @@ def test_every_version_of_the_changelog_is_dated():
 
 def test_the_floors_are_the_contract():
     """The table of floors in the architecture page is the layers contract, from the top down."""
-    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "developers" / "architecture.md").read_text(encoding="utf-8")
     rows = [re.findall(r"`(\w+)`", line.split("|")[1]) for line in text.splitlines() if re.match(r"\| (`|ground)", line)]
     contract = next(c for c in PROJECT["tool"]["importlinter"]["contracts"] if c["name"] == "data moves one way")
     layers = [{name.strip() for name in layer.split("|")} for layer in contract["layers"]]

@@ -1,0 +1,38 @@
+"""How the pages become a site: ``python -m sphinx -W docs site``; nothing in it asks for a network."""
+
+import sys
+from pathlib import Path
+
+sys.path[:0] = [str(Path(__file__).parent / "_ext"), str(Path(__file__).parents[1])]
+
+import seisblock  # noqa: E402
+
+project = "seisblock"
+author = "seisblock developers"
+copyright = "seisblock developers"  # noqa: A001
+version = release = seisblock.__version__
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "mathml"]
+exclude_patterns = ["_ext"]
+
+myst_enable_extensions = ["dollarmath", "deflist", "attrs_inline"]
+myst_heading_anchors = 3
+html_math_renderer = "mathml"
+nitpick_ignore_regex = [(".*", ".*")]
+
+autodoc_default_options = {"member-order": "bysource"}
+autodoc_typehints = "none"
+autosummary_generate = False
+numpydoc_show_class_members = False
+numpydoc_class_members_toctree = False
+
+html_theme = "furo"
+html_title = "seisblock"
+html_static_path = ["_static"]
+html_css_files = ["seisblock.css"]
+html_copy_source = html_show_sourcelink = False
+html_theme_options = {
+    "navigation_with_keys": True,
+    "light_css_variables": {"color-brand-primary": "#a93226", "color-brand-content": "#a93226", "color-brand-visited": "#7b3f36"},
+    "dark_css_variables": {"color-brand-primary": "#e59a8f", "color-brand-content": "#e59a8f", "color-brand-visited": "#d3b0aa"},
+}

@@ -1,0 +1,110 @@
+"""What a page shows is what the program says: the lines of README.md and of docs/, run from top to bottom in an empty folder.
+
+``console``  lines after ``$`` are commands of the program; what follows is what they print, at 80 columns, a line ``...`` any lines
+``python``   lines after ``>>>`` and what they answer; names last to the end of the page
+``sh``       shown only, for files that the reader has; commands and options have to exist
+
+A figure that a line writes and the page shows from a folder ``figures/`` was drawn by that line.
+``python -m tests.refresh_pages [PAGE]...`` writes down anew what lines print and draw.
+"""
+
+import contextlib
+import doctest
+import io
+import re
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from click.testing import CliRunner
+from PIL import Image
+
+from seisblock.cli import main
+
+ROOT = Path(__file__).parents[1]
+PAGES = {path.relative_to(ROOT).as_posix(): path for path in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))}
+FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.M | re.S)
+SHOWN = re.compile(r"!\[[^\]]*\]\(([^)]*figures/[\w.]+\.png)\)")
+ANYTHING = "..."
+GRID, COLOURS = 48, 64
+"""A figure is compared by the brightness of this many tiles across, and kept in this many colours."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A command of a page, and what the page says that it prints."""
+
+    command: str
+    shown: str
+
+
+def lines_of(block: str) -> list[Line]:
+    """Return the commands of a console block."""
+    parts = (part.partition("\n") for part in re.split(r"^\$ ", block, flags=re.M)[1:])
+    return [Line(command, trimmed(output)) for command, _, output in parts]
+
+
+def trimmed(text: str) -> str:
+    """Return a text without blanks at the ends of its lines, and without empty lines around it."""
+    return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n")
+
+
+def printed(command: str) -> str:
+    """Return what a command prints; with ``> FILE`` it goes there."""
+    words, _, into = command.partition(" > ")
+    program, *arguments = shlex.split(words)
+    assert program == "seisblock", command
+    result = CliRunner().invoke(main, arguments)
+    assert result.exit_code == 0, (command, result.stderr)
+    if into:
+        Path(into).write_text(result.stdout, encoding="utf-8")
+        return ""
+    return trimmed(result.stdout)
+
+
+def agrees(shown: str, said: str) -> bool:
+    """Tell whether what a page shows is what a command says."""
+    parts = [re.escape(line) if line != ANYTHING else "(?:.*\n)*?.*" for line in shown.split("\n")]
+    return re.fullmatch("\n".join(parts), said) is not None
+
+
+def answers(block: str, names: dict[str, object]) -> list[tuple[doctest.Example, str]]:
+    """Run a Python session; return its examples with what they answer, and keep their names."""
+    said: list[tuple[doctest.Example, str]] = []
+    for example in doctest.DocTestParser().get_examples(block):
+        with contextlib.redirect_stdout(io.StringIO()) as told:
+            exec(compile(example.source, "<page>", "single"), names)
+        said.append((example, told.getvalue()))
+    return said
+
+
+def differences(page: Path) -> list[str]:
+    """Run a page in the folder in which one stands; return where it says other than the program."""
+    found: list[str] = []
+    names: dict[str, object] = {}
+    for language, block in FENCED.findall(page.read_text(encoding="utf-8")):
+        if language == "console":
+            found += [f"$ {line.command}\n{said}" for line in lines_of(block) if not agrees(line.shown, said := printed(line.command))]
+        if language == "python":
+            found += [f">>> {each.source}{said}" for each, said in answers(block, names) if said != each.want]
+    return found
+
+
+def figures_of(page: Path) -> list[Path]:
+    """Return the figures that a page shows."""
+    return [page.parent / link for link in SHOWN.findall(page.read_text(encoding="utf-8"))]
+
+
+def tiles(figure: Path) -> np.ndarray:
+    """Return the brightness of a figure's tiles, 0 black to 1 white."""
+    with Image.open(figure) as image:
+        grey = image.convert("L")
+        return np.asarray(grey.resize((GRID, max(1, GRID * grey.height // grey.width)), Image.Resampling.BOX), dtype=float) / 255.0
+
+
+def keep(made: Path, kept: Path) -> None:
+    """Keep a figure that a line has drawn, in few colours."""
+    kept.parent.mkdir(exist_ok=True)
+    with Image.open(made) as image:
+        image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).save(kept, optimize=True)

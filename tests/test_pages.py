@@ -1,0 +1,65 @@
+"""The lines of README.md and of docs/ print, compute and draw what the pages show; those that are shown only could be typed."""
+
+import re
+
+import click
+import numpy as np
+import pytest
+
+from seisblock.cli import COMMANDS, main
+from tests.pages import FENCED, PAGES, agrees, differences, figures_of, lines_of, tiles
+
+SLOW = {"docs/guides/fit.md"}
+"""Pages whose lines take more than some seconds."""
+
+ELSEWHERE = {"docs/tutorials/from_records_to_a_frequency.md"}
+"""A page whose lines take seconds each, and lead to files that a test of its own looks at."""
+
+LANGUAGES = {"console", "python", "sh", "toml", "text"}
+SAME_BRIGHTNESS = 0.02
+"""Mean difference of tiles of one figure drawn with other versions of fonts and rasterisers; another record's differ by more."""
+
+RUN = {name for name, page in PAGES.items() if {"console", "python"} & {kind for kind, _ in FENCED.findall(page.read_text("utf-8"))}}
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in sorted(RUN - ELSEWHERE)])
+def test_a_page_shows_what_the_program_says(name, tmp_path, monkeypatch):
+    """What a reader sees is what the commands print at 80 columns, what Python answers, and what the figures' lines draw."""
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.chdir(tmp_path)
+    assert differences(PAGES[name]) == []
+    drawn = {figure: tmp_path / figure.name for figure in figures_of(PAGES[name])}
+    assert [figure.name for figure, made in drawn.items() if not made.exists()] == []
+    for figure, made in drawn.items():
+        assert tiles(figure).shape == tiles(made).shape, figure
+        assert np.abs(tiles(figure) - tiles(made)).mean() < SAME_BRIGHTNESS, figure
+
+
+def test_pages_are_read():
+    """Every kind of line is found somewhere, and only those that somebody looks at."""
+    kinds = {kind for page in PAGES.values() for kind, _ in FENCED.findall(page.read_text("utf-8"))}
+    assert {"console", "python", "sh"} <= kinds <= LANGUAGES
+    blocks = [block for page in PAGES.values() for kind, block in FENCED.findall(page.read_text("utf-8")) if kind == "python"]
+    assert [block for block in blocks if not block.startswith(">>> ")] == []
+
+
+@pytest.mark.parametrize("name", sorted(PAGES))
+def test_lines_that_are_shown_could_be_typed(name):
+    """Every command and option of a page exists, those that are shown only and those in a sentence too."""
+    text = PAGES[name].read_text(encoding="utf-8")
+    shown = [line.split(" #")[0] for kind, block in FENCED.findall(text) if kind == "sh" for line in block.splitlines()]
+    said = [line for line in (*shown, *re.findall(r"`([^`\n]+)`", text)) if re.search(r"(^|&& )seisblock [a-z]", line)]
+    for line in said:
+        command, *words = line[line.index("seisblock ") :].split(" | ")[0].split()[1:]
+        assert command in COMMANDS, line
+        known = {name for param in main.get_command(click.Context(main), command).params for name in (*param.opts, *param.secondary_opts)}
+        assert {word.split("=")[0] for word in words if re.match(r"--?[a-z]", word)} <= known | {"--help"}, line
+
+
+def test_what_is_shown_is_compared():
+    """A line of another number is another line; dots stand for any lines, not for parts of one."""
+    assert agrees("NS: falls\n...\nend", "NS: falls\na\n\nb\nend")
+    assert agrees("NS: falls\n...", "NS: falls\na")
+    assert not agrees("NS: falls\n...\nend", "NS: stands\na\nend")
+    assert not agrees("NS: falls ... 3", "NS: falls 1 3")
+    assert lines_of("$ seisblock a\nx  \n\n$ seisblock b\n")[0].shown == "x"
