@@ -48,19 +48,19 @@ class Budget:
 
     def read(self, name: str, stream: Readable) -> bytes:
         """Return what a stream holds, read piece by piece and no further than the budget goes."""
-        pieces = []
-        while piece := stream.read(_CHUNK):
-            self.bytes_spent += len(piece)
-            if self.bytes_left < 0:
-                limit = self.limits["SEISBLOCK_READ_MIB"]
-                raise RecordError(
-                    "{name} holds more than the {limit} MiB that may be read: set {variable} to read more",
-                    name=name,
-                    limit=limit,
-                    variable="SEISBLOCK_READ_MIB",
-                )
-            pieces.append(piece)
-        return b"".join(pieces)
+        metered = Metered(name, stream, self)
+        return b"".join(iter(lambda: metered.read(_CHUNK), b""))
+
+    def spend_bytes(self, name: str, count: int) -> None:
+        """Count bytes that were read or unpacked."""
+        self.bytes_spent += count
+        if self.bytes_left < 0:
+            raise RecordError(
+                "{name} holds more than the {limit} MiB that may be read: set {variable} to read more",
+                name=name,
+                limit=self.limits["SEISBLOCK_READ_MIB"],
+                variable="SEISBLOCK_READ_MIB",
+            )
 
     def spend_member(self, name: str) -> None:
         """Count one member of an archive."""
@@ -89,6 +89,29 @@ class Budget:
             limit=self.limits[variable],
             variable=variable,
         )
+
+
+@dataclass(frozen=True)
+class Metered:
+    """A stream of which every byte is paid for as it is read.
+
+    Parameters
+    ----------
+    name : str
+        What messages call it.
+    stream : Readable
+    budget : Budget
+    """
+
+    name: str
+    stream: Readable
+    budget: Budget
+
+    def read(self, size: int, /) -> bytes:
+        """Return so many bytes, fewer at the end."""
+        piece = self.stream.read(size)
+        self.budget.spend_bytes(self.name, len(piece))
+        return piece
 
 
 def budget() -> Budget:

@@ -10,10 +10,12 @@ import tarfile
 import zipfile
 import zlib
 from collections.abc import Iterator
+from typing import IO
 
 from seisblock.errors import InputError, RecordFormatError
-from seisblock.readers.budget import Budget
-from seisblock.readers.source import Blob
+from seisblock.limits import MIB
+from seisblock.readers.budget import Budget, Metered, Readable
+from seisblock.readers.source import Blob, Held
 
 _PLOT = re.compile(r"\.(?:ps|eps|gif|png|jpe?g|tiff?|pdf|svg|html?)(?:\.gz)?\Z|\.img\.tar\.gz\Z|(?:^|/)(?:\._|__MACOSX/)", re.IGNORECASE)
 _DAMAGE = (
@@ -31,9 +33,13 @@ _DAMAGE = (
 """What the packers of the standard library raise on archives that are cut, spoilt or encrypted."""
 
 
+_TAR_MARK = slice(257, 262)
+"""Where a tar says that it is one."""
+
+
 def is_bundle(data: bytes) -> bool:
     """Return whether bytes are a zip, gzip or tar archive."""
-    return data.startswith((b"PK\x03\x04", b"PK\x05\x06", b"\x1f\x8b")) or data[257:262] == b"ustar"
+    return data.startswith((b"PK\x03\x04", b"PK\x05\x06", b"\x1f\x8b")) or data[_TAR_MARK] == b"ustar"
 
 
 def members_of(blob: Blob, budget: Budget) -> list[Blob]:
@@ -83,25 +89,46 @@ def walk(blob: Blob, budget: Budget, depth: int = 1) -> Iterator[Blob]:
 
 
 def _unpacked(blob: Blob, budget: Budget) -> Iterator[Blob]:
-    """Yield the members of one archive, named archive/member."""
-    data, name = blob.data, blob.name
-    if data.startswith(b"PK"):
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            for info in archive.infolist():
-                budget.spend_member(name)
-                if not info.is_dir() and not _PLOT.search(info.filename):
-                    inner = f"{name}/{info.filename}"
-                    budget.announce_bytes(inner, info.file_size)
-                    with archive.open(info) as stream:
-                        yield Blob(inner, budget.read(inner, stream))
-        return
-    if data.startswith(b"\x1f\x8b"):
-        with gzip.GzipFile(fileobj=io.BytesIO(data)) as packed:
-            data = budget.read(name, packed)
-        if data[257:262] != b"ustar":
-            yield Blob(re.sub(r"\.gz\Z", "", name, flags=re.IGNORECASE), data)
+    """Yield the members of one archive, named archive/member, none held but the one that is taken."""
+    stream = io.BufferedReader(Held(blob.held), MIB)
+    head = blob.held[: _TAR_MARK.stop]
+    if head.startswith(b"PK"):
+        yield from _of_zip(blob.name, stream, budget)
+    elif head.startswith(b"\x1f\x8b"):
+        yield from _of_gzip(blob.name, stream, budget)
+    else:
+        yield from _of_tar(blob.name, stream, budget)
+
+
+def _of_zip(name: str, stream: IO[bytes], budget: Budget) -> Iterator[Blob]:
+    """Yield the members of a zip."""
+    with zipfile.ZipFile(stream) as archive:
+        for info in archive.infolist():
+            budget.spend_member(name)
+            if not info.is_dir() and not _PLOT.search(info.filename):
+                inner = f"{name}/{info.filename}"
+                budget.announce_bytes(inner, info.file_size)
+                with archive.open(info) as member:
+                    yield Blob(inner, budget.read(inner, member))
+
+
+def _of_gzip(name: str, stream: IO[bytes], budget: Budget) -> Iterator[Blob]:
+    """Yield what is packed, and the members of a tar, unpacked as they are taken and to the end, where its checksum stands."""
+    with gzip.GzipFile(fileobj=stream) as packed:
+        is_tar = packed.read(_TAR_MARK.stop)[_TAR_MARK] == b"ustar"
+        packed.seek(0)
+        if not is_tar:
+            yield Blob(re.sub(r"\.gz\Z", "", name, flags=re.IGNORECASE), budget.read(name, packed))
             return
-    with tarfile.open(fileobj=io.BytesIO(data), mode="r:") as archive:
+        metered = Metered(name, packed, budget)
+        yield from _of_tar(name, metered, budget)
+        while metered.read(MIB):
+            pass
+
+
+def _of_tar(name: str, stream: Readable, budget: Budget) -> Iterator[Blob]:
+    """Yield the members of a tar, from its beginning to its end."""
+    with tarfile.open(fileobj=stream, mode="r|", tarinfo=_Header) as archive:  # type: ignore[call-overload]
         for entry in archive:
             budget.spend_member(name)
             # a sparse member is mostly holes: no record, and its size is no measure of the archive's
@@ -112,3 +139,15 @@ def _unpacked(blob: Blob, budget: Budget) -> Iterator[Blob]:
             content = archive.extractfile(entry)
             if content is not None:
                 yield Blob(inner, budget.read(inner, content))
+
+
+class _Header(tarfile.TarInfo):
+    """The header of a member of a tar: one that is spoilt or cut is damage, and not the end of the archive."""
+
+    @classmethod
+    def fromtarfile(cls, archive: tarfile.TarFile) -> _Header:
+        """Return the next header."""
+        try:
+            return super().fromtarfile(archive)  # type: ignore[return-value]
+        except (tarfile.InvalidHeaderError, tarfile.TruncatedHeaderError) as error:  # type: ignore[attr-defined]
+            raise tarfile.ReadError(str(error)) from None

@@ -1,7 +1,7 @@
 """From the names a user gives for many records to one recording after another: files, folders, patterns, lists and bundles.
 
 What belongs to one recording is told by the names of its files, as one component of a set stands for the others; nothing is read before
-its turn but what an archive holds.
+its turn, and of an archive nothing is held but the members of the sets that are not whole yet.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from seisblock.readers.detect import OBSPY, format_of
 from seisblock.readers.dispatch import Options
 from seisblock.readers.formats.at2 import set_name
 from seisblock.readers.read import read, record_of_blobs
+from seisblock.readers.shelf import Shelf
 from seisblock.readers.siblings import channel_set, knet_set
 from seisblock.readers.source import Blob, fetch, locate
 from seisblock.records import Record
@@ -242,25 +243,24 @@ def _is_archive(path: Path) -> bool:
 def _in_bundle(path: Path, options: Options) -> Iterator[Recording]:
     """Yield the recordings in a bundle, each as soon as it is whole; those of which a member is missing come last."""
     stamp = _stamp(path)
-    waiting: dict[tuple[str, ...], list[Blob]] = {}
     found = 0
     spending = budget()
-    try:
-        for member in walk(fetch(path, spending), spending):
-            if options.format is None and options.units is None and format_of(member) == OBSPY:
-                continue
-            key, size = _set_of(member.name)
-            waiting.setdefault(key, []).append(member)
-            if len(waiting[key]) == size:
-                yield _packed(waiting.pop(key), stamp)
+    with Shelf() as waiting:
+        try:
+            for member in walk(fetch(path, spending), spending):
+                if options.format is None and options.units is None and format_of(member) == OBSPY:
+                    continue
+                key, size = _set_of(member.name)
                 found += 1
-    except InputError as error:
-        yield Recording(path.name, str(path), stamp, failure=error)
-    else:
-        if not found and not waiting:
-            yield Recording(path.name, str(path), stamp, failure=RecordFormatError("{name}: no record in this bundle", name=path))
-    for members in waiting.values():
-        yield _packed(members, stamp)
+                if waiting.put(key, member) == size:
+                    yield _packed(waiting.take(key), stamp)
+        except InputError as error:
+            yield Recording(path.name, str(path), stamp, failure=error)
+        else:
+            if not found:
+                yield Recording(path.name, str(path), stamp, failure=RecordFormatError("{name}: no record in this bundle", name=path))
+        for unfinished in waiting.keys:
+            yield _packed(waiting.take(unfinished), stamp)
 
 
 def _packed(members: list[Blob], stamp: str) -> Recording:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import hashlib
+import io
 import os
 import stat
 import sys
@@ -11,12 +12,15 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError, reason
 from seisblock.ledger import reading
 from seisblock.readers.budget import Budget
 from seisblock.samples import find_sample, list_samples
+
+if TYPE_CHECKING:
+    from _typeshed import WriteableBuffer
 
 Location: TypeAlias = "str | PathLike[str]"
 
@@ -63,6 +67,34 @@ class FileBytes:
         if not unchanged:
             raise RecordError("{name} changed while it was read: read it again when it is complete", name=self.name)
         return found
+
+
+class Held(io.RawIOBase):
+    """Bytes, held in memory or in their file, as a stream."""
+
+    def __init__(self, held: bytes | FileBytes) -> None:
+        self._held, self._place = held, 0
+
+    def readable(self) -> bool:
+        """Return True."""
+        return True
+
+    def seekable(self) -> bool:
+        """Return True."""
+        return True
+
+    def seek(self, offset: int, whence: int = io.SEEK_SET, /) -> int:
+        """Go to a place, told from the beginning, from here or from the end; return where that is."""
+        self._place = max(offset + {io.SEEK_SET: 0, io.SEEK_CUR: self._place, io.SEEK_END: len(self._held)}[whence], 0)
+        return self._place
+
+    def readinto(self, buffer: WriteableBuffer, /) -> int:
+        """Fill a buffer as far as there are bytes; return how many."""
+        view = memoryview(buffer).cast("B")
+        found = self._held[self._place : self._place + len(view)]
+        view[: len(found)] = found
+        self._place += len(found)
+        return len(found)
 
 
 def stamp_of(info: os.stat_result) -> tuple[int, ...]:

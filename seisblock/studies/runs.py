@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 import os
+from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextvars import copy_context
 from threading import Event
 from typing import TypeVar
@@ -19,8 +19,11 @@ Answer = TypeVar("Answer")
 BATCH = 32
 """Runs that one thread takes at a time where an ensemble does several."""
 
-CHUNK = 128
-"""Runs handed out at a time."""
+AHEAD = 128
+"""Runs that are under way, or done and not yet asked for, at a time."""
+
+RECORDS = 16
+"""The same of runs that hold a record each."""
 
 
 def cores() -> int:
@@ -32,11 +35,16 @@ def cores() -> int:
 
 
 def in_threads(
-    work: Callable[[Item], Answer], items: Iterable[Item], *, progress: Progress | None = None, workers: int | None = None
+    work: Callable[[Item], Answer],
+    items: Iterable[Item],
+    *,
+    progress: Progress | None = None,
+    workers: int | None = None,
+    ahead: int = AHEAD,
 ) -> Generator[Answer, None, None]:
     """Yield the answers of many runs, in the order of their items.
 
-    Kernels release the GIL, so threads use all cores; no more than ``CHUNK`` runs are under way.
+    Kernels release the GIL, so threads use all cores.
 
     Parameters
     ----------
@@ -48,10 +56,12 @@ def in_threads(
         Told the number of runs done and the number in all, where the items are a sequence.
     workers : int
         Threads; as many as there are cores when left out.
+    ahead : int
+        Items that are taken before the first of their answers is: as many are held, and at least one for each thread and one to follow.
     """
-    remaining = iter(items)
-    finished = 0
-    pool = ThreadPoolExecutor(workers or cores())
+    count = workers or cores()
+    ahead = max(ahead, 2 * count)
+    pool = ThreadPoolExecutor(count)
     gone = Event()
     events = (*halting(), gone)
 
@@ -64,13 +74,22 @@ def in_threads(
         """Do one run in the language, and whatever else holds, where the answers are asked for: threads begin with nothing of it."""
         return context.copy().run(run, item)
 
+    def answers() -> Iterator[Answer]:
+        """Yield one answer after the other, and begin a run for each that is taken."""
+        under_way: deque[Future[Answer]] = deque()
+        for item in items:
+            under_way.append(pool.submit(told, item))
+            if len(under_way) == ahead:
+                yield under_way.popleft().result()
+        while under_way:
+            yield under_way.popleft().result()
+
     context = copy_context()
     try:
-        while chunk := list(itertools.islice(remaining, CHUNK)):
-            yield from pool.map(told, chunk)
-            finished += len(chunk)
+        for done, answer in enumerate(answers(), start=1):
+            yield answer
             if progress is not None and isinstance(items, Sequence):
-                progress(finished, len(items))
+                progress(done, len(items))
     finally:
         # after an interruption no run begins, and those under way end at the next pause of their kernels
         gone.set()

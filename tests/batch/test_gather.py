@@ -1,18 +1,23 @@
 """Which records a batch is of: what names stand for, each recording once, and nothing that is lost in silence."""
 
+import errno
+import gzip
 import io
 import os
 import tarfile
+import tracemalloc
 import zipfile
+from functools import partialmethod
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from seisblock.errors import RecordNotFoundError
-from seisblock.readers import read
+from seisblock.errors import RecordError, RecordFormatError, RecordNotFoundError
+from seisblock.readers import read, shelf, source
 from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import gather
+from seisblock.readers.shelf import Shelf
 from seisblock.samples import sample_directory
 from tests.batch.conftest import run, write_record
 
@@ -82,7 +87,7 @@ def packed(path, members):
             for name, data in members:
                 archive.writestr(name, data)
     else:
-        with tarfile.open(path, "w:gz") as archive:
+        with tarfile.open(path, "w:gz", compresslevel=1) as archive:
             for name, data in members:
                 info = tarfile.TarInfo(name)
                 info.size = len(data)
@@ -145,3 +150,61 @@ def test_the_sensor_of_a_borehole_is_chosen(folder):
             (folder / f"SYNH011604160125{path.suffix}{sensor}").write_bytes(path.read_bytes().replace(b"SYN001", b"SYNH01"))
     (station,) = found(*sorted(str(each.name) for each in folder.glob("SYNH01*")))
     assert len(station.files) == 6
+
+
+def members_of_stations(count, *, by_component):
+    """Return members of so many stations of about 100 kB each, of one component after the other where asked for."""
+    parts = [(path.suffix, path.read_bytes()) for path in KNET]
+    every = [(f"S{n:05d}1604160125{suffix}", data) for n in range(count) for suffix, data in parts]
+    return sorted(every, key=lambda each: each[0][-2:]) if by_component else every
+
+
+@pytest.mark.parametrize("suffix", [".zip", ".tar.gz"])
+@pytest.mark.parametrize("by_component", [False, True])
+def test_of_a_bundle_no_more_is_held_than_one_station(folder, monkeypatch, suffix, by_component):
+    """Twenty-four stations take the memory of eight: what waits for the rest of its set, and a large archive, lie in files."""
+    monkeypatch.setattr(source, "LARGE", 2**16)
+    monkeypatch.setattr(Shelf, "__init__", partialmethod(Shelf.__init__, in_memory=2**16))
+    station = sum(path.stat().st_size for path in KNET)
+    peaks = []
+    for count in (8, 24):
+        bundle = packed(folder / f"{count}{suffix}", members_of_stations(count, by_component=by_component))
+        tracemalloc.start()
+        try:
+            assert sum(len(each.blobs) == 3 for each in gather([str(bundle)], Options())) == count
+            peaks.append(tracemalloc.get_traced_memory()[1])
+        finally:
+            tracemalloc.stop()
+    assert peaks[1] - peaks[0] < 16 * station / 4
+
+
+def test_a_temporary_file_without_room_is_told(folder, monkeypatch):
+    """What was whole before is answered."""
+    bundle = packed(folder / "event.zip", members_of_stations(2, by_component=False))
+
+    class Full(io.BytesIO):
+        def write(self, data):
+            if self.tell() > 0:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            return super().write(data)
+
+    monkeypatch.setattr(shelf.tempfile, "SpooledTemporaryFile", lambda size: Full())
+    *_, failed = found(bundle)[:1]
+    with pytest.raises(RecordError, match=r"cannot be put away until the rest of its set is unpacked.*No space left"):
+        failed.read(Options())
+
+
+def test_a_bundle_that_is_cut_keeps_what_came_before(folder):
+    """An archive is unpacked as its members are taken; a spoilt header is damage, not its end, and the checksum at its end is looked at."""
+    bundle = packed(folder / "event.tar.gz", members_of_stations(4, by_component=False))
+    whole = bundle.read_bytes()
+    plain = gzip.decompress(whole)
+    header = plain.find(b"S00003")
+    spoilt = plain[: header + 148] + b"999999" + plain[header + 154 :]
+    lie = whole[:-8] + bytes(4) + whole[-4:]
+    for data, good in ((whole[: len(whole) * 2 // 3], 2), (gzip.compress(spoilt, 1), 3), (spoilt, 3), (lie, 4)):
+        bundle.write_bytes(data)
+        *kept, failed = [each for each in found(bundle) if each.failure or len(each.blobs) == 3]
+        assert [each.read(Options()).codes for each in kept] == [("NS", "EW", "UD")] * len(kept) and len(kept) >= good
+        with pytest.raises(RecordFormatError, match=r"event.tar.gz is a damaged or encrypted archive"):
+            failed.read(Options())

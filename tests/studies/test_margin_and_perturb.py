@@ -13,7 +13,7 @@ from seisblock.solvers.rock.solve import solve_rock
 from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.studies.rocking.margin import find_margin, flagged, flips_nearby, nearest_flip
 from seisblock.studies.rocking.perturb import Spread, perturb
-from seisblock.studies.runs import CHUNK, in_threads
+from seisblock.studies.runs import AHEAD, in_threads
 from seisblock.units import STANDARD_GRAVITY as G
 
 ALPHA, P = 0.25, 2.14
@@ -176,8 +176,8 @@ def test_no_runs_are_refused():
 
 
 def test_threads_answer_in_order():
-    """Answers come in the order of the items, also beyond one chunk, and an error of one run reaches the caller."""
-    items = list(range(2 * CHUNK + 7))
+    """Answers come in the order of the items, also of more than are under way at a time, and an error of one run reaches the caller."""
+    items = list(range(2 * AHEAD + 7))
     assert list(in_threads(lambda i: i * i, items)) == [i * i for i in items]
     with pytest.raises(ZeroDivisionError):
         list(in_threads(lambda i: 1 // (i - 3), items))

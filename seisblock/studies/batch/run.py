@@ -20,7 +20,7 @@ from seisblock.studies.batch.azimuths import around, check_around
 from seisblock.studies.batch.models import BatchModel, Placed, batch_model
 from seisblock.studies.batch.table import BatchTable, Row, columns_of
 from seisblock.studies.batch.task import Plan, placed, row_without_answer, rows_of
-from seisblock.studies.runs import in_threads
+from seisblock.studies.runs import RECORDS, in_threads
 from seisblock.typing import Progress
 from seisblock.words import said
 
@@ -148,7 +148,7 @@ def each_record(
     work = partial(rows_of, plan=plan)
     answers: Generator[list[Row], None, None]
     if client is None:
-        answers = in_threads(work, tasks, workers=workers)
+        answers = in_threads(work, tasks, workers=workers, ahead=RECORDS)
     else:
         from seisblock.studies.batch.cluster import on_cluster
 

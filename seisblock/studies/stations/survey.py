@@ -23,7 +23,7 @@ from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.records.doubtful import refuse_doubtful, sentences
 from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, great_circle_km, site_of, told_time
-from seisblock.studies.runs import in_threads
+from seisblock.studies.runs import RECORDS, in_threads
 from seisblock.studies.stations.effects import StationEffect, WhatStands
 from seisblock.typing import FloatArray, Progress
 from seisblock.words import said
@@ -176,7 +176,7 @@ def survey_stations(
     work = partial(_answer, subject=subject, preparation=preparation, reading=reading, strict=strict)
     answers: list[StationAnswer] = []
     known: StationAnswer | None = None
-    for answer in _with_progress(in_threads(work, _recordings(records, reading), workers=workers), progress):
+    for answer in _with_progress(in_threads(work, _recordings(records, reading), workers=workers, ahead=RECORDS), progress):
         known = _of_one_earthquake(known, answer)
         answers.append(answer)
     if not answers:
