@@ -5,20 +5,25 @@ from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).parent / "_ext"), str(Path(__file__).parents[1])]
 
+from sphinx.ext import autosummary  # noqa: E402
+
 import seisblock  # noqa: E402
+
+autosummary.WELL_KNOWN_ABBREVIATIONS += ("eq.", "eqs.", "fig.", "figs.", "sec.")  # a sentence goes on after them
 
 project = "seisblock"
 author = "seisblock developers"
 copyright = "seisblock developers"  # noqa: A001
 version = release = seisblock.__version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "mathml"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "mathml", "reference"]
 exclude_patterns = ["_ext"]
 
 myst_enable_extensions = ["dollarmath", "deflist", "attrs_inline"]
 myst_heading_anchors = 3
+smartquotes = False  # two hyphens are an option
 html_math_renderer = "mathml"
-nitpick_ignore_regex = [(".*", ".*")]
+suppress_warnings = ["ref.citation"]  # a paper that is in the literature and on no page
 
 autodoc_default_options = {"member-order": "bysource"}
 autodoc_typehints = "none"

@@ -96,6 +96,27 @@ def test_drawings_are_what_their_script_draws(tmp_path, monkeypatch):
         assert (script.parent / f"{name}.svg").read_text(encoding="utf-8") == made[name]()
 
 
+def test_every_public_name_is_in_the_reference():
+    """Each public name stands on one page of the library's reference; commands, documents and papers are taken from the program."""
+    pages = {path.stem: path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "reference").rglob("*.md")}
+    listed = [name for text in pages.values() for block in re.findall(r"```\{names\}\n(.*?)```", text, re.S) for name in block.split()]
+    assert sorted(listed) == sorted(seisblock.__all__)
+    for kind in ("commands", "documents", "literature"):
+        assert f"```{{{kind}}}" in pages[kind]
+
+
+def test_every_page_is_in_a_table_of_contents():
+    """A page of docs/ stands in the table of contents of one index, which is how a reader of the site comes to it."""
+    docs = ROOT / "docs"
+    pages = {path.relative_to(docs).with_suffix("").as_posix() for path in docs.rglob("*.md")} - {"index"}
+    listed = []
+    for index in docs.rglob("index.md"):
+        for block in re.findall(r"```\{toctree\}\n(.*?)```", index.read_text(encoding="utf-8"), re.S):
+            lines = [line for line in block.split() if line and not line.startswith(":")]
+            listed += [(index.parent / line).relative_to(docs).as_posix() for line in lines if (index.parent / f"{line}.md").exists()]
+    assert sorted(listed) == sorted(pages)
+
+
 def test_the_first_commands_of_a_newcomer_exist():
     """Commands that the pages name are commands."""
     said = {name for page in PAGES for name in re.findall(r"`seisblock ([a-z][a-z-]*)", page.read_text(encoding="utf-8"))}

@@ -1,0 +1,156 @@
+"""The reference, made while the site is built from what the program says of itself.
+
+On a page a fence named `commands`, `documents`, `literature` or `names` (one public name a line) is replaced by what it stands for, and the key of
+a paper in brackets, [Housner1963], by a link to its entry.
+"""
+
+import inspect
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import click
+from docutils import nodes
+from sphinx.application import Sphinx
+
+import seisblock
+from seisblock.cli import COMMANDS, main
+from seisblock.cli.command import SECTIONS
+from seisblock.cli.help import paragraphs, rows_of
+from seisblock.present.documents.catalogue import KINDS, schema_of
+from seisblock.references import CITED, REFERENCES
+
+FENCE = re.compile(r"^```\{(commands|documents|literature|names)\}\n(.*?)^```$", re.M | re.S)
+KEY = re.compile(r"(?<![\w\]`])\[(" + "|".join(REFERENCES) + r")\](?![\w(_:\]])")
+
+
+def plain(text: str) -> str:
+    """Return a text of the command line as Markdown that shows it as it is written."""
+    return re.sub(r"([\\`*_<>|\[\]{}$~#])", r"\\\1", text)
+
+
+def command(name: str, context: click.Context) -> Iterator[str]:
+    """Yield the reference of a command, line by line: what it does, its options in their sections, examples, papers."""
+    found = main.get_command(context, name)
+    assert found is not None
+    inner = click.Context(found, info_name=f"seisblock {name}", parent=None)
+    yield f"## {name}\n"
+    yield f"`{' '.join(['seisblock', name, *found.collect_usage_pieces(inner)])}`\n"
+    yield from (f"{plain(part)}\n" for part in paragraphs(found.help or ""))
+    groups: dict[str, list[str]] = {section: [] for section in SECTIONS}
+    for parameter, (terms, text) in rows_of(found.get_params(inner), inner):
+        groups[f"{getattr(parameter, 'section', 'Other')} options"] += [f"`{terms}`", f": {plain(text)}\n"]
+    for section, rows in groups.items():
+        if rows:
+            yield f"**{section}**\n"
+            yield from rows
+    examples = getattr(found, "examples", ())
+    if examples:
+        yield "\n".join(("```sh", *examples, "```\n"))
+    if name in KINDS:
+        yield f"Document of `--json`: [{name}](documents.md#{name})\n"
+    if CITED.get(name):
+        yield "Papers: " + ", ".join(f"[{key}]" for key in CITED[name]) + "\n"
+
+
+def commands(_: str) -> str:
+    """Return every command, from its help."""
+    context = click.Context(main, info_name="seisblock")
+    return "\n".join(line for name in COMMANDS for line in command(name, context))
+
+
+def kind_of(schema: dict[str, Any]) -> str:
+    """Return what a value may be, in words; types of their own are links."""
+    if "$ref" in schema:
+        name = schema["$ref"].rsplit("/", 1)[1]
+        return f"[{name}](#{name.lower()})"
+    if "anyOf" in schema:
+        kinds = [kind for each in schema["anyOf"] for kind in kind_of(each).split(" or ")]
+        return " or ".join(sorted(dict.fromkeys(kinds), key="null".__eq__))
+    if "enum" in schema:
+        return ", ".join("null" if value is None else f"`{value}`" for value in schema["enum"])
+    if schema.get("type") == "array":
+        return f"list of {kind_of(schema['items'])}" if schema.get("items") else "list"
+    if schema.get("type") == "object" and isinstance(schema.get("additionalProperties"), dict):
+        return f"by name: {kind_of(schema['additionalProperties'])}"
+    return str(schema.get("type", "anything"))
+
+
+def table(name: str, schema: dict[str, Any]) -> str:
+    """Return the keys of one type: what each holds, its unit, what it means."""
+    told = plain(schema.get("description", "").strip().replace("\n", " "))
+    rows = [
+        f"| `{key}` | {kind_of(value)} | {plain(value.get('unit', ''))} | {plain(' '.join(value.get('description', '').split()))} |"
+        for key, value in schema.get("properties", {}).items()
+    ]
+    head = ["| key | holds | unit | meaning |", "|---|---|---|---|"] if rows else []
+    return "\n".join((f"### {name}\n", f"{told}\n" if told else "", *head, *rows, ""))
+
+
+def documents(_: str) -> str:
+    """Return the keys of every document of ``--json``; types that several share stand once, at the end."""
+    types = {kind: schema_of(kind) for kind in KINDS}
+    owners: dict[str, list[str]] = {}
+    for kind, schema in types.items():
+        for name in schema["$defs"]:
+            owners.setdefault(name, []).append(kind)
+    parts = []
+    for kind, schema in types.items():
+        own = [table(name, shown) for name, shown in schema["$defs"].items() if owners[name] == [kind]]
+        parts += [f"## {kind}\n", f"`{schema['title']}`, written by [`seisblock {kind}`](commands.md#{kind}).\n", *own]
+    shared = {name: types[kinds[0]]["$defs"][name] for name, kinds in owners.items() if len(kinds) > 1}
+    return "\n".join((*parts, "## Types that several documents share\n", *(table(name, shared[name]) for name in sorted(shared))))
+
+
+def literature(_: str) -> str:
+    """Return every reference under its key."""
+    entries = "\n".join(f".. [{key}] {reference.text()}" for key, reference in sorted(REFERENCES.items()))
+    return "\n".join(("```{eval-rst}", entries, "```"))
+
+
+def names(listed: str) -> str:
+    """Return the public names of a list: a table, then each with its docstring."""
+    asked = listed.split()
+    parts = [
+        "```{eval-rst}",
+        ".. currentmodule:: seisblock",
+        "",
+        ".. autosummary::",
+        "   :nosignatures:",
+        "",
+        *(f"   {name}" for name in asked),
+        "",
+    ]
+    for name in asked:
+        value = getattr(seisblock, name)
+        if inspect.ismodule(value):
+            parts += [f".. automodule:: {value.__name__}", ""]
+        elif inspect.isclass(value):
+            parts += [f".. auto{'exception' if issubclass(value, Exception) else 'class'}:: {name}", "   :members:", ""]
+        else:
+            parts += [f".. autofunction:: {name}", ""]
+    return "\n".join((*parts, "```"))
+
+
+MADE = {"commands": commands, "documents": documents, "literature": literature, "names": names}
+
+
+def fill(app: Sphinx, page: str, source: list[str]) -> None:
+    """Replace fences and keys of a page, outside of code."""
+    text = FENCE.sub(lambda found: MADE[found[1]](found[2]), source[0])
+    pieces = re.split(r"(^```.*?^```$|`[^`\n]+`)", text, flags=re.M | re.S)
+    source[0] = "".join(piece if piece.startswith("`") else KEY.sub(r"{cite}`\1`", piece) for piece in pieces)
+
+
+def cite(
+    name: str, raw: str, key: str, line: int, inliner: Any, options: Any = None, content: Any = ()
+) -> tuple[list[nodes.Node], list[Any]]:
+    """Return a link to the entry of a paper."""
+    return [nodes.citation_reference(f"[{key}]_", key, refname=key)], []
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Enter the replacements and the role."""
+    app.add_role("cite", cite)
+    app.connect("source-read", fill)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
