@@ -79,6 +79,24 @@ def test_values_held_in_the_midst_of_shaking(fill):
     assert doubts_of(np.concatenate((np.zeros(500), SHAKING, np.zeros(500)))) == []
 
 
+@pytest.mark.parametrize("period", [0.2, 0.37, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize("cycles", [0.5, 1.0, 1.5])
+def test_a_pulse_that_comes_to_rest_is_no_gap(period, cycles):
+    """A sine by a formula, and the zeros after it, hold nothing in the midst of shaking, wherever zero lies between two samples."""
+    t = DT * np.arange(800)
+    for begin in (0.5, 0.503, 0.5077):
+        inside = (t >= begin) & (t - begin < cycles * period)
+        assert doubts_of(np.where(inside, 3.0 * np.sin(2 * np.pi * (t - begin) / period), 0.0)) == []
+
+
+def test_shaking_that_is_cut_and_filled_with_zeros_is_a_gap():
+    """Wherever strong shaking is cut; a pulse that is cut is one, too."""
+    cuts = [cut for cut in range(1500, 3500, 7) if abs(SHAKING[cut - 1]) > 0.1 * np.abs(SHAKING).max()]
+    assert all("held" in doubts_of(np.concatenate((SHAKING[:cut], np.zeros(50)))) for cut in cuts)
+    pulse = np.sin(2 * np.pi * 0.5 * DT * np.arange(140))
+    assert "held" in doubts_of(np.concatenate((np.zeros(50), pulse, np.zeros(300))))
+
+
 @pytest.mark.parametrize("where", [5, 700, 2600, 5990])
 @pytest.mark.parametrize("size", [50.0, -20.0])
 def test_a_lone_spike(where, size):
