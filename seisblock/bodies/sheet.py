@@ -8,8 +8,8 @@ import unicodedata
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from seisblock.errors import BodyError, reason
-from seisblock.ledger import reading
+from seisblock.contents import contents
+from seisblock.errors import BodyError
 from seisblock.units import LENGTH_UNITS, MASS_UNITS, parse_length
 
 UNIT = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
@@ -31,11 +31,7 @@ def sheet_text(path: Path, name: str) -> str:
     BodyError
         If it cannot be read, or is no text.
     """
-    try:
-        data = path.read_bytes()
-        reading(path)
-    except OSError as error:
-        raise BodyError("cannot read {name}: {reason}", name=name, reason=reason(error)) from error
+    data = contents(path, name, BodyError)
     if b"\0" in data and data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
         raise BodyError("{name} is no table of text: give a CSV file with one line for each row", name=name)
     for encoding in ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp932"):

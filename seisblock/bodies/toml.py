@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from seisblock import checks
-from seisblock.errors import BodyError, reason
-from seisblock.ledger import reading
+from seisblock.contents import contents
+from seisblock.errors import BodyError
 from seisblock.samples import sample_directory
 from seisblock.units import parse_length, parse_mass
 from seisblock.words import said
@@ -42,11 +42,7 @@ def read_table(name: str | Path) -> dict[str, Any]:
         path = bundled
     if path.is_dir():
         raise BodyError("{name} is a directory: give a TOML file that describes a body", name=name)
-    try:
-        data = path.read_bytes()
-        reading(path)
-    except OSError as error:
-        raise BodyError("{name} cannot be read: {reason}", name=str(name), reason=reason(error)) from error
+    data = contents(path, str(name), BodyError)
     try:
         table = tomllib.loads(data.decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:  # no UTF-8, no TOML, a date that is none, lists in lists in lists

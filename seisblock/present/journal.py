@@ -66,7 +66,11 @@ class Journal:
             If it cannot be written.
         """
         with _told(path):
-            path.write_bytes(_line(purpose))
+            try:
+                path.write_bytes(_line(purpose))
+            except OSError:
+                path.unlink()  # nothing of a batch is in it
+                raise
         return cls(path)
 
     @classmethod

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
+from seisblock.contents import contents
 from seisblock.errors import InputError, RecordFormatError, RecordNotFoundError, reason
 from seisblock.ledger import reading
 from seisblock.readers.budget import budget
@@ -148,11 +149,9 @@ def _listed(path: Path, options: Options, within: tuple[str, ...]) -> Iterator[s
     if real in within:
         raise RecordNotFoundError("{name}: this list of records names itself: take it off the list", name=path)
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-        reading(path)
-    except (OSError, UnicodeDecodeError) as error:
-        why = reason(error) if isinstance(error, OSError) else str(error)
-        raise RecordNotFoundError("{name}: the list of records cannot be read: {reason}", name=path, reason=why) from error
+        lines = contents(path, str(path), RecordNotFoundError).decode("utf-8-sig").splitlines()
+    except UnicodeDecodeError as error:
+        raise RecordNotFoundError("{name}: the list of records cannot be read: {reason}", name=path, reason=str(error)) from error
     named = [line.strip() for line in lines if line.strip() and not line.lstrip().startswith("#")]
     if not named:
         raise RecordNotFoundError("{name}: the list names no record: write one file on each line", name=path)
@@ -232,7 +231,9 @@ def _stamp(path: Path) -> str:
 
 
 def _is_archive(path: Path) -> bool:
-    """Return whether a file is a bundle."""
+    """Return whether a file is a bundle; of a pipe nobody knows, for what is looked at is gone."""
+    if not path.is_file():
+        return False
     try:
         with path.open("rb") as stream:
             return is_bundle(stream.read(512))

@@ -26,6 +26,7 @@ from seisblock.measures.frequency import pga_pgv_frequency
 from seisblock.records.motion import Motion
 from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.solvers.stack.solve import RIGID, SPRINGS, solve_stack
+from seisblock.studies.kept_lines import keep_line, kept_lines
 from seisblock.studies.runs import in_threads
 from seisblock.typing import FloatArray, Progress
 from seisblock.units import GAL, STANDARD_GRAVITY
@@ -153,8 +154,7 @@ def criterion_study(
     for done, threshold in enumerate(in_threads(work, missing, workers=workers), start=1):
         known[threshold.frequency_hz, threshold.pga_m_s2] = threshold
         if resume is not None:
-            with resume.open("a", encoding="utf-8") as file:
-                file.write(json.dumps({"study": mark, **asdict(threshold)}) + "\n")
+            keep_line(resume, json.dumps({"study": mark, **asdict(threshold)}))
         if progress is not None:
             progress(len(cells) - len(missing) + done, len(cells))
     thresholds = tuple(known[cell] for cell in cells)
@@ -196,19 +196,14 @@ def fitted_criterion(levels: dict[float, float]) -> GravestoneFit | None:
 
 
 def _resumed(path: Path | None, mark: str) -> dict[tuple[float, float], Threshold]:
-    """Return the sines that an earlier run has finished; a last line that was cut short is left out."""
+    """Return the sines that an earlier run has finished."""
     known: dict[tuple[float, float], Threshold] = {}
-    if path is None or not path.exists():
-        return known
-    lines = path.read_text(encoding="utf-8").splitlines()
-    for number, line in enumerate(lines, start=1):
+    for number, line in enumerate([] if path is None else kept_lines(path, '{"study": "'), start=1):
         try:
             entry = json.loads(line)
             study, cell = entry.pop("study"), (float(entry["frequency_hz"]), float(entry["pga_m_s2"]))
             threshold = Threshold(*cell, entry["ratio"], tuple(entry["fallen"]))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            if number == len(lines):
-                break
             raise RecordFormatError(
                 "{path}, line {number}: not a line of a criterion study; give another file", path=path, number=number
             ) from error

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 import time
 
 import click
@@ -10,13 +12,24 @@ from click.testing import CliRunner
 
 import seisblock
 from seisblock import Block, Motion
+from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.roster import read_bodies
+from seisblock.bodies.scan.mesh import read_mesh
+from seisblock.bodies.toml import read_table
 from seisblock.cli import COMMANDS, main
 from seisblock.cli.stack import COARSEST
 from seisblock.cli.types import Count
-from seisblock.errors import ParameterError
+from seisblock.errors import InputError, ParameterError
+from seisblock.readers.dispatch import Options
+from seisblock.readers.gather import gather
+from seisblock.studies.fit.table import read_outcomes
 from seisblock.studies.gravestone_criterion import PGAS, RATIOS
+from seisblock.studies.hazard.given import read_fragility
+from seisblock.studies.hazard.table import read_hazard
 from seisblock.studies.inverse.factors import scale_factors
+from seisblock.studies.kept_lines import kept_lines
 from seisblock.studies.standing.azimuths import respond_directions
+from seisblock.studies.stations.surveys import read_surveys
 
 SOON_S = 90.0
 """Processor time, s, within which anything is refused, a compilation of the kernels included."""
@@ -136,6 +149,48 @@ def test_too_much_is_refused(what, tmp_path, monkeypatch):
     assert (done.exit_code, done.stdout) == (code, ""), done.stderr
     assert told in " ".join(done.stderr.split())
     assert time.process_time() - start < SOON_S
+
+
+READ = {
+    "a body": ("z.toml", read_table),
+    "a list of bodies": ("z.csv", read_bodies),
+    "a cemetery": ("z.csv", read_cemetery),
+    "a scan": ("z.stl", read_mesh),
+    "a list of records": ("z.txt", lambda path: list(gather([f"@{path}"], Options()))),
+    "outcomes": ("z.csv", read_outcomes),
+    "a hazard": ("z.csv", read_hazard),
+    "a fragility": ("z.json", read_fragility),
+    "surveyed places": ("z.csv", read_surveys),
+    "what a study keeps": ("z.jsonl", lambda path: kept_lines(path, "{")),
+}
+"""Everything that is read besides records."""
+
+
+@pytest.mark.parametrize("what", READ)
+def test_no_device_is_read_for_ever(what, tmp_path):
+    """R9: /dev/zero has no end; a name that leads to it is refused, whatever it stands for."""
+    name, use = READ[what]
+    path = tmp_path / name
+    path.symlink_to("/dev/zero")
+    with pytest.raises(InputError, match=f"{name} is a device: give a file"):
+        use(path)
+
+
+@pytest.mark.parametrize("what", READ)
+def test_no_more_is_read_than_may_be(what, tmp_path, monkeypatch):
+    """R9: what lifts the limit is named; a pipe, which does not say how much comes, is read as far as it."""
+    monkeypatch.setenv("SEISBLOCK_READ_MIB", "1")
+    name, use = READ[what]
+    path = tmp_path / name
+    path.write_bytes(b"0" * (2**20 + 1))
+    refused = pytest.raises(InputError, match=f"{name}: 2 MiB of a file, and 1 are allowed: .* set SEISBLOCK_READ_MIB")
+    with refused:
+        use(path)
+    path.unlink()
+    os.mkfifo(path)
+    writing = subprocess.Popen(["sh", "-c", f"head -c 2000000 /dev/zero > {path}"], stderr=subprocess.DEVNULL)
+    with writing, refused:
+        use(path)
 
 
 def test_curves_of_a_day_are_refused_with_what_lifts_the_limit(tmp_path, monkeypatch):

@@ -16,7 +16,9 @@ from click.testing import CliRunner
 from seisblock.cli import main
 from seisblock.errors import OutputError
 from seisblock.present.files import replacing, write_text
+from seisblock.present.journal import Journal
 from seisblock.samples import sample_path
+from seisblock.studies.kept_lines import keep_line, kept_lines
 
 PROGRAM = [sys.executable, "-m", "seisblock"]
 
@@ -191,6 +193,74 @@ def test_a_film_is_looked_at_before_it_is_moved(content, good, tmp_path, monkeyp
     with contextlib.nullcontext() if good else pytest.raises(OutputError, match="not whole"):
         animation.animate(frames, film)
     assert film.read_bytes() == (content if good else b"old")
+
+
+def test_a_film_that_fills_the_disk_says_so(tmp_path, monkeypatch):
+    """R2: of all that ffmpeg tells, its last line is about something else."""
+    from PIL import Image
+
+    from seisblock.present.films import animation
+
+    encoder = tmp_path / "ffmpeg"
+    encoder.write_text(
+        "#!/bin/sh\ncat > /dev/null\necho 'Error muxing: No space left on device' >&2\necho 'Nothing was written' >&2\nexit 1\n"
+    )
+    encoder.chmod(0o755)
+    monkeypatch.setattr("shutil.which", lambda name: str(encoder))
+    film = tmp_path / "film.mp4"
+    film.write_bytes(b"old")
+    with pytest.raises(OutputError, match=r"No space left on device; what was there is unchanged"):
+        animation.animate([Image.new("RGB", (4, 4))] * 2, film)
+    assert film.read_bytes() == b"old"
+
+
+@contextlib.contextmanager
+def no_file_over(size):
+    """Let the system write no file larger than so many bytes."""
+    resource = pytest.importorskip("resource")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+@pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
+def test_a_figure_that_fills_the_disk_is_a_sentence(suffix, tmp_path):
+    """In the middle of whatever matplotlib does: the .pdf ended in a traceback of its compression."""
+    from matplotlib.figure import Figure
+
+    from seisblock.present.figures.canvas import save
+
+    target = tmp_path / f"out{suffix}"
+    target.write_bytes(b"old")
+    figure = Figure()
+    figure.add_subplot().plot(range(1000))
+    with no_file_over(2000), pytest.raises(OutputError, match="what was there is unchanged"):
+        save(figure, target)
+    assert [path.name for path in tmp_path.iterdir()] == [target.name] and target.read_bytes() == b"old"
+
+
+def test_a_batch_that_cannot_begin_leaves_no_journal(tmp_path):
+    """An empty one stood in the way of the next run."""
+    path = tmp_path / "out.csv.journal"
+    with no_file_over(20), pytest.raises(OutputError, match="cannot write"):
+        Journal.begin(path, {"seisblock": "x" * 100})
+    assert not path.exists()
+
+
+def test_what_a_study_keeps_is_whole_lines(tmp_path):
+    """A full disk in the middle of a line leaves those before, and the next line stands by itself."""
+    path = tmp_path / "kept.jsonl"
+    keep_line(path, "{1}")
+    with no_file_over(10), pytest.raises(OutputError, match="what was there is unchanged"):
+        keep_line(path, "{" + 20 * "2" + "}")
+    assert path.read_bytes() == b"{1}\n"
+    path.write_bytes(b"{1}\n{22")
+    assert kept_lines(path, "{") == ["{1}"]
+    keep_line(path, "{3}")
+    assert kept_lines(path, "{") == ["{1}", "{3}"]
 
 
 def test_termination_cleans_up(folder):

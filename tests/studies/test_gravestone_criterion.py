@@ -64,6 +64,7 @@ def test_a_study_can_be_taken_up_again(tmp_path):
     assert [t.ratio for t in again.thresholds] == [9.0, 3.0]
     assert told == [(2, 2)]
     assert criterion_study(SAO, **SMALL, resume=held).thresholds == again.thresholds
+    assert len(held.read_text(encoding="utf-8").splitlines()) == 2  # nothing is left of the half-written line
 
 
 def test_files_of_another_study_are_refused(tmp_path):
@@ -77,6 +78,10 @@ def test_files_of_another_study_are_refused(tmp_path):
     held.write_text("nothing\n" + before, encoding="utf-8")
     with pytest.raises(RecordFormatError, match="line 1"):
         criterion_study(SAO, **SMALL, resume=held)
+    held.write_text("somebody's only line", encoding="utf-8")
+    with pytest.raises(RecordFormatError, match="line 1"):
+        criterion_study(SAO, **SMALL, resume=held)
+    assert held.read_text(encoding="utf-8") == "somebody's only line"
     with pytest.raises(ParameterError, match="at least one"):
         criterion_study(SAO, pgas=())
 

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from seisblock import checks
-from seisblock.errors import BodyError, reason
-from seisblock.ledger import reading
-from seisblock.limits import MIB, check_budget, limit
+from seisblock.contents import contents
+from seisblock.errors import BodyError
+from seisblock.limits import check_budget
 from seisblock.samples import find_sample
 from seisblock.typing import FloatArray, IntArray
 from seisblock.units import LENGTH_UNITS
@@ -112,14 +112,7 @@ def _bytes_of(name: str | Path) -> bytes:
     path = path if bundled is None else bundled
     if path.suffix.lower() not in SUFFIXES:
         raise BodyError("{name} is no mesh by its name: expected {suffixes}", name=str(name)[:200], suffixes=list(SUFFIXES))
-    try:
-        size, most = path.stat().st_size, limit("SEISBLOCK_READ_MIB")
-        if size > most * MIB:
-            check_budget("MiB", -(-size // MIB), "SEISBLOCK_READ_MIB", where=str(name), error=BodyError)
-        data = path.read_bytes()
-        reading(path)
-    except OSError as error:
-        raise BodyError("{name} cannot be read: {reason}", name=str(name)[:200], reason=reason(error)) from error
+    data = contents(path, str(name), BodyError)
     if not data.strip():
         raise BodyError("{name} is empty", name=str(name))
     return data

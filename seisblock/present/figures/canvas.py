@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import IO, Any
@@ -278,8 +279,10 @@ def save(figure: Figure, path: Path | str) -> None:
     """
     target = Path(path)
     check_figure(target)
+    drawn = io.BytesIO()  # a disk that is full meets matplotlib's .pdf in the middle of its compression
+    figure.savefig(drawn, format=target.suffix[1:].lower(), dpi=figure.dpi)
     with replacing(target) as temporary:
-        figure.savefig(temporary, format=target.suffix[1:].lower(), dpi=figure.dpi)
+        temporary.write_bytes(drawn.getbuffer())
 
 
 def save_png(figure: Figure, stream: IO[bytes]) -> None:

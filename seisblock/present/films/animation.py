@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import subprocess
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -162,6 +164,8 @@ def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
             pass
         said = process.stderr.read().decode(errors="replace").strip()
         if process.wait() != 0 or said or not _is_whole_mp4(path):
+            if os.strerror(errno.ENOSPC) in said:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))  # its last line is about something else
             reason = said.splitlines()[-1] if said else tell("the file is not whole; is the disk full?")
             raise OutputError("ffmpeg could not write the animation: {reason}", reason=reason)
 

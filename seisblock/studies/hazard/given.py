@@ -9,15 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from seisblock import checks
-from seisblock.errors import InputError, ParameterError, UnitError, reason
-from seisblock.ledger import reading
-from seisblock.limits import MIB, check_budget
+from seisblock.contents import contents
+from seisblock.errors import InputError, ParameterError, UnitError
 from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.hazard.curve import Hazard
 from seisblock.studies.hazard.table import UNITS_OF
 from seisblock.units import parse_quantity
-from seisblock.words import noted, said
+from seisblock.words import said
 
 SCHEMA = "seisblock/fragility/"
 
@@ -61,12 +60,9 @@ def read_fragility(path: str | Path) -> tuple[GivenFragility, ...]:
     seisblock.errors.ParameterError: cannot read nothing.json: No such file or directory
     """
     name, source = str(path), Path(checks.path(path))
+    data = contents(source, name, ParameterError)
     try:
-        check_budget(noted("MiB of a fragility"), source.stat().st_size // MIB, "SEISBLOCK_READ_MIB", where=name)
-        document = json.loads(source.read_bytes())
-        reading(source)
-    except OSError as error:
-        raise ParameterError("cannot read {name}: {reason}", name=name, reason=reason(error)) from error
+        document = json.loads(data)
     except (ValueError, RecursionError) as error:
         raise ParameterError("{name} is no JSON document: give one that seisblock fragility printed", name=name) from error
     if not (isinstance(document, dict) and str(document.get("schema", "")).startswith(SCHEMA)):

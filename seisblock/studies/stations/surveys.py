@@ -11,8 +11,8 @@ from os import PathLike
 from pathlib import Path
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
-from seisblock.errors import BodyError, reason
-from seisblock.ledger import reading
+from seisblock.contents import contents
+from seisblock.errors import BodyError
 from seisblock.records.site import great_circle_km
 from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.estimate import ShakingEstimate, estimate_shaking
@@ -116,11 +116,7 @@ def read_surveys(name: str | PathLike[str]) -> tuple[SurveyedPlace, ...]:
         If the file cannot be read, a column is missing, or a row holds what cannot be; the message names the line.
     """
     path = Path(name)
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise BodyError("{name}: the list of surveys cannot be read: {reason}", name=path, reason=reason(error)) from error
-    reading(path)
+    data = contents(path, str(path), BodyError)
     rows = list(csv.reader(io.StringIO(_text(path, data))))
     header = [cell.strip().lower() for cell in rows[0]] if rows else []
     places = {key: next((header.index(word) for word in words if word in header), None) for key, words in COLUMNS.items()}
