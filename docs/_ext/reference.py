@@ -1,7 +1,7 @@
 """The reference, made while the site is built from what the program says of itself.
 
-On a page a fence named `commands`, `documents`, `literature` or `names` (one public name a line) is replaced by what it stands for, and the key of
-a paper in brackets, [Housner1963], by a link to its entry.
+On a page a fence named `commands`, `documents`, `literature` or `names` (one public name a line) is replaced by what it stands
+for, and the key of a paper in brackets, [Housner1963], by a link to its entry.
 """
 
 import inspect
@@ -111,16 +111,8 @@ def literature(_: str) -> str:
 def names(listed: str) -> str:
     """Return the public names of a list: a table, then each with its docstring."""
     asked = listed.split()
-    parts = [
-        "```{eval-rst}",
-        ".. currentmodule:: seisblock",
-        "",
-        ".. autosummary::",
-        "   :nosignatures:",
-        "",
-        *(f"   {name}" for name in asked),
-        "",
-    ]
+    head = ["```{eval-rst}", ".. currentmodule:: seisblock", "", ".. autosummary::", "   :nosignatures:", ""]
+    parts = [*head, *(f"   {name}" for name in asked), ""]
     for name in asked:
         value = getattr(seisblock, name)
         if inspect.ismodule(value):

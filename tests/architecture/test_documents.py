@@ -2,6 +2,7 @@
 
 import os
 import re
+import runpy
 import subprocess
 import sys
 import tomllib
@@ -86,14 +87,15 @@ def test_links_lead_somewhere(page):
     assert [link for link in links if not (page.parent / link).exists()] == []
 
 
-def test_drawings_are_what_their_script_draws(tmp_path, monkeypatch):
-    """The drawings were made by the script beside them as it stands."""
-    import runpy
-
-    script = ROOT / "docs" / "figures" / "draw.py"
-    made = runpy.run_path(str(script))
-    for name in ("architecture", "conventions"):
-        assert (script.parent / f"{name}.svg").read_text(encoding="utf-8") == made[name]()
+def test_drawings_are_what_their_scripts_draw():
+    """The drawings were made by the scripts beside them as they stand."""
+    folder = ROOT / "docs" / "figures"
+    drawn = {name: runpy.run_path(str(folder / f"{name}.py")) for name in ("draw", "models")}
+    made = [(name, drawn["draw"][name]) for name in ("architecture", "conventions")]
+    made += [(draw.__name__, draw) for draw in drawn["models"]["DRAWN"]]
+    assert sorted(name for name, _ in made) == sorted(path.stem for path in folder.glob("*.svg"))
+    for name, draw in made:
+        assert (folder / f"{name}.svg").read_text(encoding="utf-8") == draw(), name
 
 
 def test_every_public_name_is_in_the_reference():
