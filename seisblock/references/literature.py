@@ -89,6 +89,14 @@ LITERATURE = (
         "Computer Methods in Applied Mechanics and Engineering, 177(3-4), 235-257",
     ),
     Reference(
+        "Gottschalk1996",
+        "Gottschalk, S. and Lin, M. C. and Manocha, D.",
+        1996,
+        "OBBTree: a hierarchical structure for rapid interference detection",
+        "Proceedings of SIGGRAPH 96, 171-180",
+        doi="10.1145/237170.237244",
+    ),
+    Reference(
         "Silcowitz2010",
         "Silcowitz-Hansen, M. and Niebe, S. and Erleben, K.",
         2010,

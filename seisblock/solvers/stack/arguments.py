@@ -50,15 +50,15 @@ class PileMemory(NamedTuple):
         Shear springs at the points of joints.
     joint_slots : (n, orbits, 4, 17) array
         Rigid contacts at the points of joints.
-    corner_slots, edge_slots : (p, 2, 16, 14), (p, 2, 24, 17) arrays
-        Contacts of corners and of edges of each pair, in both roles.
+    corner_slots, edge_slots : (p, 2, 16, 17), (p, 2, 24, 17) arrays
+        Contacts of corners and of edges of each pair, in both roles; rigid ones stand in the first, as they are and as they were.
     handled : (p,) array of int
         Which pairs their joint takes care of.
     touched : (m + 1, m + 1) array
         Which bodies have touched since it was last cleared.
     bounds : (b, 6) array, m
         Centres of the boxes and how far they reach.
-    work : (13, 18) array
+    work : (23, 18) array
         Scratch.
     who, table : (k, 6), (k, 60) arrays
         Rigid contacts of a step: their bodies and the slots they are remembered in, and what they are solved with.

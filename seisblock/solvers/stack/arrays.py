@@ -15,7 +15,7 @@ from seisblock.solvers.stack.arguments import PileLayout, PileMemory
 from seisblock.solvers.stack.contact import FRICTION, KINETIC, SLOT
 from seisblock.solvers.stack.frames import AT, BODY, BOX, INERT, INERTIA, INVERSE, MASS, Q, R, X
 from seisblock.solvers.stack.impulse import ROW, SPEEDS
-from seisblock.solvers.stack.meet import PACE
+from seisblock.solvers.stack.row import PACE
 from seisblock.solvers.stack.step import ALL_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH, SIGMA
 from seisblock.typing import FloatArray, IntArray
 from seisblock.words import noted

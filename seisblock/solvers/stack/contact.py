@@ -35,10 +35,10 @@ SUM = 9
 STRETCH, BIRTH, ALIVE, FACE, LAST = 0, 3, 4, 5, 6
 """What a wandering contact remembers: stretch of its shear spring (3), depth at birth, whether it lives, the face it is on, last depth."""
 
-PUSH, SLIDES, DEPTH, ENTERED, PLACE, EARLIER = 0, 3, 6, 7, 8, 14
+PUSH, SLIDES, ENTERED, PLACE, EARLIER = 0, 3, 7, 8, 14
 SLOT = 17
-"""What a rigid one does instead: the last force (3), whether it slid, depth, whether it was solved; place and normal in the partner's
-axes; and the force before (3)."""
+"""What a rigid one does instead: the last force (3), whether it slid, whether it was solved; place and normal in the partner's axes;
+and the force before (3)."""
 
 ROUNDING = 1e-6
 """How much, m, a depth may change in a step beyond what the velocities explain."""
@@ -174,18 +174,10 @@ def press_joint(n_orbits, rel, points, sigma, own, half, level, k, load, dt, str
 def touch(rel, y, depth, normal, k, dt, slot, total):
     """Add the force at one wandering contact point ([Furukawa2009]_); return the normal force.
 
-    The point is at `y` in the partner's axes, `depth` inside along `normal`, which points out of the partner. Without a spring it is
-    noted and no more: rigid contacts are solved all at once.
+    The point is at `y` in the partner's axes, `depth` inside along `normal`, which points out of the partner.
     """
     if depth <= 0.0:
         slot[ALIVE] = 0.0
-        return 0.0
-    if k[NORMAL_SPRING] == 0.0:
-        slot[ALIVE] = 1.0
-        slot[DEPTH] = depth
-        for i in range(3):
-            slot[PLACE + i] = y[i]
-            slot[PLACE + 3 + i] = normal[i]
         return 0.0
     if slot[ALIVE] == 0.0:
         slot[ALIVE] = 1.0

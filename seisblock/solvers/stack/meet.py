@@ -1,160 +1,23 @@
-"""Where rigid stones meet: a row for each point that may touch another stone in the step, with its gap and what it remembers."""
+"""Where rigid stones meet: at the points of their joints, or where boxes that stay apart would come together."""
 
 from __future__ import annotations
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arrays import INTEGER_TABLE, MATRIX, VECTOR
+from seisblock.dynamics.arrays import MATRIX, VECTOR
+from seisblock.solvers.stack.apart import EDGES, FACE, KIND, MOST_POINTS, cross, furthest, overlap
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
-from seisblock.solvers.stack.contact import (
-    ALIVE,
-    CLINGS,
-    DEPTH,
-    EARLIER,
-    ENTERED,
-    FRICTION,
-    KINETIC,
-    OUTSIDE,
-    PLACE,
-    PUSH,
-    REBOUND,
-    SLIDES,
-    SUM,
-    share,
-)
-from seisblock.solvers.stack.frames import AT, R, X, relative
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, FLOOR, HELD, IMPULSE, MU, NORMAL, SWERVE, answers, parting
-from seisblock.solvers.stack.solid import boxes_meet, press_corners, press_edges
-from seisblock.solvers.stack.step import (
-    ALL_EDGES,
-    CARRIER,
-    LEVEL,
-    ON_FACE,
-    ORBITS,
-    PAIR,
-    PARTNER,
-    POINT,
-    SIGMA,
-    bound,
-    forget,
-    near,
-    seated,
-)
+from seisblock.solvers.stack.contact import CLINGS, EARLIER, ENTERED, OUTSIDE, PLACE, PUSH, REBOUND, SLIDES, SLOT
+from seisblock.solvers.stack.frames import relative
+from seisblock.solvers.stack.row import enter, far_in, note, rebound_opposite
+from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
 
 _t = types()
 
-REACH = 1e-3
-"""How far, m, outside a stone a corner or an edge is looked at."""
+JOINTS, MEETINGS = range(2)
+"""What a contact belongs to."""
 
-SWIFT, SLOW = 2.0, 0.5
-"""A point is left out while it cannot close its gap in the step at so many times its speed, and this speed, m/s, more."""
-
-MENDED, GENTLY = 0.2, 0.05
-"""Part of a gap closed too far that a step makes good, and the speed, m/s, that it may take for it."""
-
-SPLITS = 2.0
-"""Approach, over the speed of a free fall of a step, from which an impact splits the step."""
-
-BEFORE, SOONEST, FALL, WHOLE, KICKED, AHEAD, SWEPT = range(7)
-PACE = 7
-"""The length of the last step, s; the time to the soonest impact, s; the speed of a free fall of a whole step, m/s, and its length, s;
-the time over which velocities last changed, s; how far ahead of the last forces the next are looked for; how many sweeps that took."""
-
-OPPOSITE = 3
-"""Points of an orbit whose numbers add up to this stand opposite each other."""
-
-JOINTS, CORNERS, EDGES = range(3)
-"""What a contact is made of."""
-
-
-@kernel(_t.void(VECTOR, VECTOR, _t.float64, VECTOR), inline=True)
-def _swerve(speeds, arm, half, swerve):
-    """Add how a body's point at `arm` changes its velocity by the body's turning in a time: w x (w x r)."""
-    x, y, z = speeds[3], speeds[4], speeds[5]
-    along = x * arm[0] + y * arm[1] + z * arm[2]
-    square = x * x + y * y + z * z
-    swerve[0] += half * (x * along - square * arm[0])
-    swerve[1] += half * (y * along - square * arm[1])
-    swerve[2] += half * (z * along - square * arm[2])
-
-
-@kernel(_t.int64(_t.int64, _t.int64, _t.int64, VECTOR, _t.float64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
-def _enter(count, c, p, slot, gap, k, bodies, dt, pile, memory):
-    """Make a row of a contact noted in a slot; return how many there are then."""
-    if count >= memory.table.shape[0]:
-        return count
-    a, b, ground = pile.owner[c], pile.owner[p], bodies.shape[0] - 1
-    row, first, second, box = memory.table[count], bodies[a], bodies[b], pile.boxes[p]
-    y0, y1, y2 = slot[PLACE] + box[AT], slot[PLACE + 1] + box[AT + 1], slot[PLACE + 2] + box[AT + 2]
-    for i in range(3):
-        r = R + 3 * i
-        row[ARM_B + i] = second[r] * y0 + second[r + 1] * y1 + second[r + 2] * y2
-        row[ARM_A + i] = row[ARM_B + i] + second[X + i] - first[X + i]
-        row[NORMAL + i] = second[r] * slot[PLACE + 3] + second[r + 1] * slot[PLACE + 4] + second[r + 2] * slot[PLACE + 5]
-    u0, u1, u2 = parting(a, b, row, memory.speeds)
-    approach = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
-    if gap > dt * (SWIFT * abs(approach) + SLOW):
-        return count
-    if gap > 0.0 and approach < -SPLITS * memory.pace[FALL]:
-        memory.pace[SOONEST] = min(memory.pace[SOONEST], -gap / approach)
-    if gap > 0.0 and k[REBOUND] >= 0.0 and approach < -SPLITS * memory.pace[FALL]:
-        # what is to rebound strikes at once, not a part of it while its gap closes
-        return count
-    row[HELD] = 0.0
-    if slot[ENTERED] == 0.0:
-        for i in range(3):
-            slot[PUSH + i] = 0.0
-            slot[EARLIER + i] = 0.0
-        slot[SLIDES] = 0.0
-    answers(a, b, ground, pile.inert, memory.inverses, row)
-    row[SWERVE] = 0.0
-    row[SWERVE + 1] = 0.0
-    row[SWERVE + 2] = 0.0
-    _swerve(memory.speeds[a], row[ARM_A:], 0.5 * dt, row[SWERVE:])
-    _swerve(memory.speeds[b], row[ARM_B:], -0.5 * dt, row[SWERVE:])
-    row[FLOOR] = -gap / dt if gap > 0.0 else min(-MENDED * gap / memory.pace[WHOLE], GENTLY)
-    row[MU] = k[KINETIC] if slot[SLIDES] > 0.0 else k[FRICTION]
-    for i in range(3):
-        row[IMPULSE + i] = slot[PUSH + i] + memory.pace[AHEAD] * (slot[PUSH + i] - slot[EARLIER + i])
-    memory.who[count, 0] = a
-    memory.who[count, 1] = b
-    return count + 1
-
-
-@kernel(_t.int64(_t.int64, _t.int64, _t.int64, _t.int64, _t.int64, _t.int64, VECTOR, INTEGER_TABLE), inline=True)
-def _note(before, now, kind, i, j, k, slot, who):
-    """Remember which slot a row was made of; return how many rows there are."""
-    slot[ENTERED] = 0.0
-    if now > before:
-        slot[ENTERED] = 1.0
-        who[before, 2] = kind
-        who[before, 3] = i
-        who[before, 4] = j
-        who[before, 5] = k
-    return now
-
-
-@kernel(_t.int64(_t.int64, _t.int64, _t.int64, VECTOR, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
-def _enter_noted(count, c, p, slot, k, bodies, dt, pile, memory):
-    """Make a row of a corner's or an edge's contact, if there is one."""
-    if slot[ALIVE] == 0.0:
-        return count
-    reach = REACH * (abs(slot[PLACE + 3]) + abs(slot[PLACE + 4]) + abs(slot[PLACE + 5]))
-    return _enter(count, c, p, slot, reach - slot[DEPTH], k, bodies, dt, pile, memory)
-
-
-@kernel(_t.void(_t.int64, _t.int64, _t.float64, MEMORY))
-def _rebound(first, last, ratio, memory):
-    """Let the points of a joint that stand opposite those that strike leave with a part of their velocity."""
-    for i in range(first, last):
-        row, who = memory.table[i], memory.who[i]
-        u0, u1, u2 = parting(who[0], who[1], row, memory.speeds)
-        approach = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
-        if approach > -SPLITS * memory.pace[FALL]:
-            continue
-        for j in range(first, last):
-            if memory.who[j, 4] == who[4] and memory.who[j, 5] == OPPOSITE - who[5]:
-                memory.table[j, FLOOR] = -ratio * approach
-                memory.table[j, HELD] = 1.0
+NEARBY = 0.02
+"""How far, m, a point of a meeting is sought of which it remembers the force."""
 
 
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
@@ -162,8 +25,7 @@ def _enter_joint(count, j, rel, bodies, dt, pile, memory):
     """Make rows of the points of a joint; count in the scratch those that have left the partner's face."""
     joint, k = pile.joints[j], pile.constants[j]
     c, p, sigma = joint[CARRIER], joint[PARTNER], k[SIGMA]
-    half, total, first = pile.boxes[p], memory.work[1], count
-    clings = k[POINT + CLINGS] > 0.0 and share(rel, pile.boxes[c], half)
+    half, total, far = pile.boxes[p], memory.work[1], far_in(rel, pile.boxes[c], dt)
     for o in range(joint[ORBITS]):
         for q in range(4):
             point, slot = pile.grids[j, o, q], memory.joint_slots[j, o, q]
@@ -172,105 +34,160 @@ def _enter_joint(count, j, rel, bodies, dt, pile, memory):
             x, y, z = point[0], point[1], k[LEVEL]
             s0 = rel[9] + rel[0] * x + rel[1] * y + rel[2] * z
             s1 = rel[10] + rel[3] * x + rel[4] * y + rel[5] * z
-            n0, n1, n2 = 0.0, 0.0, 1.0
             if abs(s0) > half[0] or abs(s1) > half[1]:
-                if not clings:
-                    total[OUTSIDE] += 1.0
-                    slot[ENTERED] = 0.0
-                    continue
-                over0 = s0 - min(max(s0, -half[0]), half[0])
-                over1 = s1 - min(max(s1, -half[1]), half[1])
-                x -= rel[0] * over0 + rel[3] * over1
-                y -= rel[1] * over0 + rel[4] * over1
-                s0 = rel[9] + rel[0] * x + rel[1] * y + rel[2] * z
-                s1 = rel[10] + rel[3] * x + rel[4] * y + rel[5] * z
-                n0, n1, n2 = rel[2], rel[5], rel[8]
+                total[OUTSIDE] += 1.0
+                slot[ENTERED] = 0.0
+                continue
             s2 = rel[11] + rel[6] * x + rel[7] * y + rel[8] * z
-            depth = (half[2] + sigma * s2) * n2
+            depth = half[2] + sigma * s2
             slot[PLACE] = s0
             slot[PLACE + 1] = s1
             slot[PLACE + 2] = s2
-            slot[PLACE + 3] = -sigma * n0
-            slot[PLACE + 4] = -sigma * n1
-            slot[PLACE + 5] = -sigma * n2
-            count = _note(count, _enter(count, c, p, slot, -depth, k[POINT:], bodies, dt, pile, memory), JOINTS, j, o, q, slot, memory.who)
-    if k[POINT + REBOUND] >= 0.0:
-        _rebound(first, count, k[POINT + REBOUND], memory)
+            slot[PLACE + 3] = 0.0
+            slot[PLACE + 4] = 0.0
+            slot[PLACE + 5] = -sigma
+            count = note(
+                count, enter(count, c, p, slot, -depth, far, k[POINT:], bodies, dt, pile, memory), JOINTS, j, o, q, slot, memory.who
+            )
     return count
 
 
-@kernel(_t.int64(_t.int64, _t.int64, _t.int64, _t.int64, _t.int64, _t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY))
-def _enter_meeting(count, pair, role, n_corners, first_edge, n_edges, check, bodies, dt, pile, memory):
-    """Make rows of one box's corners and edges on the other; return how many there are then, or -1 if the boxes are apart."""
-    corners, boxes, owner, work = pile.corners, pile.boxes, pile.owner, memory.work
-    c, p = pile.pairs[pair, role], pile.pairs[pair, 1 - role]
-    k = pile.pair_constants[pair]
-    rel, total, arms, scratch, wide = work[0], work[1], work[2:4], work[8:13], work[4]
-    relative(c, p, bodies, boxes, owner, arms, rel)
+@kernel(_t.void(VECTOR, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def _put(slot, y0, y1, y2, axis):
+    """Note a point and its normal in a slot."""
+    slot[PLACE] = y0
+    slot[PLACE + 1] = y1
+    slot[PLACE + 2] = y2
     for i in range(3):
-        wide[i] = boxes[p, i] + REACH
-    if check == 1 and not boxes_meet(rel, boxes[c], wide):
-        return -1
-    if n_corners > 0:
-        slots = memory.corner_slots[pair, role]
-        press_corners(n_corners, rel, corners[c], wide, k, dt, slots, scratch[0], scratch[1], total)
-        for i in range(n_corners):
-            entered = _enter_noted(count, c, p, slots[i], k, bodies, dt, pile, memory)
-            count = _note(count, entered, CORNERS, pair, role, i, slots[i], memory.who)
-    if n_edges > 0:
-        slots = memory.edge_slots[pair, role, 2 * first_edge :]
-        press_edges(n_edges, rel, corners[c], pile.edges[c, first_edge:], wide, k, dt, slots, scratch, total)
-        for i in range(2 * n_edges):
-            entered = _enter_noted(count, c, p, slots[i], k, bodies, dt, pile, memory)
-            count = _note(count, entered, EDGES, pair, role, 2 * first_edge + i, slots[i], memory.who)
+        slot[PLACE + 3 + i] = axis[i]
+
+
+@kernel(_t.void(VECTOR, MATRIX), inline=True)
+def _recall(slot, before):
+    """Let a point remember the force of the one that was nearest to it."""
+    found, least = -1, NEARBY**2
+    for i in range(MOST_POINTS):
+        old = before[i]
+        if old[ENTERED] > 0.0:
+            away = (old[PLACE] - slot[PLACE]) ** 2 + (old[PLACE + 1] - slot[PLACE + 1]) ** 2 + (old[PLACE + 2] - slot[PLACE + 2]) ** 2
+            if away < least:
+                found, least = i, away
+    slot[ENTERED] = 0.0
+    if found >= 0:
+        old = before[found]
+        slot[ENTERED] = 1.0
+        slot[SLIDES] = old[SLIDES]
+        for i in range(3):
+            slot[PUSH + i] = old[PUSH + i]
+            slot[EARLIER + i] = old[EARLIER + i]
+        old[ENTERED] = 0.0
+
+
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _meet_ground(count, pair, rel, far, bodies, dt, pile, memory):
+    """Make rows of a box's corners that may touch the ground; return how many rows there are then."""
+    c, p = pile.pairs[pair, 0], pile.pairs[pair, 1]
+    slots, axis = memory.corner_slots[pair, 0], memory.work[22]
+    axis[0] = 0.0
+    axis[1] = 0.0
+    axis[2] = 1.0
+    for i in range(pile.counts[c]):
+        r = pile.corners[c, i]
+        y0 = rel[9] + rel[0] * r[0] + rel[1] * r[1] + rel[2] * r[2]
+        y1 = rel[10] + rel[3] * r[0] + rel[4] * r[1] + rel[5] * r[2]
+        y2 = rel[11] + rel[6] * r[0] + rel[7] * r[1] + rel[8] * r[2]
+        _put(slots[i], y0, y1, y2, axis)
+        entered = enter(count, c, p, slots[i], y2 - pile.boxes[p, 2], far, pile.pair_constants[pair], bodies, dt, pile, memory)
+        count = note(count, entered, MEETINGS, pair, 0, i, slots[i], memory.who)
+    return count
+
+
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory):
+    """Make rows of the points where two boxes may touch; return how many rows there are then."""
+    boxes, corners, counts, edges, work = pile.boxes, pile.corners, pile.counts, pile.edges, memory.work
+    c, p, k = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair]
+    slots, before, axis, found = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], work[22], work[4:13]
+    for i in range(MOST_POINTS):
+        for j in range(SLOT):
+            before[i, j] = slots[i, j]
+        slots[i, ENTERED] = 0.0
+    gap = furthest(rel, boxes[c], corners[c], counts[c], boxes[p], corners[p], counts[p], far, axis)
+    if gap > far:
+        return count
+    at = 0
+    if axis[KIND] >= EDGES:
+        if cross(rel, boxes[c], boxes[p], axis, found[0]):
+            _put(slots[0], found[0, 0], found[0, 1], found[0, 2], axis)
+            _recall(slots[0], before)
+            entered = enter(count, c, p, slots[0], gap, far, k, bodies, dt, pile, memory)
+            count = note(count, entered, MEETINGS, pair, 0, 0, slots[0], memory.who)
+        at = 1
+    points = overlap(rel, boxes[c], corners[c], edges[c], boxes[p], corners[p], edges[p], axis[FACE:], work[1], found, work[13:22])
+    for i in range(points):
+        if at == 1 and found[i, 3] < 0.0:
+            # where edges cross, a face says only what may yet come to lie on it
+            continue
+        slot = slots[at + i]
+        _put(slot, found[i, 0], found[i, 1], found[i, 2], axis[FACE:])
+        _recall(slot, before)
+        entered = enter(count, c, p, slot, found[i, 3], far, k, bodies, dt, pile, memory)
+        count = note(count, entered, MEETINGS, pair, 0, at + i, slot, memory.who)
+    return count
+
+
+@kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _meet(count, pair, bodies, dt, pile, memory):
+    """Make rows of the points where two boxes, or a box and the ground, may touch; return how many rows there are then."""
+    boxes, rel, first, ground = pile.boxes, memory.work[0], count, pile.boxes.shape[0] - 1
+    on_ground = pile.pairs[pair, 1] == ground
+    c, p = pile.pairs[pair, 0 if on_ground else 1], pile.pairs[pair, 1 if on_ground else 0]
+    relative(c, p, bodies, boxes, pile.owner, memory.work[2:4], rel)
+    far = far_in(rel, boxes[c], dt)
+    if on_ground:
+        count = _meet_ground(count, pair, rel, far, bodies, dt, pile, memory)
+    else:
+        count = _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory)
+    rebound = pile.pair_constants[pair, REBOUND]
+    if rebound >= 0.0 and rel[8] > COSINE:
+        rebound_opposite(first, count, rebound, memory)
     return count
 
 
 @kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
 def _meet_joint(count, j, bodies, dt, pile, memory):
-    """Make rows of a joint, and of what hangs over its border."""
-    boxes, handled, work = pile.boxes, memory.handled, memory.work
+    """Make rows of the points of a joint, and of what hangs over its border."""
+    boxes, work = pile.boxes, memory.work
     joint, k = pile.joints[j], pile.constants[j]
-    c, p, pair = joint[CARRIER], joint[PARTNER], joint[PAIR]
-    rel, total = work[0], work[1]
+    c, p, rel, total = joint[CARRIER], joint[PARTNER], work[0], work[1]
     relative(c, p, bodies, boxes, pile.owner, work[2:4], rel)
-    for i in range(SUM):
-        total[i] = 0.0
     acts = seated(k[SIGMA], rel, boxes[c], boxes[p])
+    total[OUTSIDE] = 0.0
     if acts == 1:
         count = _enter_joint(count, j, rel, bodies, dt, pile, memory)
-    role = 0 if pile.pairs[pair, 0] == c else 1
-    if acts == 1 and total[OUTSIDE] > 0.0:
-        count = _enter_meeting(count, pair, role, 0, ON_FACE if k[SIGMA] > 0.0 else 0, ON_FACE, 0, bodies, dt, pile, memory)
-        count = _enter_meeting(count, pair, 1 - role, pile.counts[p], 0, 0, 0, bodies, dt, pile, memory)
-        handled[pair] = 2
-    else:
-        if handled[pair] == 2 and acts == 1:
-            forget(pair, memory)
-        handled[pair] = acts
+    memory.handled[joint[PAIR]] = acts if total[OUTSIDE] == 0.0 else -1
     return count
 
 
 @kernel(_t.int64(MATRIX, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def find(bodies, dt, look, pile, memory):
-    """Make rows of every contact; return how many there are."""
-    pairs, counts, handled = pile.pairs, pile.counts, memory.handled
+    """Make rows of every contact; return how many there are.
+
+    Joints with points of their own are held by these while their stones face each other; all else is met as boxes that stay apart.
+    """
     count = 0
     for j in range(pile.joints.shape[0]):
-        count = _meet_joint(count, j, bodies, dt, pile, memory)
+        if pile.constants[j, POINT + CLINGS] == 0.0:
+            count = _meet_joint(count, j, bodies, dt, pile, memory)
     if look:
         bound(bodies, pile.boxes, pile.owner, memory.bounds)
-    for pair in range(pairs.shape[0]):
-        if handled[pair] > 0:
+    for pair in range(pile.pairs.shape[0]):
+        if memory.handled[pair] > 0:
             continue
-        i, j = pairs[pair, 0], pairs[pair, 1]
-        found = -1
-        if near(i, j, memory.bounds):
-            found = _enter_meeting(count, pair, 0, counts[i], 0, ALL_EDGES, 1, bodies, dt, pile, memory)
-        if found >= 0:
-            count = _enter_meeting(found, pair, 1, counts[j], 0, 0, 0, bodies, dt, pile, memory)
-            handled[pair] = -1
-        elif handled[pair] == -1:
-            handled[pair] = 0
+        if near(pile.pairs[pair, 0], pile.pairs[pair, 1], memory.bounds):
+            count = _meet(count, pair, bodies, dt, pile, memory)
+            memory.handled[pair] = -1
+        elif memory.handled[pair] == -1:
+            memory.handled[pair] = 0
             forget(pair, memory)
     return count

@@ -14,7 +14,8 @@ from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
 from seisblock.solvers.stack.impulse import ARM_A, ARM_B, IMPULSE, NORMAL, PRECISION, parting, settle
-from seisblock.solvers.stack.meet import AHEAD, BEFORE, CORNERS, FALL, JOINTS, KICKED, SOONEST, SWEPT, WHOLE, find
+from seisblock.solvers.stack.meet import JOINTS, find
+from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, KICKED, SOONEST, SWEPT, WHOLE
 
 _t = types()
 
@@ -52,13 +53,7 @@ def _leave(count, bodies, dt, memory):
     for i in range(count):
         a, b, row = memory.who[i, 0], memory.who[i, 1], memory.table[i]
         kind, j, k, m = memory.who[i, 2], memory.who[i, 3], memory.who[i, 4], memory.who[i, 5]
-        slot = (
-            memory.joint_slots[j, k, m]
-            if kind == JOINTS
-            else memory.corner_slots[j, k, m]
-            if kind == CORNERS
-            else memory.edge_slots[j, k, m]
-        )
+        slot = memory.joint_slots[j, k, m] if kind == JOINTS else memory.corner_slots[j, k, m]
         p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
         for i in range(3):
             slot[EARLIER + i] = slot[PUSH + i]

@@ -28,8 +28,8 @@ from seisblock.solvers.stack.arguments import (
     STEPS_LEFT,
 )
 from seisblock.solvers.stack.frames import MASS, F, R, V, W, X
-from seisblock.solvers.stack.meet import BEFORE
 from seisblock.solvers.stack.rigid import hold
+from seisblock.solvers.stack.row import BEFORE
 from seisblock.solvers.stack.step import drift, energy_of, kick, press_all
 
 _t = types()
