@@ -142,7 +142,7 @@ def _start(*more):
 
 def _until_lines(path, count, process):
     """Wait until so many records stand in a journal."""
-    for _ in range(6000):
+    for _ in range(60_000):
         if path.exists() and path.read_bytes().count(b"\n") > count:
             return
         assert process.poll() is None, process.stderr.read().decode()

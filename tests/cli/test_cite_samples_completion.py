@@ -139,6 +139,6 @@ def test_bash_offers_names_and_files_together(words, offered, tmp_path):
     home = os.pathsep.join(filter(None, (str(Path(seisblock.__file__).parents[1]), os.environ.get("PYTHONPATH"))))
     environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ['PATH']}", "PYTHONPATH": home}
     done = subprocess.run(
-        [BASH, "--norc", "-c", "\n".join(lines)], env=environment, cwd=tmp_path, capture_output=True, text=True, check=True, timeout=60
+        [BASH, "--norc", "-c", "\n".join(lines)], env=environment, cwd=tmp_path, capture_output=True, text=True, check=True, timeout=600
     )
     assert set(offered) <= set(done.stdout.split()), done.stderr

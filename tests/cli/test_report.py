@@ -134,7 +134,7 @@ def test_nothing_runs_off_a_phone(pages, lang, tmp_path):
     )
     options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files", "--virtual-time-budget=4000"]
     command = [CHROMIUM, *options, f"--user-data-dir={tmp_path}/profile", "--dump-dom", frame.as_uri()]
-    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=90)
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=600)
     assert "<title>390,true,0</title>" in done.stdout
 
 

@@ -38,7 +38,7 @@ def test_no_accident_is_a_traceback_or_passes_in_silence(kind, seeds, tmp_path):
     for seed in seeds(EACH):
         data = spoil(whole.data, np.random.default_rng((seed, len(kind))))
         path.write_bytes(data)
-        start = time.perf_counter()
+        start = time.process_time()
         try:
             record = read(path, **whole.options)
         except InputError as error:
@@ -47,7 +47,7 @@ def test_no_accident_is_a_traceback_or_passes_in_silence(kind, seeds, tmp_path):
             met["refused"] += 1
             continue
         finally:
-            assert time.perf_counter() - start < SLOWEST_S, seed
+            assert time.process_time() - start < SLOWEST_S, seed
         if {doubt.kind for doubt in record.doubts} - settled:
             met["doubted"] += 1
             continue

@@ -187,5 +187,5 @@ def browsed(path, folder, width):
         capture_output=True,
         text=True,
         check=True,
-        timeout=60,
+        timeout=600,
     ).stdout

@@ -292,7 +292,7 @@ def test_a_browser_draws_a_scene_in_space(model, tmp_path):
     path.write_text(film_page(film(model), Filming()) + probe, encoding="utf-8")
     options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=390,900", "--virtual-time-budget=300"]
     command = [CHROMIUM, *options, f"--user-data-dir={tmp_path}/profile", "--dump-dom", f"{path.as_uri()}#t=56.25"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=600)
     assert 'id="clock">56.250 s<' in done.stdout
     assert "<title>true,true,true</title>" in done.stdout
 

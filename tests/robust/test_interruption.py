@@ -102,7 +102,7 @@ def interrupted(script, words, cwd):
         at = spent(process.pid)
         process.send_signal(signal.SIGINT)
         try:
-            out, said = process.communicate(timeout=120)
+            out, said = process.communicate(timeout=600)
         finally:
             process.kill()
         return process.returncode, said.strip(), float(out.split()[-1]) - at
@@ -146,11 +146,11 @@ import seisblock.readers
 class Finalized:
     def __del__(self):
         print("go", flush=True)
-        time.sleep(60.0)
+        time.sleep(3600.0)
 
 def read_all(*args, **options):
     Finalized()
-    time.sleep(60.0)
+    time.sleep(3600.0)
 
 seisblock.readers.read_all = read_all
 main()
@@ -167,7 +167,7 @@ def test_what_a_library_swallows_comes_again(number, code, tmp_path):
         assert process.stdout.readline() == "go\n"
         process.send_signal(number)
         try:
-            _, said = process.communicate(timeout=20)
+            _, said = process.communicate(timeout=600)
         finally:
             process.kill()
     assert process.returncode == code
@@ -176,7 +176,7 @@ def test_what_a_library_swallows_comes_again(number, code, tmp_path):
 
 FIGURE = """
 import atexit, os, sys, time
-atexit.register(lambda: time.sleep(60.0))
+atexit.register(lambda: time.sleep(3600.0))
 from seisblock.cli import main
 print("go", flush=True)
 main()
@@ -195,7 +195,7 @@ def test_a_program_that_was_interrupted_is_not_taken_apart_first(tmp_path):
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         try:
-            _, said = process.communicate(timeout=20)
+            _, said = process.communicate(timeout=600)
         finally:
             process.kill()
     assert process.returncode == 130 and said.strip().endswith("seisblock: interrupted; no half-written file is left")

@@ -269,12 +269,12 @@ def test_termination_cleans_up(folder):
     film.write_bytes(b"old")
     command = [*PROGRAM, "jump", "--component", "EW", "--animate", "film.gif", "--slow", "40", "--quiet"]
     with subprocess.Popen(command, cwd=folder, stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
-        until = time.monotonic() + 60
+        until = time.monotonic() + 600
         while not any(path.name.startswith(".seisblock") for path in folder.iterdir()):
             assert process.poll() is None and time.monotonic() < until
             time.sleep(0.02)
         process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=30)
+        process.communicate(timeout=600)
     assert process.returncode == 143
     assert sorted(path.name for path in folder.iterdir()) == ["film.gif", "in.csv"] and film.read_bytes() == b"old"
 

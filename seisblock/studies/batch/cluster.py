@@ -96,7 +96,7 @@ def on_cluster(
     ParameterError
         If the scheduler goes away.
     """
-    from distributed import KilledWorker
+    from distributed import wait
 
     remaining = iter(tasks)
     under_way: deque[tuple[Task, Any]] = deque()
@@ -107,14 +107,13 @@ def on_cluster(
             if not under_way:
                 return
             task, future = under_way[0]
-            try:
-                answer = future.result()
-            except (KilledWorker, CancelledError) as error:
-                if _is_gone(client, error):
-                    raise
-                answer = lost(task, str(error)[:200])
+            answer, why = _answered(client, future)
+            if why:  # what waited in a worker is blamed for its death, too: the one that is to blame dies alone as well
+                wait([future for _, future in under_way])
+                under_way[0] = task, client.submit(work, task, pure=False)
+                answer, why = _answered(client, under_way[0][1])
             under_way.popleft()
-            yield answer
+            yield lost(task, why) if why else answer
     except (OSError, CancelledError) as error:
         if not _is_gone(client, error):
             raise
@@ -123,6 +122,18 @@ def on_cluster(
         if client.status == "running":
             with suppress(OSError):  # it may go this very moment
                 client.cancel([future for _, future in under_way])
+
+
+def _answered(client: Client, future: Any) -> tuple[Any, str]:
+    """Return the answer of a task, or why it has none: every worker that took it died."""
+    from distributed import KilledWorker
+
+    try:
+        return future.result(), ""
+    except (KilledWorker, CancelledError) as error:
+        if _is_gone(client, error):
+            raise
+        return None, str(error)[:200] or type(error).__name__
 
 
 def _is_gone(client: Client, error: BaseException) -> bool:
