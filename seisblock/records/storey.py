@@ -56,7 +56,7 @@ class Storey:
     u'' + 2 zeta w u' + w^2 u = -a_g from rest gives the oscillator the absolute acceleration a = -(2 zeta w u' + w^2 u), exactly for a
     ground that is a straight line from sample to sample ([NigamJennings1969]_ eq. (2.7)). A building whose fundamental mode is a straight
     line phi = z/H and whose mass m is even takes up Gamma = int m phi dz / int m phi^2 dz = 3/2 of the ground's motion in it
-    ([Chopra2012]_ section on the modal analysis of earthquake response), so that a storey at z feels
+    ([Chopra2012]_ section 13.1: the participation factor), so that a storey at z feels
 
         a_g + (3/2) (z/H) (a - a_g) .
 
@@ -81,7 +81,7 @@ class Storey:
 
     @property
     def share(self) -> float:
-        """How much of the oscillator's motion relative to the ground the storey has (the class's Notes, [Chopra2012]_ section)."""
+        """How much of the oscillator's motion relative to the ground the storey has ([Chopra2012]_ section 13.1)."""
         return 1.0 if self.height is None else PARTICIPATION * self.height
 
     @property

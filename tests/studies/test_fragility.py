@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import statsmodels.api as sm
 from scipy.special import ndtr
 from scipy.stats import CensoredData, linregress, norm
 
@@ -53,8 +52,15 @@ def drawn(count, *, median=0.7, beta=0.45, seed=0):
     return median * np.exp(beta * np.random.default_rng(seed).normal(size=count))
 
 
+def with_ones(values):
+    """Return a column of ones beside another."""
+    return np.column_stack([np.ones(len(values)), values])
+
+
 def by_statsmodels(columns, happened, runs):
     """Return the coefficients of a probit regression as statsmodels fits it."""
+    import statsmodels.api as sm  # takes longer to load than all tests here to run, and is wanted in few processes
+
     probit = sm.families.Binomial(sm.families.links.Probit())
     return sm.GLM(np.column_stack([happened, runs - happened]), columns, family=probit).fit(tol=1e-12).params
 
@@ -65,7 +71,7 @@ class TestFits:
         """Median and beta are those of statsmodels' binomial GLM, at forty levels and at five."""
         levels = np.geomspace(0.1, 4.0, 40 if seed % 2 else 5)
         happened = (drawn(44, seed=seed)[:, None] <= levels).sum(axis=0)
-        a, b = by_statsmodels(sm.add_constant(np.log(levels)), happened, 44)
+        a, b = by_statsmodels(with_ones(np.log(levels)), happened, 44)
         found = fit_fragility(levels, happened, 44)
         assert found.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
         assert found.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
@@ -296,7 +302,7 @@ class TestRuns:
         (curve,) = run_fragility(uneven, SHELF, "rock", im="pgd", method="cloud", bootstrap=50).curves
         motions = [motion_of(record, "EW") for record in uneven]
         fell = np.array([float(solve_rock(SHELF, motion).outcome.overturned) for motion in motions])
-        a, b = by_statsmodels(sm.add_constant(np.log([IM["pgd"].of(motion) for motion in motions])), fell, 1)
+        a, b = by_statsmodels(with_ones(np.log([IM["pgd"].of(motion) for motion in motions])), fell, 1)
         assert curve.median == pytest.approx(np.exp(-a / b), rel=INDEPENDENT)
         assert curve.beta == pytest.approx(1.0 / b, rel=INDEPENDENT)
         assert sum(level.exceeding for level in curve.levels) == fell.sum()
