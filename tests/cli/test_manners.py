@@ -139,15 +139,16 @@ def test_a_bar_is_shown_on_a_terminal_only_and_only_for_long_work(tmp_path, monk
     script = (
         "import sys, time\nfrom seisblock.cli.progress import progress\n"
         "with progress('drawing') as tell:\n"
-        "    for i in range(15):\n        time.sleep(float(sys.argv[1]))\n        tell(i + 1, 15)\n"
+        "    for i in range(int(sys.argv[2])):\n        time.sleep(float(sys.argv[1]))\n        tell(i + 1, int(sys.argv[2]))\n"
     )
 
-    def shown(seconds):
+    def shown(*words):
+        """Return what a terminal shows, until the bar has been seen."""
         leader, follower = pty.openpty()
-        with subprocess.Popen([sys.executable, "-c", script, seconds], stderr=follower, env={**os.environ, "TERM": "xterm"}) as process:
+        with subprocess.Popen([sys.executable, "-c", script, *words], stderr=follower, env={**os.environ, "TERM": "xterm"}) as process:
             os.close(follower)
             text = b""
-            while True:
+            while b"drawing" not in text:
                 try:
                     piece = os.read(leader, 65536)
                 except OSError:
@@ -155,13 +156,15 @@ def test_a_bar_is_shown_on_a_terminal_only_and_only_for_long_work(tmp_path, monk
                 if not piece:
                     break
                 text += piece
+            if text:
+                process.kill()
             process.wait()
         os.close(leader)
-        return text.decode()
+        return text.decode(errors="replace")
 
-    assert "drawing" in shown("0.1")
-    assert shown("0.001") == ""
-    assert subprocess.run([sys.executable, "-c", script, "0.1"], capture_output=True, text=True, check=True).stderr == ""
+    assert "drawing" in shown("0.1", "6000")
+    assert shown("0.001", "15") == ""
+    assert subprocess.run([sys.executable, "-c", script, "0.1", "15"], capture_output=True, text=True, check=True).stderr == ""
 
 
 @pytest.fixture(scope="module")
