@@ -142,7 +142,7 @@ class Family:
         elif self.restitution is not None:
             onto = np.full(onto.shape, self.restitution)
         some = replace(some, onto=np.minimum(onto * (1.0 + bounce[:, None]), BOUNCIEST))
-        angle = np.radians(AZIMUTH_DEG * turn) * bool(motion.acceleration[ACROSS].any())
+        angle = np.radians(AZIMUTH_DEG * turn) * bool(motion.transverse.any())
         factor = scale * (1.0 + amplitude)
         # +x turned clockwise, seen from above
         return some, np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * some.vertical])

@@ -134,7 +134,7 @@ def perturb(
     checks.whole("the number of runs", runs, least=1)
     check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
     check_call(block, Block, motion)
-    turns = spread.azimuth_deg if motion.acceleration[ACROSS].any() else 0.0
+    turns = spread.azimuth_deg if motion.transverse.any() else 0.0
     draws = draws_of(runs, checks.seed(seed))
     some = changed_rockers(block, motion, spread, draws, **options)
     factor, angle = 1.0 + spread.amplitude * draws[:, AMPLITUDE], np.radians(turns * draws[:, TURN])

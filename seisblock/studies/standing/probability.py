@@ -263,5 +263,5 @@ def _bodies(block: Block, versions: Versions, draws: FloatArray) -> Blocks:
 def _gains(motion: Motion, versions: Versions, draws: FloatArray, vertical: Factor | None) -> FloatArray:
     """Return the factors on the rows along, across and up that scale and turn the shaking of each version, (runs, 3)."""
     amplitude = 1.0 + versions.amplitude * draws[:, 4]
-    angle = np.radians(versions.azimuth_deg) * draws[:, 5] * bool(motion.acceleration[ACROSS].any())
+    angle = np.radians(versions.azimuth_deg) * draws[:, 5] * bool(motion.transverse.any())
     return np.column_stack([amplitude * np.cos(angle), -amplitude * np.sin(angle), amplitude * vertical_gain(motion, vertical)])
