@@ -183,6 +183,10 @@ class SeisblockGroup(click.Group):
             ctx.exit(BROKEN_PIPE)
         except Terminated:
             ctx.exit(TERMINATED)
+        except MemoryError:
+            told = tell("this takes more memory than there is: cut a window out of the record, or ask for less at a time")
+            click.secho(f"seisblock: {told}", fg="red", err=True)
+            ctx.exit(SeisblockError.exit_code)
         except OSError as error:
             discard_stdout()
             why = tell("cannot write {file}: {error}", file=error.filename or said("the answer"), error=reason(error))

@@ -1,7 +1,10 @@
 """A batch on Dask: the same table, and a worker that is killed in the middle costs nothing."""
 
+import contextlib
 import os
 import signal
+import socket
+import threading
 from contextlib import suppress
 
 import pytest
@@ -25,6 +28,24 @@ def client():
 def records(tmp_path):
     """Return the names of twelve records."""
     return [str(write_record(tmp_path / f"r{seed:02d}.csv", seed, samples=3000, peak=5.0)) for seed in range(12)]
+
+
+def test_what_is_no_scheduler_is_said_in_a_sentence():
+    """A web server at that address answers something else: its first letters, as a length, were 3 EiB and a traceback."""
+
+    def answer():
+        with contextlib.suppress(OSError):
+            while True:
+                peer, _ = listening.accept()
+                with peer:
+                    peer.sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
+
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        threading.Thread(target=answer, daemon=True).start()
+        address = "{}:{}".format(*listening.getsockname())
+        with pytest.raises(ParameterError, match=f"no Dask scheduler answers at {address}"), cluster.connected(address):
+            pass
+        listening.shutdown(socket.SHUT_RDWR)
 
 
 BODIES = {f"b{n}": seisblock.Block(0.15 + 0.01 * n, 0.9) for n in range(6)}

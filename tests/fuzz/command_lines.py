@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import click
 import numpy as np
 
 from seisblock.cli import main
+from tests.bodies.meshes import box, write_obj, write_stl
 
 SAMPLES = 150
 RECORDS = ("small.csv", "offset.csv", "counts.knt", "late.NS", "cut.csv", "empty.csv", "stones.csv", "wide.toml", "nowhere.csv", ".", "-")
@@ -97,6 +99,29 @@ FITTING: dict[str, Sequence[str]] = {
     "confidence": ("0.9", "1", "90"),
     "outcomes": ("outcomes.csv", "outcomes.csv", "stones.csv", "small.csv", "empty.csv"),
     "free": ("alpha", "p", "inset", "alpha,p", "none", "mu"),
+    "bodies": ("gravestone", "gravestone,chozusha", "list.csv", "body.toml", "wide.toml", "small.csv"),
+    "out": ("table.csv", "table.parquet", "small.csv", "nowhere/table.csv", ".", "/dev/null"),
+    "cluster": ("local:0", "local:x", "local:"),
+    "workers": ("1", "2"),
+    "geojson": ("map.geojson", "small.csv", "/dev/full"),
+    "survey": ("places.csv", "stones.csv", "empty.csv"),
+    "suite": ("synthetic:M6.5:R15:2", "synthetic:M99:R15:2", "synthetic:M6:R0:2", "nothing"),
+    "suite_out": ("records", "small.csv", "nowhere/records"),
+    "pelicun": ("curves.csv", "curves.xml", "small.csv"),
+    "nrml": ("curves.xml", "small.csv"),
+    "im": ("pga", "pgv", "sa=0.5", "arias", "p*pgv", "pgx", "pga,pgv", "sa=1e-9"),
+    "levels": ("0.1:0.5:0.2", "1"),
+    "compare": ("nobody",),
+    "bootstrap": ("2", "20"),
+    "hazard": ("synthetic_hazard.csv", "synthetic_hazard.csv", "hazard.csv", "small.csv", "empty.csv"),
+    "fragility": ("curves.json", "curves.json", "small.csv", "empty.csv"),
+    "median": ("60cm/s", "0.6", "0.4g", "100gal"),
+    "scan": ("boulder.ply", "box.stl", "box.obj", "small.csv", "body.toml"),
+    "tolerance": ("1mm", "0.5", "9"),
+    "facing": ("0", "37", "400"),
+    "size": ("18x12", "7inx5in", "0x0", "1e9x1"),
+    "dpi": ("72", "29"),
+    "title": ("", "$x_{$", "[bold]red", "long " * 300),
     "bounds": ("alpha=0.1:0.5", "p=2:8", "alpha=1", "inset=0:0.6"),
     "scatter": ("0.05", "0"),
     "folds": ("2", "3", "9"),
@@ -106,6 +131,9 @@ FITTING: dict[str, Sequence[str]] = {
 ALWAYS = {
     "validate": ["--quick"],
     "respond": ["--runs", "2"],
+    "map": ["--runs", "2", "--workers", "1"],
+    "batch": ["--workers", "1"],
+    "fragility": ["--steps", "3", "--bootstrap", "20"],
     "stack": ["--contact", "edges", "--grid", "13"],
     "spectrum": ["--steps", "3"],
 }
@@ -120,9 +148,16 @@ COMMONLY = {
     "infer": ["--slid", "5cm", "--mu", "0.2"],
     "overturn-rate": ["--cemetery", "aoyama.csv"],
     "report": ["-o", "out.html"],
+    "batch": ["--bodies", "gravestone", "--solver", "rock", "--force", "--out", "table.csv"],
+    "map": ["--block", "gravestone", "--mu", "0.5"],
+    "fragility": ["offset.csv", "--block", "gravestone", "--solver", "rock", "--im", "pga"],
+    "risk": ["--hazard", "synthetic_hazard.csv", "--median", "60cm/s", "--beta", "0.4"],
     "fit": ["--block", "gravestone", "--free", "alpha", "--runs", "1", "--component", "NS"],
 }
 """Words that most lines have, so that the dice come past the first question."""
+
+ELSEWHERE = {"cluster"}
+"""Options whose strange values would be looked for in the network."""
 
 SLOW = {"validate", "report", "fit"}
 """Commands of a second and more: the dice meet them seldom."""
@@ -141,6 +176,13 @@ def write_files(folder: Path, knet: str) -> None:
     (folder / "empty.csv").write_text("")
     (folder / "stones.csv").write_text("height (cm),width (cm),fallen,count\n" + "".join(f"{40 + 4 * i},22,{i % 2},2\n" for i in range(12)))
     shaken = (f"{name},{scale},{scale // 2}\n" for name in ("small.csv", "counts.knt", "nowhere.csv") for scale in range(4))
+    (folder / "list.csv").write_text("name,width (cm),height\nslender,20,1\n=2+2,12,40cm\n[bold]$x_{$,80cm,1.2\n")
+    (folder / "places.csv").write_text("place,latitude,longitude,stones,fallen\n<b>=cmd()</b>,37.3,138.9,20,4\nB,37,138,30,0\n")
+    (folder / "hazard.csv").write_text("pga_g,annual_rate\n0.1,0.1\n0.4,0.01\n0.8,0.02\n")
+    curve = {"body": "<b>", "limit": "overturn", "im": "pgv", "unit": "m/s", "median": 0.6, "beta": 0.4}
+    (folder / "curves.json").write_text(json.dumps({"schema": "seisblock/fragility/1", "results": [curve]}))
+    write_stl(folder / "box.stl", *box(0.4, 0.3, 1.1))
+    write_obj(folder / "box.obj", *box(0.4, 0.3, 1.1))
     (folder / "outcomes.csv").write_text("record,scale,fell\n" + "".join(shaken))
     (folder / "body.toml").write_text(
         'kind = "block"\nname = "\x24x_{\x24 [bold]"\nwidth = "24cm"\nheight = 0.7\nmu = 0.4\nrestitution = 0.9\n'
@@ -177,7 +219,7 @@ def line(command: str, rng: np.random.Generator) -> list[str]:
 
 def _value(parameter: click.Parameter, rng: np.random.Generator) -> str:
     """Return a value for an option: one that fits, more often than not."""
-    if rng.random() < 0.3:
+    if rng.random() < 0.3 and parameter.name not in ELSEWHERE:
         return str(rng.choice(STRANGE))
     if isinstance(parameter.type, click.Choice):
         return str(rng.choice(list(parameter.type.choices)))

@@ -26,7 +26,7 @@ CODES = {0, 2, 3, 4}
 """Answered; click's; bad input; a solver that gave up (DESIGN: errors)."""
 
 LONGEST_LINE = 1500
-OUTPUTS = {"--csv", "--plot", "--animate", "--html", "-o"}
+OUTPUTS = {"--csv", "--plot", "--animate", "--html", "-o", "--out", "--geojson", "--pelicun", "--nrml"}
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGPROF"), reason="a run that does not end is ended by an alarm")
 

@@ -133,6 +133,17 @@ def test_the_library_refuses_it_too(call):
         call()
 
 
+def test_a_machine_without_the_memory_says_so(monkeypatch):
+    """One sentence with a remedy, no traceback."""
+
+    def too_much(*names, **options):
+        raise MemoryError
+
+    monkeypatch.setattr("seisblock.readers.read_all", too_much)
+    done = CliRunner().invoke(main, ["measure"])
+    assert (done.exit_code, done.stdout) == (3, "") and "cut a window out of the record" in " ".join(done.stderr.split())
+
+
 def test_the_coarsest_grid_of_the_criterion_study_leaves_one_height():
     """The option's ceiling is that of the study."""
     assert len(RATIOS) == COARSEST >= len(PGAS)

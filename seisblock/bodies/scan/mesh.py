@@ -135,7 +135,8 @@ def _triangles(stream: io.BytesIO, suffix: str, name: str) -> tuple[FloatArray, 
     except ImportError as error:
         raise BodyError("scans are read with trimesh: pip install 'seisblock[scan]'") from error
     try:
-        loaded: Any = trimesh.load_mesh(stream, file_type=suffix[1:], process=False)
+        with np.errstate(all="ignore"):  # what is no number is told below
+            loaded: Any = trimesh.load_mesh(stream, file_type=suffix[1:], process=False)
         faces = np.asarray(loaded.faces, dtype=np.int64).reshape(-1, 3)
         vertices = np.asarray(loaded.vertices, dtype=np.float64).reshape(-1, 3)
         inside = faces.size == 0 or (faces.min() >= 0 and faces.max() < len(vertices))

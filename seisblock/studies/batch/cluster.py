@@ -57,7 +57,7 @@ def connected(address: str) -> Iterator[Client]:
         return
     try:
         client = Client(address, timeout=PATIENCE_S)
-    except (OSError, ValueError, TypeError) as error:
+    except (OSError, ValueError, TypeError, MemoryError) as error:  # what a web server answers begins, to Dask, with an enormous length
         raise ParameterError(
             "no Dask scheduler answers at {address}: start one, or take {local} for the processes of this machine",
             address=address[:200],

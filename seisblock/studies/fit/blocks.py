@@ -11,7 +11,6 @@ from seisblock.bodies.block import Block, from_slenderness, resized
 from seisblock.bodies.blocks import Blocks, versions
 from seisblock.records import Motion
 from seisblock.records.given import Factor
-from seisblock.records.motion import ACROSS
 from seisblock.solvers.rock.rocker import Rockers, rockers
 from seisblock.studies.fit.axes import ALPHA, INSET, RESTITUTION, SCATTER, Axis
 from seisblock.studies.fit.axes import P as FREQUENCY

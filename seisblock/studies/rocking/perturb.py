@@ -15,7 +15,6 @@ from seisblock.bodies.ranges import Ranges
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import check_call
-from seisblock.records.motion import ACROSS
 from seisblock.solvers.rock.rocker import Rockers, RockOptions, rockers
 from seisblock.studies.intervals import wilson_interval
 from seisblock.studies.rocking.verdicts import all_verdicts

@@ -22,7 +22,6 @@ from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_call, vertical_gain
-from seisblock.records.motion import ACROSS
 from seisblock.solvers.respond.many import respond_many
 from seisblock.solvers.respond.settings import Settings
 from seisblock.solvers.respond.solve import make_setting

@@ -1,0 +1,116 @@
+"""Damaged lists, surveys, hazards, fragilities, outcomes and scans: what is read makes sense, or one sentence says why not."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.roster import read_bodies
+from seisblock.bodies.scan.directions import scan_azimuths
+from seisblock.bodies.scan.scan import scan_body
+from seisblock.samples import sample_path
+from seisblock.studies.fit.table import read_outcomes
+from seisblock.studies.hazard.given import read_fragility
+from seisblock.studies.hazard.table import read_hazard
+from seisblock.studies.stations.surveys import read_surveys
+from tests.bodies.meshes import box, write_obj, write_ply, write_stl
+from tests.fuzz.accidents import spoil
+from tests.fuzz.test_batch import LIST
+from tests.fuzz.test_bodies import refused_or
+
+EACH = 60
+
+SURVEYS = "place,latitude,longitude,stones,fallen\n" + "".join(
+    f"{name},{35 + 0.1 * i},{139 - 0.1 * i},{40 + i},{3 * i}\n" for i, name in enumerate(("寺", "A", "B"))
+)
+OUTCOMES = "record,scale,fell,weight\n" + "".join(f"elcentro_1940_ns.csv,{scale},{scale // 5},{1 + scale % 2}\n" for scale in range(1, 9))
+CURVES = json.dumps(
+    {
+        "schema": "seisblock/fragility/1",
+        "results": [
+            {"body": "a", "limit": "overturn", "im": "pgv", "unit": "m/s", "median": 0.63, "beta": 0.41},
+            {"body": "b", "limit": "slide", "im": "pga", "unit": "m/s^2", "median": None, "beta": None},
+        ],
+    }
+)
+
+
+def finite(*values):
+    """Whether numbers are all of this world."""
+    return bool(np.isfinite(np.concatenate([np.ravel(np.asarray(value, dtype=float)) for value in values])).all())
+
+
+def scanned(path):
+    """Return whether a scan makes a body with a mass and with angles."""
+    found = scan_body(path)
+    towards = [(each.slenderness_rad, each.radius_m) for each in scan_azimuths(found.body, step_deg=90.0)]
+    return found.volume > 0.0 and finite(found.volume, found.body.mass, *towards)
+
+
+def listed(path):
+    """Return whether a list holds bodies told in numbers; what no solver takes, a height of 0, is refused by each in its row."""
+    return all(finite(value) for body in read_bodies(path) for value in body.told.values() if isinstance(value, float))
+
+
+def surveyed(path):
+    """Return whether no more stones fell at a place than stood there, and whether it is on the earth."""
+    places = read_surveys(path)
+    return all(0 <= each.fallen <= each.stones > 0 and abs(each.latitude) <= 90.0 and abs(each.longitude) <= 360.0 for each in places)
+
+
+def hazardous(path):
+    """Return whether the curves of a hazard fall, and their weights are a whole."""
+    branches = read_hazard(path).branches
+    falling = all((np.diff(each.rates) <= 0.0).all() and (np.diff(each.levels) > 0.0).all() for each in branches)
+    return falling and sum(each.weight for each in branches) == pytest.approx(1.0)
+
+
+def curved(path):
+    """Return whether curves have a middle and a spread."""
+    return all(each.curve.median > 0.0 and each.curve.beta > 0.0 and finite(each.curve.median) for each in read_fragility(path))
+
+
+def observed(path):
+    """Return whether outcomes have weights, and factors that are numbers."""
+    return all(each.weight >= 0.0 and finite(each.weight, each.scale) for each in read_outcomes(path, component="NS").observed)
+
+
+def mesh(write, suffix):
+    """Make what writes a box of some triangles as a file."""
+
+    def written(folder):
+        path = folder / f"whole{suffix}"
+        write(path, *box(0.4, 0.3, 1.1))
+        return path.read_bytes()
+
+    return written
+
+
+WHOLE = {
+    "bodies.csv": (lambda folder: LIST.encode("cp932"), listed),
+    "surveys.csv": (lambda folder: SURVEYS.encode(), surveyed),
+    "hazard.csv": (lambda folder: sample_path("synthetic_hazard.csv").read_bytes(), hazardous),
+    "fragility.json": (lambda folder: CURVES.encode(), curved),
+    "outcomes.csv": (lambda folder: OUTCOMES.encode(), observed),
+    "scan.stl": (mesh(write_stl, ".stl"), scanned),
+    "scan.ply": (mesh(write_ply, ".ply"), scanned),
+    "scan.obj": (mesh(write_obj, ".obj"), scanned),
+}
+
+
+@pytest.mark.parametrize("name", WHOLE)
+def test_what_is_damaged_makes_sense_or_is_refused_in_a_sentence(name, seeds, tmp_path):
+    """Bytes lost, cut, repeated and changed, lines swapped."""
+    make, makes_sense = WHOLE[name]
+    whole = make(tmp_path)
+    path = tmp_path / name
+    met = {True: 0, None: 0}
+    for seed in (None, *seeds(EACH)):
+        path.write_bytes(whole if seed is None else spoil(whole, np.random.default_rng((seed, len(name)))))
+        found = refused_or(makes_sense, path, seed)
+        assert found is not False, seed
+        assert found or seed is not None
+        met[found] += 1
+    assert met[True] > 1 and met[None] > 0, met
