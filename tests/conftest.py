@@ -3,10 +3,8 @@
 import contextlib
 import dataclasses
 import functools
-import importlib
 import json
 import os
-import pkgutil
 import signal
 import time
 from pathlib import Path
@@ -16,8 +14,8 @@ import pytest
 
 import seisblock
 from seisblock import _jit
-from seisblock._jit.on_demand import OnDemand
 from seisblock.validation.case import Case, CaseResult
+from tests.kernels import compile_all
 
 os.environ.setdefault("COLUMNS", "80")
 os.environ["NO_COLOR"] = "1"
@@ -53,10 +51,6 @@ def pytest_configure(config):
         config.option.markexpr = "not slow"
 
 
-ROOMS = ("seisblock.dynamics", "seisblock.solvers.respond", "seisblock.solvers.jump", "seisblock.solvers.stack")
-ROOMS += ("seisblock.solvers.slide", "seisblock.solvers.rock", "seisblock.solvers.uplift", "seisblock.measures", "seisblock.records")
-"""Where kernels are, in such an order that two workers who take turns have as much to compile."""
-
 WHOLE_RUN = 1000
 """Tests from which on every kernel is wanted."""
 
@@ -84,10 +78,7 @@ def compiled(request, tmp_path_factory):
     worker, count = os.environ.get("PYTEST_XDIST_WORKER", ""), int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
     if count == 1 or not _jit.ENABLED or len(request.session.items) < WHOLE_RUN:
         return
-    for name in ROOMS[int(worker.removeprefix("gw")) :: count]:
-        for module in pkgutil.walk_packages(importlib.import_module(name).__path__, f"{name}."):
-            for value in list(vars(importlib.import_module(module.name)).values()):
-                _ = value.compiled if isinstance(value, OnDemand) else None
+    compile_all(share=int(worker.removeprefix("gw")), of=count)
     meeting = tmp_path_factory.getbasetemp().parent
     (meeting / f"compiled.{worker}").touch()
     until = time.monotonic() + MOST_S
