@@ -17,7 +17,7 @@ from seisblock.present.documents.kind import Document
 from seisblock.present.documents.write import to_json
 from seisblock.present.faces import figure_of, film_of
 from seisblock.results import Response
-from seisblock.words import language, speaking
+from seisblock.words import language, plain_text, speaking
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -96,7 +96,10 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
         write(path)
         end()
         with path.open(encoding="utf-8", newline="") as stream:
-            shutil.copyfileobj(stream, sys.stdout)
+            if sys.stdout.isatty():  # which would obey what stands in names of stations and bodies
+                sys.stdout.writelines(map(plain_text, stream))
+            else:
+                shutil.copyfileobj(stream, sys.stdout)
 
 
 def _draw(figure: Callable[[], Figure], target: Path, output: Output) -> None:

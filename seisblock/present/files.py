@@ -18,6 +18,7 @@ import numpy as np
 
 from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import refuse_collision, wrote
+from seisblock.present.formulas import guarded, unguarded
 from seisblock.present.leftovers import PREFIX, held, sweep
 from seisblock.records import Record
 from seisblock.results import Response
@@ -201,11 +202,11 @@ def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
 
 
 def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
-    """Write rows as CSV; floats keep all their digits."""
+    """Write rows as CSV; floats keep all their digits, and no text of a record's becomes a formula of a spreadsheet."""
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(header)
-        writer.writerows(rows)
+        writer.writerows(map(guarded, row) for row in rows)
 
 
 def read_table(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, Any]]:
@@ -244,7 +245,7 @@ def _cell(text: str, kind: type) -> Any:
     """Return what a cell says."""
     if text == "":
         return None
-    return text == str(True) if kind is bool else kind(text)
+    return text == str(True) if kind is bool else unguarded(text) if kind is str else kind(text)
 
 
 def of_records(header: Sequence[str], tables: Sequence[Iterable[Sequence[Any]]]) -> tuple[list[str], Iterator[list[Any]]]:

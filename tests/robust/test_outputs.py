@@ -1,6 +1,7 @@
 """Nothing of the user's is lost: where outputs may go, and what is left when they cannot be written."""
 
 import contextlib
+import csv
 import errno
 import os
 import signal
@@ -15,7 +16,7 @@ from click.testing import CliRunner
 
 from seisblock.cli import main
 from seisblock.errors import OutputError
-from seisblock.present.files import replacing, write_text
+from seisblock.present.files import read_table, replacing, write_table, write_text
 from seisblock.present.journal import Journal
 from seisblock.samples import sample_path
 from seisblock.studies.kept_lines import keep_line, kept_lines
@@ -158,6 +159,20 @@ def test_a_full_disk_keeps_the_old_file(tmp_path):
     with pytest.raises(OutputError, match=r"No space left on device; what was there is unchanged"):
         failing()
     assert target.read_text() == "old" and [path.name for path in tmp_path.iterdir()] == ["out.csv"]
+
+
+HOSTILE = ["=cmd|' /C calc'!A0", "@SUM(A1)", "+cmd|x", "'=1", "-x", "'tis", "plain", "=1,2"]
+
+
+def test_no_name_is_a_formula_of_a_spreadsheet(tmp_path):
+    """Names from files are texts in every table, and are read back as they were."""
+    path = tmp_path / "out.csv"
+    write_table(path, ["name", "value"], ([name, -0.5] for name in HOSTILE))
+    with path.open(newline="") as stream:
+        _, *cells = csv.reader(stream)
+    assert [name for name, _ in cells] == ["'" + HOSTILE[0], "'@SUM(A1)", "'+cmd|x", "''=1", "-x", "'tis", "plain", "'=1,2"]
+    assert [row["name"] for row in read_table(path, {"name": str, "value": float})] == HOSTILE
+    assert {value for _, value in cells} == {"-0.5"}
 
 
 def test_a_name_too_long_is_a_sentence(folder):
