@@ -28,7 +28,10 @@ FENCED = re.compile(r"^```(\w+)\n(.*?)^```$", re.M | re.S)
 SHOWN = re.compile(r"!\[[^\]]*\]\(([^)]*figures/[\w.]+\.png)\)")
 ANYTHING = "..."
 GRID, COLOURS = 48, 64
-"""A figure is compared by the brightness of this many tiles across, and kept in this many colours."""
+"""A figure is compared by the brightness of so many tiles by as many, and kept in so many colours."""
+
+SAME_BRIGHTNESS = 0.02
+"""Most that the tiles of a figure may differ in the mean, for it is drawn with other fonts elsewhere; in another language it is as much."""
 
 
 @dataclass(frozen=True)
@@ -99,8 +102,13 @@ def figures_of(page: Path) -> list[Path]:
 def tiles(figure: Path) -> np.ndarray:
     """Return the brightness of a figure's tiles, 0 black to 1 white."""
     with Image.open(figure) as image:
-        grey = image.convert("L")
-        return np.asarray(grey.resize((GRID, max(1, GRID * grey.height // grey.width)), Image.Resampling.BOX), dtype=float) / 255.0
+        return np.asarray(image.convert("L").resize((GRID, GRID), Image.Resampling.BOX), dtype=float) / 255.0
+
+
+def drawn_otherwise(page: Path, folder: Path) -> list[str]:
+    """Return the figures of a page that no line has drawn in a folder, or that look otherwise there."""
+    pairs = [(figure, folder / figure.name) for figure in figures_of(page) if figure.parent.parent == page.parent]
+    return [figure.name for figure, made in pairs if not made.exists() or np.abs(tiles(figure) - tiles(made)).mean() > SAME_BRIGHTNESS]
 
 
 def keep(made: Path, kept: Path) -> None:

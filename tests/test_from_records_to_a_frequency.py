@@ -6,7 +6,9 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
-from tests.pages import PAGES, differences
+from tests.pages import PAGES, differences, drawn_otherwise
+
+PAGE = PAGES["docs/tutorials/from_records_to_a_frequency.md"]
 
 
 @pytest.fixture(scope="module")
@@ -16,7 +18,8 @@ def folder(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(there)
         patch.setenv("COLUMNS", "80")
-        assert differences(PAGES["docs/tutorials/from_records_to_a_frequency.md"]) == []
+        assert differences(PAGE) == []
+        assert drawn_otherwise(PAGE, there) == []
         for name in ("bookcase", "upstairs"):
             answer = CliRunner().invoke(main, ["risk", "--fragility", f"{name}.json", "--hazard", "synthetic_hazard.csv", "--json"])
             (there / f"{name}_risk.json").write_text(answer.stdout, encoding="utf-8")

@@ -3,11 +3,10 @@
 import re
 
 import click
-import numpy as np
 import pytest
 
 from seisblock.cli import COMMANDS, main
-from tests.pages import FENCED, PAGES, agrees, differences, figures_of, lines_of, tiles
+from tests.pages import FENCED, PAGES, agrees, differences, drawn_otherwise, lines_of
 
 SLOW = {"docs/guides/fit.md"}
 """Pages whose lines take more than some seconds."""
@@ -16,9 +15,6 @@ ELSEWHERE = {"docs/tutorials/from_records_to_a_frequency.md"}
 """A page whose lines take seconds each, and lead to files that a test of its own looks at."""
 
 LANGUAGES = {"console", "python", "sh", "toml", "text"}
-SAME_BRIGHTNESS = 0.02
-"""Mean difference of tiles of one figure drawn with other versions of fonts and rasterisers; another record's differ by more."""
-
 RUN = {name for name, page in PAGES.items() if {"console", "python"} & {kind for kind, _ in FENCED.findall(page.read_text("utf-8"))}}
 
 
@@ -28,11 +24,7 @@ def test_a_page_shows_what_the_program_says(name, tmp_path, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.chdir(tmp_path)
     assert differences(PAGES[name]) == []
-    drawn = {figure: tmp_path / figure.name for figure in figures_of(PAGES[name])}
-    assert [figure.name for figure, made in drawn.items() if not made.exists()] == []
-    for figure, made in drawn.items():
-        assert tiles(figure).shape == tiles(made).shape, figure
-        assert np.abs(tiles(figure) - tiles(made)).mean() < SAME_BRIGHTNESS, figure
+    assert drawn_otherwise(PAGES[name], tmp_path) == []
 
 
 def test_pages_are_read():

@@ -1,12 +1,13 @@
 """The reference, made while the site is built from what the program says of itself.
 
-On a page a fence named `commands`, `documents`, `literature` or `names` (one public name a line) is replaced by what it stands
-for, and the key of a paper in brackets, [Housner1963], by a link to its entry.
+On a page a fence named `commands`, `documents`, `gallery`, `literature` or `names` (one public name a line) is replaced by what it
+stands for, and the key of a paper in brackets, [Housner1963], by a link to its entry.
 """
 
 import inspect
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import click
@@ -20,7 +21,8 @@ from seisblock.cli.help import paragraphs, rows_of
 from seisblock.present.documents.catalogue import KINDS, schema_of
 from seisblock.references import CITED, REFERENCES
 
-FENCE = re.compile(r"^```\{(commands|documents|literature|names)\}\n(.*?)^```$", re.M | re.S)
+FENCE = re.compile(r"^```\{(commands|documents|gallery|literature|names)\}\n(.*?)^```$", re.M | re.S)
+DOCS = Path(__file__).parents[1]
 KEY = re.compile(r"(?<![\w\]`])\[(" + "|".join(REFERENCES) + r")\](?![\w(_:\]])")
 
 
@@ -102,6 +104,23 @@ def documents(_: str) -> str:
     return "\n".join((*parts, "## Types that several documents share\n", *(table(name, shared[name]) for name in sorted(shared))))
 
 
+def gallery(_: str) -> str:
+    """Return every figure that a line of a page draws, with that line."""
+    parts = []
+    for page in sorted(DOCS.rglob("*.md"), key=lambda path: ("ja" in path.parts, path)):
+        text, where = page.read_text(encoding="utf-8"), page.relative_to(DOCS)
+        for line, name in re.findall(r"^\$ (seisblock .*?--plot (\S+\.png).*)$", text, re.M):
+            shown = re.search(rf"!\[(.*)\]\(figures/{name}\)", text)
+            if shown:
+                figure = where.parent / "figures" / name
+                parts += [
+                    f"![{shown[1]}]({figure})\n",
+                    f"{shown[1]}: [{text.splitlines()[0].removeprefix('# ')}]({where})\n",
+                    f"```sh\n{line}\n```\n",
+                ]
+    return "\n".join(parts)
+
+
 def literature(_: str) -> str:
     """Return every reference under its key."""
     entries = "\n".join(f".. [{key}] {reference.text()}" for key, reference in sorted(REFERENCES.items()))
@@ -124,7 +143,7 @@ def names(listed: str) -> str:
     return "\n".join((*parts, "```"))
 
 
-MADE = {"commands": commands, "documents": documents, "literature": literature, "names": names}
+MADE = {"commands": commands, "documents": documents, "gallery": gallery, "literature": literature, "names": names}
 
 
 def fill(app: Sphinx, page: str, source: list[str]) -> None:
