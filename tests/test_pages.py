@@ -14,7 +14,7 @@ SLOW = {"docs/guides/fit.md"}
 ELSEWHERE = {"docs/tutorials/from_records_to_a_frequency.md"}
 """A page whose lines take seconds each, and lead to files that a test of its own looks at."""
 
-LANGUAGES = {"console", "python", "sh", "toml", "text"}
+LANGUAGES = {"console", "python", "sh", "toml", "jinja"}
 RUN = {name for name, page in PAGES.items() if {"console", "python"} & {kind for kind, _ in FENCED.findall(page.read_text("utf-8"))}}
 
 

@@ -26,6 +26,31 @@ def test_versions_agree():
     assert seisblock.__version__ == citation == newest
 
 
+def test_the_release_is_of_one_day():
+    """The citation and the newest entry of the changelog have one date."""
+    released = re.search(r'^date-released: "(.+)"$', (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.M)[1]
+    newest = re.search(r"^## [\d.]+ \((.+)\)", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)[1]
+    assert newest in (released, "unreleased")
+
+
+def test_the_recipe_for_conda_asks_for_what_the_project_needs():
+    """Version, Python, dependencies and the entry point of the recipe are those of the project."""
+    recipe = (ROOT / "docs" / "developers" / "release.md").read_text(encoding="utf-8")
+    project = PROJECT["project"]
+    run = re.search(r"^  run:\n((?:    - .+\n)+)", recipe, re.M)[1]
+    needed = {line.removeprefix("    - ").replace("matplotlib-base", "matplotlib").replace(" ", "") for line in run.splitlines()}
+    assert needed == {f"python{project['requires-python']}", *project["dependencies"]}
+    assert re.search(r'set version = "(.+)"', recipe)[1] == seisblock.__version__
+    assert f"seisblock = {project['scripts']['seisblock']}" in recipe
+
+
+def test_the_source_archive_is_whole():
+    """What git keeps at the top of the repository is in the source archive, so that the tests pass from there too."""
+    included = set(PROJECT["tool"]["hatch"]["build"]["targets"]["sdist"]["include"])
+    looked_for = set(re.findall(r'ROOT / "([\w.-]+)"', Path(__file__).read_text(encoding="utf-8"))) - {"pyproject.toml"}
+    assert looked_for | {"tests", "sample_records", ".ci", "hatch_build.py"} <= included
+
+
 def test_every_version_of_the_changelog_is_dated():
     """Each heading has a date, or says that it is not released."""
     headings = re.findall(r"^## (.+)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)
