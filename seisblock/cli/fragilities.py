@@ -8,8 +8,8 @@ from typing import Any
 
 import click
 
-from seisblock.bodies.roster import ListedBody, read_bodies
-from seisblock.bodies.toml import read_table
+from seisblock.bodies.roster import read_bodies
+from seisblock.cli.bodies.listed import SIZES, listed_body
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import preparation_of, refuse_windows, tell_doubts
 from seisblock.cli.options import Source
@@ -32,9 +32,7 @@ from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.run import bodies_of, run_fragility
 from seisblock.studies.fragility.suite import read_suite
-from seisblock.words import said, tell
-
-SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset")
+from seisblock.words import tell
 
 
 def run(
@@ -56,7 +54,7 @@ def run(
     size, _ = measure.shown()
     other = None if compare is None else _curve(compare, size)
     options = {key: asked[key] for key in ("mu", "restitution", "vertical", "gravity") if asked[key] is not None}
-    listed = list(read_bodies(bodies)) if bodies else [_one(asked, solver)]
+    listed = list(read_bodies(bodies)) if bodies else [listed_body(asked, solver)]
     if bodies and any(asked[key] is not None for key in (*SIZES, "block")):
         raise ParameterError("give --bodies, or the sizes of one body, not both")
     components = tuple(name for name in source.component if name.lower() != "all")
@@ -121,26 +119,6 @@ def _records(source: Source, asked: Mapping[str, Any]) -> tuple[list[Record], tu
             (write_knet if asked["suite_format"] == "knet" else write_records)(asked["suite_out"], made)
         say("wrote {path}", path=asked["suite_out"])
     return made, (), suite
-
-
-def _one(asked: Mapping[str, Any], solver: str) -> ListedBody:
-    """Return the one body that sizes or a name describe, as a list would hold it."""
-    told = {key: asked[key] for key in SIZES if asked[key] is not None}
-    if asked["block"]:
-        sizes = [key for key in told if key != "inset"]
-        if sizes:
-            raise ParameterError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
-        side = {} if asked["side"] is None else {"side": asked["side"]}
-        name = Path(asked["block"]).stem
-        return ListedBody(name, {**told, **side}, read_table(asked["block"]), asked["block"])
-    if solver == "slide":
-        return ListedBody(said("object"), {}, None, said("the object"))
-    missing = [f"--{key}" for key in ("width", "height") if key not in told]
-    if missing:
-        text = "which body? {missing} missing: give --width and --height, --block NAME|FILE (say gravestone), or a list, --bodies"
-        raise ParameterError(text, missing=missing)
-    name = said("block {width:g} x {height:g} m", width=told["width"], height=told["height"])
-    return ListedBody(name, told, None, said("the block"))
 
 
 def _check_exports(output: Output, asked: Mapping[str, Any]) -> None:

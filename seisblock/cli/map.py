@@ -7,21 +7,30 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
 from seisblock.cli import offered
 from seisblock.cli.bodies.standing import choose_standing, standing_options
 from seisblock.cli.command import Command, option
+from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
 from seisblock.cli.output import Output
-from seisblock.cli.talk import say
+from seisblock.cli.talk import say, warn
 from seisblock.cli.types import Count
 from seisblock.words import noted, tell
 
 if TYPE_CHECKING:
     from seisblock.studies.stations.effects import WhatStands
 
+SOLVERS = ("respond", "rock", "slide", "jump", "uplift")
 SIZES = ("block", "width", "height")
 """Options of which any names a body."""
+
+RUNS = 50
+"""Plausible versions behind a probability, where nothing else is asked for."""
+
+OWN = ("mu", "mu_kinetic", "surface", "restitution", "rocking_restitution", "tenon")
+"""Options of a body that one solver has and another has not."""
 
 
 @click.command(
@@ -29,6 +38,7 @@ SIZES = ("block", "width", "height")
     examples=(
         "seisblock map hanmer_springs_2016 --block gravestone --mu 0.5 --geojson stations.geojson",
         "seisblock map hanmer_springs_2016 --cemetery aoyama.csv --csv stations.csv",
+        "seisblock map hanmer_springs_2016 --solver slide --mu 0.1",
     ),
 )
 @real_record_options
@@ -48,13 +58,19 @@ SIZES = ("block", "width", "height")
     "them. Stones are as those of --cemetery. [default: aoyama.csv]",
 )
 @standing_options
-@option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: where the record has one]")
+@option(
+    "--frequency-vertical",
+    type=float,
+    metavar="HZ",
+    section="Body",
+    help="--solver uplift: natural frequency of the vertical motion on the springs, Hz.",
+)
+@option("--solver", type=OneOf(SOLVERS), help="Which model follows the body. [default: respond]")
+@option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: as with the solver's own command]")
 @option(
     "--runs",
     type=Count(noted("versions"), "SEISBLOCK_RUNS", least=0),
-    default=50,
-    show_default=True,
-    help="Plausible versions behind a body's probability at each station; 0 for none.",
+    help="Plausible versions behind a body's probability at each station; 0 for none. [default: 50; none but of respond and rock]",
 )
 @option("--seed", type=int, default=0, show_default=True, help="Seed of the versions.")
 @option("--workers", type=click.IntRange(1, 1024), metavar="N", help="Threads on this machine. [default: as many as there are cores]")
@@ -72,8 +88,9 @@ def map(  # noqa: A001 - the command's name
     gravity: float,
     cemetery: str | None,
     survey: Path | None,
+    solver: str | None,
     vertical: bool | None,
-    runs: int,
+    runs: int | None,
     seed: int,
     workers: int | None,
     geojson: Path | None,
@@ -83,8 +100,9 @@ def map(  # noqa: A001 - the command's name
     """Map an earthquake: what each station measured, and what that does to a body or a cemetery, the worst first.
 
     RECORD may be a bundle, a folder, a pattern or a list (@records.txt) of one earthquake; of KiK-net stations the surface is taken unless
-    --level says otherwise. A body is followed in every direction, a cemetery judged in every direction; the worst counts. What cannot be
-    read is named, the others are answered; a station without coordinates is listed, and on no map.
+    --level says otherwise. A body is followed in every direction (jump and uplift: along each horizontal component), a cemetery judged in
+    every direction; the worst counts. What cannot be read is named, the others are answered; a station without coordinates is listed, and
+    on no map.
     """
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.cli.emit import emit
@@ -102,7 +120,7 @@ def map(  # noqa: A001 - the command's name
     refuse_windows(source)
     refuse_collisions(*(path for path in (geojson, html) if path is not None))
     surveyed = None if survey is None else read_surveys(survey)
-    subject = _subject(cemetery, given, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
+    subject = _subject(cemetery, given, solver, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if not source.record:
         say("no RECORD given: using the bundled sample {name}", name=REAL_SAMPLE)
     reading = Options(source.format, source.units, source.dt, None if source.station == "all" else source.station, source.level)
@@ -154,12 +172,12 @@ def map(  # noqa: A001 - the command's name
 
 
 def _subject(
-    cemetery: str | None, given: dict[str, Any], *, vertical: bool | None, runs: int, seed: int, gravity: float
+    cemetery: str | None, given: dict[str, Any], solver: str | None, *, vertical: bool | None, runs: int | None, seed: int, gravity: float
 ) -> WhatStands | None:
     """Return what stands at each station: a cemetery, a body, or nothing."""
     from seisblock.studies.stations.effects import StandingBody, StandingStones
 
-    named = [name for name in SIZES if given.get(name) is not None]
+    named = solver is not None or any(given.get(name) is not None for name in SIZES)
     if cemetery is not None:
         if named:
             raise click.UsageError(tell("give either --cemetery or a body, not both"))
@@ -169,8 +187,37 @@ def _subject(
         return StandingStones(read_cemetery(cemetery), Method(gravity=gravity))
     if not named:
         return None
+    if solver not in (None, "respond"):
+        return _followed(solver, given, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
+    if given["frequency_vertical"] is not None:
+        raise click.UsageError(tell("--frequency-vertical is of --solver uplift: leave it out"))
     chosen = choose_standing(given)
     say("body: {says}", says=chosen.says)
     options = {"mu": chosen.mu, "mu_kinetic": chosen.mu_kinetic, "gravity": gravity}
     options |= {name: given[name] for name in ("restitution", "rocking_restitution", "tenon")}
-    return StandingBody(chosen.body, options, vertical, runs, seed)
+    return StandingBody(chosen.body, options, vertical, RUNS if runs is None else runs, seed)
+
+
+def _followed(solver: str, given: dict[str, Any], *, vertical: bool | None, runs: int | None, seed: int, gravity: float) -> WhatStands:
+    """Return a body that another solver than ``respond`` follows; what that solver does not have is refused by name."""
+    from dataclasses import replace
+
+    from seisblock.cli.bodies.listed import listed_body
+    from seisblock.studies.batch.models import batch_model
+    from seisblock.studies.batch.run import unheard
+    from seisblock.studies.stations.effects import StandingBody
+
+    context = click.get_current_context()
+    told = [name for name in OWN if context.get_parameter_source(name) is not ParameterSource.DEFAULT]
+    model = batch_model(solver)
+    of_body = {name: given[name] for name in ("surface", "frequency_vertical") if given[name] is not None}
+    model.refuse_unknown({name: given[name] for name in (*told, *of_body) if name not in model.columns})
+    listed = listed_body(given, solver)
+    listed = replace(listed, told={**listed.told, **of_body})
+    options = {name: given[name] for name in told if name not in of_body}
+    placed = model.place(listed, {**options, "gravity": gravity})
+    for note in unheard(model, [listed]):
+        warn(note)
+    say("body: {says}", says=placed.name)
+    most = RUNS if model.chance is not None else 0
+    return StandingBody(placed.body, placed.options, vertical, most if runs is None else runs, seed, solver=solver, called=placed.name)

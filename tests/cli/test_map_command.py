@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.cli import main
+from seisblock.references import CITED
 from tests.stations import EPICENTRE, bundle, station_files
 
 
@@ -78,10 +79,10 @@ def test_what_is_shown(tmp_path, monkeypatch):
             (tmp_path / name).write_bytes(data)
     shown = CliRunner().invoke(main, ["map", str(tmp_path), "--cemetery", "aoyama.csv"])
     assert shown.exit_code == 0, shown.stderr
-    assert "of 2 stations, most at SYA001" in shown.stdout
+    assert "of 2 station(s), most at SYA001" in shown.stdout
     assert "earthquake of magnitude 6.8, 13 km deep, 37.288 N 138.87 E, 2004-10-23 17:56:00 JST" in shown.stdout
     peaks = CliRunner().invoke(main, ["map", str(tmp_path)])
-    assert "2 stations, the largest shaking at SYA001" in peaks.stdout
+    assert "2 station(s), the largest shaking at SYA001" in peaks.stdout
 
 
 @pytest.mark.parametrize(
@@ -91,6 +92,13 @@ def test_what_is_shown(tmp_path, monkeypatch):
         (["hanmer_springs_2016", "shafter_1989"], 3, "these records are of two earthquakes: 2016-11-13 11:02 UTC (HSES Hanmer Springs"),
         (["shafter_1989", "--cemetery", "aoyama.csv", "--block", "gravestone"], 2, "give either --cemetery or a body, not both"),
         (["shafter_1989", "--width", "24cm", "--height", "72cm"], 3, "how rough is it under the body?"),
+        (["shafter_1989", "--solver", "rock", "--cemetery", "aoyama.csv"], 2, "give either --cemetery or a body, not both"),
+        (["shafter_1989", "--solver", "rock"], 3, "which body? --width, --height missing"),
+        (["shafter_1989", "--solver", "rock", "--block", "gravestone", "--mu", "0.5"], 3, "rock has no option --mu: leave it out"),
+        (["shafter_1989", "--solver", "slide", "--mu", "0.1", "--runs", "9"], 3, "slide has no perturbed versions"),
+        (["shafter_1989", "--solver", "jump", "--block", "gravestone"], 3, "a jump needs a two-layer body"),
+        (["shafter_1989", "--solver", "uplift", "--width", "1", "--height", "3"], 3, "the springs have no stiffness"),
+        (["shafter_1989", "--block", "gravestone", "--frequency-vertical", "8"], 2, "is of --solver uplift"),
     ],
 )
 def test_bad_input(words, code, says, tmp_path):
@@ -100,6 +108,32 @@ def test_bad_input(words, code, says, tmp_path):
     result = CliRunner().invoke(main, ["map", *words])
     assert result.exit_code == code
     assert says in " ".join(result.stderr.split())
+
+
+@pytest.mark.parametrize(
+    ("words", "says", "heads"),
+    [
+        ("--solver rock --block gravestone --runs 3", "gravestone falls at 0 of 1 station(s)", "falls share worst"),
+        ("--solver slide --mu 0.1", "object slides at 1 of 1 station(s)", "slides moves"),
+        ("--solver jump --body chozusha --mu 0.18", "chozusha jumps at 0 of 1 station(s)", "jumps falls moves"),
+        ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m lifts at 1 of 1 station(s)", "lifts rises"),
+    ],
+)
+def test_every_solver_is_told(words, says, heads, monkeypatch):
+    """The verdict in its own words, what it tells of, and its papers; a name of several words is not broken within one."""
+    monkeypatch.setenv("COLUMNS", "80")
+    shown = CliRunner().invoke(main, ["map", "hanmer_springs_2016", *words.split()])
+    assert shown.exit_code == 0 and says in shown.stdout, shown.stderr
+    assert all(word in shown.stdout for word in (*heads.split(), "Emergency"))
+    told = json.loads(CliRunner().invoke(main, ["map", "hanmer_springs_2016", *words.split(), "--json"]).stdout)
+    assert told["parameters"]["solver"] == words.split()[1] and set(CITED[words.split()[1]]) <= set(told["citations"])
+
+
+def test_the_storey_is_told():
+    """What was done to each record stands beside its answer, in document and points."""
+    words = ["map", "hanmer_springs_2016", "--floor", "T=0.5", "--scale", "2", "--json"]
+    (entry,) = json.loads(CliRunner().invoke(main, words).stdout)["results"]
+    assert entry["history"].startswith("scaled by 2; floor motion T 0.5 s")
 
 
 def test_a_map_needs_a_place(tmp_path):

@@ -7,6 +7,9 @@ import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.sliding_base import SlidingBase
+from seisblock.bodies.spring_block import SpringBlock
+from seisblock.bodies.two_layer import Contact, load_two_layer
 from seisblock.errors import ParameterError
 from seisblock.measures import measure
 from seisblock.readers import read, read_all
@@ -14,6 +17,7 @@ from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import gather
 from seisblock.records import Component, Preparation, motion_of
 from seisblock.solvers.respond.solve import solve_respond
+from seisblock.studies.batch.run import run_batch
 from seisblock.studies.cemetery.judgement import Method, judge_cemetery
 from seisblock.studies.cemetery.shaking import shakings_of
 from seisblock.studies.standing.azimuths import respond_directions
@@ -69,6 +73,49 @@ def test_each_station_is_that_of_the_commands_of_one_record(event, found):
     assert (answer.effect.azimuth_deg, answer.effect.max_slip_m) == (worst.azimuth_deg, worst.max_displacement_m)
     alone = solve_respond(Block(0.24, 0.8), motion_of(record, f"{worst.azimuth_deg:g}"), mu=0.6).outcome
     assert alone.overturned == answer.effect.overturned
+
+
+FOLLOWED = {
+    "rock": StandingBody(Block(0.24, 0.8), {}, runs=5, solver="rock"),
+    "slide": StandingBody(SlidingBase(0.2), {}, solver="slide"),
+    "jump": StandingBody(load_two_layer("chozusha"), {"contact": Contact(0.18)}, solver="jump"),
+    "uplift": StandingBody(SpringBlock.from_frequency(1.2, 1.2, 3.0, frequency_vertical=8.0, beta=0.7), {}, solver="uplift"),
+}
+"""A body for each solver."""
+
+EFFECTS = {
+    "rock": lambda row: (row["overturned"], row["overturned"], row["probability_overturned"], None, None),
+    "slide": lambda row: (row["slips"], None, None, row["max_slip_m"], None),
+    "jump": lambda row: (row["outcome"] == "jumped", "overturned" in row["outcome"], None, abs(row["total_displacement_m"]), None),
+    "uplift": lambda row: (row["uplifts"], None, None, None, row["max_uplift_m"]),
+}
+"""What a row of a batch comes to at a station: happened, overturned, probability, way, rise."""
+
+
+@pytest.mark.parametrize("solver", FOLLOWED)
+def test_every_solver_answers_as_its_batch_does(event, solver):
+    """What the worst station has is the worst of the rows that a batch of its record has."""
+    subject = FOLLOWED[solver]
+    strong = Preparation(scale=3.0)
+    answer = survey_stations(event, subject, preparation=strong).answers[0]
+    record = next(each for each in gather([str(event)], Options()) if each.name.startswith(answer.station)).read(Options())
+    components = "all-azimuths" if subject.looks_around else ()
+    options = {**subject.options, "runs": subject.runs, "preparation": strong}
+    table = run_batch(record, {"it": subject.body}, solver, components=components, **options)
+    effects = {row["component"]: EFFECTS[solver](row) for row in table.rows}
+    effect = answer.effect
+    found = (effect.happened, effect.overturned, effect.probability, effect.max_slip_m, effect.max_uplift_m)
+    name = {0.0: "NS", 90.0: "EW"}[effect.azimuth_deg] if components == () else f"{effect.azimuth_deg:g}"
+    assert effect.happened and found == effects[name]
+    assert found == max(effects.values(), key=lambda told: tuple(value or 0.0 for value in told))
+
+
+def test_what_no_solver_follows_is_refused():
+    """A solver that follows no body, and versions where there are none, in one sentence."""
+    with pytest.raises(ParameterError, match="'stack' follows no body at a station"):
+        StandingBody(Block(0.24, 0.8), {}, solver="stack")
+    with pytest.raises(ParameterError, match="slide has no perturbed versions"):
+        StandingBody(0.2, {}, runs=5, solver="slide")
 
 
 def test_a_cemetery_is_judged_in_every_direction(event):

@@ -24,11 +24,11 @@ class MapParameters(Struct, frozen=True, kw_only=True):
     subject : str
         What stands at each station; empty where only the shaking was asked for.
     solver : str
-        Which model follows it: ``respond`` of a body, ``gravestones`` of a cemetery; empty for none.
+        Which model follows it: that of a body, ``gravestones`` of a cemetery; empty for none.
     runs, seed : int
         Plausible versions behind a probability, and their seed.
     step_deg : float
-        Between the directions that are looked in.
+        Between the directions that are looked in; 0 where only the components are (``jump``, ``uplift``).
     """
 
     subject: str
@@ -59,14 +59,22 @@ class StationEntry(Result, frozen=True, kw_only=True):
         The worst direction, clockwise from north.
     rate : float or None
         Share of the cemetery's stones that fall.
+    happened : bool or None
+        Whether what the solver is asked about happened: the body overturns (respond, rock), slips, jumps, lifts.
     overturned : bool or None
+        Null of a solver in which nothing falls.
     probability : float or None
         Share of the plausible versions of body and shaking that fall.
     max_slip_m : float or None
+        Furthest displacement of the body from where it stood.
+    max_uplift_m : float or None
+        How far a corner of a body on springs rose.
     failure : str or None
         Why there is no answer.
     doubts : str or None
         What a careful reader notices about the record.
+    history : str or None
+        What was done to it, the storey on which a body stands among it.
     """
 
     record: str
@@ -81,11 +89,14 @@ class StationEntry(Result, frozen=True, kw_only=True):
     jma_intensity: float | None
     azimuth_deg: float | None
     rate: float | None
+    happened: bool | None
     overturned: bool | None
     probability: float | None
     max_slip_m: float | None
+    max_uplift_m: float | None
     failure: str | None
     doubts: str | None
+    history: str | None
 
 
 class NeighbourEntry(Struct, frozen=True, kw_only=True):
@@ -159,13 +170,13 @@ def document(found: Stations, subject: WhatStands | None, surveys: Sequence[Surv
     upstairs : bool
         Whether they stand on a storey.
     """
-    body = isinstance(subject, StandingBody)
+    body = subject if isinstance(subject, StandingBody) else None
     parameters = MapParameters(
         subject=subject.name if subject else "",
-        solver="" if subject is None else "respond" if body else "gravestones",
+        solver="" if subject is None else body.solver if body else "gravestones",
         runs=getattr(subject, "runs", 0),
         seed=getattr(subject, "seed", 0),
-        step_deg=getattr(subject, "step_deg", 0.0),
+        step_deg=getattr(subject, "step_deg", 0.0) if body is None or body.looks_around else 0.0,
     )
     return MAP.document(
         parameters,

@@ -15,6 +15,7 @@ from matplotlib.patheffects import withStroke
 from seisblock.errors import ParameterError
 from seisblock.present.figures import canvas
 from seisblock.present.scales import acceleration_unit
+from seisblock.present.text.map import HAPPENS
 from seisblock.records.site import EARTH_KM
 from seisblock.studies.stations.effects import StandingBody, WhatStands
 from seisblock.studies.stations.survey import StationAnswer, Stations
@@ -99,7 +100,7 @@ def shown_values(found: Stations, subject: WhatStands | None, *, gal: bool) -> t
         values = np.array([(answer.pga_m_s2 or 0.0) / unit.size for answer in found.mapped])
         return values, f"PGA ({unit.name})", float(values.max()) or 1.0
     if isinstance(subject, StandingBody):
-        name = tell("share that falls") if subject.runs else tell("falls")
+        name = tell("share that falls") if subject.runs else tell(HAPPENS[subject.solver])
         return np.array([_share(answer) for answer in found.mapped]), name, 1.0
     return np.array([answer.effect.rate or 0.0 for answer in found.mapped]), tell("share that falls"), 1.0
 
@@ -135,9 +136,9 @@ def shade(share: float) -> str:
 
 
 def _share(answer: StationAnswer) -> float:
-    """Return the share of versions that fall at a station, or whether the body does."""
+    """Return the share of versions that fall at a station, or whether what is asked about happened."""
     effect = answer.effect
-    return float(effect.overturned or False) if effect.probability is None else effect.probability
+    return float(effect.happened or False) if effect.probability is None else effect.probability
 
 
 def title(found: Stations, subject: WhatStands | None) -> str:

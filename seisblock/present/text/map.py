@@ -11,7 +11,33 @@ from seisblock.present.text.whereabouts import earthquake_told
 from seisblock.studies.stations.effects import StandingBody, WhatStands
 from seisblock.studies.stations.survey import StationAnswer, Stations
 from seisblock.studies.stations.surveys import SurveyAnswer, contradictions
-from seisblock.words import roughly, tell
+from seisblock.words import noted, roughly, tell
+
+COLUMNS = {
+    "respond": ("overturned", "probability", "max_slip_m"),
+    "rock": ("overturned", "probability"),
+    "slide": ("happened", "max_slip_m"),
+    "jump": ("happened", "overturned", "max_slip_m"),
+    "uplift": ("happened", "max_uplift_m"),
+}
+"""What the table tells of a body, by the solver that follows it."""
+
+HAPPENS = {
+    "respond": noted("falls"),
+    "rock": noted("falls"),
+    "slide": noted("slides"),
+    "jump": noted("jumps"),
+    "uplift": noted("lifts"),
+}
+"""What a solver is asked about, as a heading."""
+
+_VERDICTS = {
+    "respond": noted("{subject} falls at {some} of {count} station(s), worst at {station}"),
+    "rock": noted("{subject} falls at {some} of {count} station(s), worst at {station}"),
+    "slide": noted("{subject} slides at {some} of {count} station(s), worst at {station}"),
+    "jump": noted("{subject} jumps at {some} of {count} station(s), worst at {station}"),
+    "uplift": noted("{subject} lifts at {some} of {count} station(s), worst at {station}"),
+}
 
 MOST = 40
 """Stations that the table tells of; the files tell of all."""
@@ -35,7 +61,7 @@ def tables(found: Stations, subject: WhatStands | None, *, gal: bool) -> Iterato
     if shown:
         heads, rows = cells(shown, subject, gal=gal)
         more = tell("and {count} more stations, in the files", count=len(answered) - MOST) if len(answered) > MOST else ""
-        yield table("", heads, rows, caption=more)
+        yield table("", [head.replace(" (", "\n(") for head in heads], rows, caption=more)  # names need the room
     missing = [answer for answer in found.answers if answer.failure]
     if missing:
         yield line(tell("without an answer: {count}", count=len(missing)), "yellow")
@@ -93,7 +119,7 @@ def cells(answers: Sequence[StationAnswer], subject: WhatStands | None, *, gal: 
         Whether accelerations are shown in gal.
     """
     a, v = acceleration_unit(gal=gal), velocity_unit(gal=gal)
-    way = length_unit((answer.effect.max_slip_m or 0.0 for answer in answers), gal=gal)
+    way = length_unit((answer.effect.max_slip_m or answer.effect.max_uplift_m or 0.0 for answer in answers), gal=gal)
     heads = [tell("station"), "km", f"PGA ({a.name})", f"PGV ({v.name})", tell("JMA"), *_effect_heads(subject, way)]
     return heads, [[*_measured(answer, a, v), *_effect(answer, subject, way)] for answer in answers]
 
@@ -112,14 +138,13 @@ def verdict(found: Stations, subject: WhatStands | None) -> str:
         return tell("no station has an answer")
     worst = answered[0]
     if subject is None:
-        return tell("{count} stations, the largest shaking at {station}", count=count, station=worst.label)
+        return tell("{count} station(s), the largest shaking at {station}", count=count, station=worst.label)
     if isinstance(subject, StandingBody):
-        falls = sum(bool(answer.effect.overturned) for answer in answered)
-        text = "{subject} falls at {falls} of {count} stations, worst at {station}"
-        return tell(text, subject=tell(subject.name), falls=falls, count=count, station=worst.label)
+        some = sum(bool(answer.effect.happened) for answer in answered)
+        return tell(_VERDICTS[subject.solver], subject=tell(subject.name), some=some, count=count, station=worst.label)
     rates = [answer.effect.rate or 0.0 for answer in answered]
     return tell(
-        "{subject}: stones fall at {falls} of {count} stations, most at {station}, {rate}",
+        "{subject}: stones fall at {falls} of {count} station(s), most at {station}, {rate}",
         subject=tell(subject.name),
         falls=sum(rate > 0.0 for rate in rates),
         count=count,
@@ -144,9 +169,16 @@ def _effect_heads(subject: WhatStands | None, way: Unit) -> list[str]:
     """Return the headings of what it did."""
     if subject is None:
         return []
-    if isinstance(subject, StandingBody):
-        return [tell("falls"), tell("share"), tell("moves ({unit})", unit=way.name), tell("worst to")]
-    return [tell("rate"), tell("worst to")]
+    if not isinstance(subject, StandingBody):
+        return [tell("rate"), tell("worst to")]
+    heads = {
+        "happened": tell(HAPPENS[subject.solver]),
+        "overturned": tell("falls"),
+        "probability": tell("share"),
+        "max_slip_m": tell("moves ({unit})", unit=way.name),
+        "max_uplift_m": tell("rises ({unit})", unit=way.name),
+    }
+    return [*(heads[name] for name in COLUMNS[subject.solver]), tell("worst to")]
 
 
 def _effect(answer: StationAnswer, subject: WhatStands | None, way: Unit) -> list[str]:
@@ -157,6 +189,11 @@ def _effect(answer: StationAnswer, subject: WhatStands | None, way: Unit) -> lis
     towards = number(None) if effect.azimuth_deg is None else f"{effect.azimuth_deg:g}°"
     if not isinstance(subject, StandingBody):
         return [number(None) if effect.rate is None else roughly(effect.rate), towards]
-    share = number(None) if effect.probability is None else roughly(effect.probability)
-    slip = number(None) if effect.max_slip_m is None else length_cell(effect.max_slip_m, way)
-    return [number(effect.overturned), share, slip, towards]
+    return [*(_cell(name, getattr(effect, name), way) for name in COLUMNS[subject.solver]), towards]
+
+
+def _cell(name: str, value: Any, way: Unit) -> str:
+    """Return one number, or one verdict, of what it did."""
+    if value is None or isinstance(value, bool):
+        return number(value)
+    return roughly(value) if name == "probability" else length_cell(value, way)

@@ -23,6 +23,7 @@ from seisblock.bodies.two_layer import Contact, TwoLayerBlock, contact, two_laye
 from seisblock.errors import BodyError, ParameterError
 from seisblock.records import Motion
 from seisblock.results import Response
+from seisblock.solvers.jump.chain import JUMPED
 from seisblock.solvers.jump.solve import JumpOutcome, solve_jump
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.solvers.respond.solve import solve_respond
@@ -105,6 +106,11 @@ class BatchModel:
         unknown = [f"`{name}`" for name in options if name not in known]
         if unknown:
             raise ParameterError("{solver} has no option {names}: leave it out", solver=self.name, names=unknown)
+
+    def happened(self, row: Told) -> bool:
+        """Return whether what the user asks about happened in a row with an answer."""
+        found = row[self.happens]
+        return found == JUMPED if isinstance(found, str) else bool(found)
 
     def unheard(self, listed: ListedBody) -> list[str]:
         """Return what is told of a body that this solver takes no notice of."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from seisblock.solvers.jump.chain import JUMPED
 from seisblock.studies.batch.models import BatchModel
 from seisblock.studies.batch.table import REASON, Row
 
@@ -51,13 +50,8 @@ class Tally:
                 count.failures += 1
                 continue
             count.answers += 1
-            count.happened += self._happened(row)
+            count.happened += self.model.happened(row)
         return rows
-
-    def _happened(self, row: Row) -> bool:
-        """Return whether what was asked about happened in a row."""
-        found = row[self.model.happens]
-        return found == JUMPED if isinstance(found, str) else bool(found)
 
     @property
     def answers(self) -> int:

@@ -109,12 +109,28 @@ def rows_of(recording: Recording | Record, plan: Plan) -> list[Row]:
             refuse_doubtful(record)
         doubts = sentences([record])
         prepared = plan.preparation.apply(record)
-        names = _components(prepared, plan.components)
     except SeisblockError as error:
         return [{**known, REASON: error.said}]
+    return rows_under(prepared, plan, known, doubts)
+
+
+def rows_under(record: Record, plan: Plan, known: Row | None = None, doubts: Sequence[str] = ()) -> list[Row]:
+    """Return the rows of a record to which nothing is done any more: each component, or the worst of all directions, with each body.
+
+    Parameters
+    ----------
+    record : Record
+    plan : Plan
+    known : mapping
+        What each row says beside.
+    doubts : sequence of str
+        The warnings with which each begins.
+    """
+    known = known or {}
     if around(plan.components):
-        return [{**known, **_of_the_worst(prepared, body, plan, doubts)} for body in plan.bodies]
-    return [row for name in names for row in _of_component(prepared, name, plan, known, doubts)]
+        return [{**known, **_of_the_worst(record, body, plan, doubts)} for body in plan.bodies]
+    names = _components(record, plan.components)
+    return [row for name in names for row in _of_component(record, name, plan, known, doubts)]
 
 
 def row_without_answer(plan: Plan, recording: Recording | Record, reason: str) -> list[Row]:
@@ -136,7 +152,7 @@ def _components(record: Record, asked: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(component.code for component in record.horizontals) or asked or (ALL,)
 
 
-def _of_component(record: Record, name: str, plan: Plan, known: Row, doubts: list[str]) -> Iterator[Row]:
+def _of_component(record: Record, name: str, plan: Plan, known: Row, doubts: Sequence[str]) -> Iterator[Row]:
     """Yield the rows of one component."""
     try:
         motion = motion_of(record, name)
@@ -155,7 +171,7 @@ def _of_component(record: Record, name: str, plan: Plan, known: Row, doubts: lis
             yield {**row, **_answer(motion, body, plan, doubts)}
 
 
-def _of_the_worst(record: Record, body: Placed | Unplaced, plan: Plan, doubts: list[str]) -> Row:
+def _of_the_worst(record: Record, body: Placed | Unplaced, plan: Plan, doubts: Sequence[str]) -> Row:
     """Return what a solver says of one body in the worst of all directions."""
     row: Row = {"component": ALL_AZIMUTHS, "body": body.name}
     if isinstance(body, Unplaced):
@@ -168,7 +184,7 @@ def _of_the_worst(record: Record, body: Placed | Unplaced, plan: Plan, doubts: l
     return {**row, "component": motion.name, **seen, **_answer(motion, body, plan, doubts)}
 
 
-def _answer(motion: Motion, body: Placed, plan: Plan, doubts: list[str]) -> Row:
+def _answer(motion: Motion, body: Placed, plan: Plan, doubts: Sequence[str]) -> Row:
     """Return what a solver says of one body alone under one motion, or why it does not."""
     model = plan.model
     try:

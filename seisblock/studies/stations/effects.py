@@ -11,20 +11,25 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.library import along
-from seisblock.bodies.scan.body import ScannedBody
 from seisblock.errors import ParameterError
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
 from seisblock.records import Record, motion_of
 from seisblock.records.given import Factor
 from seisblock.records.process import towards
-from seisblock.references import papers
-from seisblock.studies.azimuths import STEP_DEG
+from seisblock.references import CITED, papers
+from seisblock.solvers.jump.chain import OVERTURNED_LANDED, OVERTURNED_ROCKING
+from seisblock.studies.azimuths import ALL_AZIMUTHS, STEP_DEG
+from seisblock.studies.batch.azimuths import WORST
+from seisblock.studies.batch.models import BatchModel, Placed, batch_model
+from seisblock.studies.batch.table import REASON, Row
+from seisblock.studies.batch.task import Plan, rows_under
 from seisblock.studies.cemetery.judgement import Method, overturned
 from seisblock.studies.cemetery.rate import rate_of
 from seisblock.studies.cemetery.shaking import Shaking
 from seisblock.studies.standing.azimuths import respond_directions
 from seisblock.studies.standing.probability import MOVED_M, respond_probability
+from seisblock.words import said
 
 
 @dataclass(frozen=True)
@@ -37,24 +42,32 @@ class StationEffect:
         The worst direction, clockwise from north.
     rate : float or None
         Share of the stones that fall.
+    happened : bool or None
+        Whether what the solver is asked about happened: the body overturns (``respond``, ``rock``), slips, jumps, lifts.
     overturned : bool or None
+        None of a solver in which nothing falls.
     probability : float or None
         Share of the plausible versions of body and shaking that fall; None where it was not asked for.
     max_slip_m : float or None
-        Furthest displacement of the body from where it stood.
+        Furthest displacement of the body from where it stood; of a jump that of all its chains together.
+    max_uplift_m : float or None
+        How far a corner of a body on springs rose.
     """
 
     azimuth_deg: float | None = None
     rate: float | None = None
+    happened: bool | None = None
     overturned: bool | None = None
     probability: float | None = None
     max_slip_m: float | None = None
+    max_uplift_m: float | None = None
 
     @property
     def severity(self) -> tuple[float, ...]:
-        """What sorts stations, the larger the worse: the share that falls, the verdict, the displacement."""
+        """What sorts stations, the larger the worse: the share that falls, the verdict, the displacement or the rise."""
         share = self.rate if self.probability is None else self.probability
-        return (-1.0 if share is None else share, float(self.overturned or False), self.max_slip_m or 0.0)
+        verdict = float(self.overturned or False), float(self.happened or False)
+        return (-1.0 if share is None else share, *verdict, self.max_slip_m or self.max_uplift_m or 0.0)
 
 
 class WhatStands(Protocol):
@@ -74,40 +87,84 @@ class WhatStands(Protocol):
 
 @dataclass(frozen=True)
 class StandingBody:
-    """A free-standing body, followed by ``respond`` in every direction; the worst is followed once more in plausible versions.
+    """A body, followed in every direction where its solver looks in each, else along the horizontal components; the worst counts.
 
     Parameters
     ----------
-    body : Block or ScannedBody
+    body : Block, ScannedBody, SlidingBase, TwoLayerBlock or SpringBlock
+        Of the kind that the solver takes.
     options : mapping
-        ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``tenon``, ``gravity``, ``settle_s`` of ``solve_respond``.
+        Of the solver: of ``respond`` its ``mu``, ``mu_kinetic``, ``restitution``, ``rocking_restitution``, ``tenon``, ``gravity``,
+        ``settle_s``.
     vertical : bool, float or None, 1
-        Whether the vertical motion acts; None: where a record has it.
+        Whether the vertical motion acts; None: as the solver has it by itself.
     runs, seed : int
-        Versions behind the probability, 0 for none, and their seed.
+        Versions behind the probability (``respond``, ``rock``), 0 for none, and their seed.
     step_deg : float
-        Degrees between directions.
+        Degrees between the directions of ``respond``; other solvers have their own.
+    solver : str
+        ``respond``, ``rock``, ``slide``, ``jump`` or ``uplift``.
+    called : str
+        What it is called, where the body has no name.
+
+    Raises
+    ------
+    ParameterError
+        If the solver is none of these, or has no versions to tell a probability of.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> effect = StandingBody(0.1, {}, solver="slide", called="vase").under(read("hanmer_springs_2016"))
+    >>> effect.happened, effect.overturned, round(1000 * effect.max_slip_m)
+    (True, None, 55)
     """
 
-    body: Block | ScannedBody
+    body: Any
     options: Mapping[str, Any]
     vertical: Factor | None = None
     runs: int = 0
     seed: int = 0
     step_deg: float = STEP_DEG
+    solver: str = "respond"
+    called: str = ""
+
+    def __post_init__(self) -> None:
+        if self.solver not in FOLLOWED:
+            raise ParameterError("{solver!r} follows no body at a station; {known} do", solver=str(self.solver)[:100], known=list(FOLLOWED))
+        if self.runs and batch_model(self.solver).chance is None:
+            raise ParameterError("{solver} has no perturbed versions: leave the runs out, or take respond or rock", solver=self.solver)
 
     @property
     def name(self) -> str:
         """What stands there."""
-        return self.body.name
+        return self.called or getattr(self.body, "name", "") or said("object")
 
     @property
     def citations(self) -> tuple[str, ...]:
         """Keys of the papers relied on."""
-        return papers("all modes")
+        return papers("all modes") if self.solver == "respond" else CITED[self.solver]
+
+    @property
+    def looks_around(self) -> bool:
+        """Whether every direction is looked in."""
+        return self.solver in WORST
 
     def under(self, record: Record) -> StationEffect:
-        """Return what a record does to the body in the worst direction."""
+        """Return what a record does to the body where that is worst."""
+        if self.solver == "respond":
+            return self._stood(record)
+        options = {**self.options, **({} if self.vertical is None else {"vertical": self.vertical})}
+        around = (ALL_AZIMUTHS,) if self.looks_around else ()
+        plan = Plan(self.solver, (Placed(self.name, self.body, options),), around, runs=self.runs, seed=self.seed)
+        rows = rows_under(record, plan)
+        found = [_effect(row, plan.model, record) for row in rows if not row.get(REASON)]
+        if not found:
+            raise ParameterError("{why}", why=rows[0][REASON])
+        return max(found, key=lambda effect: effect.severity)
+
+    def _stood(self, record: Record) -> StationEffect:
+        """Return what became of a free-standing body in the worst direction; the share is that of its versions there."""
         worst = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)[0]
         share = None
         if self.runs:
@@ -117,7 +174,41 @@ class StandingBody:
             share = respond_probability(
                 block, motion, vertical=self.vertical, runs=self.runs, seed=self.seed, moved_m=MOVED_M, **self.options
             ).overturned
-        return StationEffect(worst.azimuth_deg, None, worst.overturned, share, worst.max_displacement_m)
+        return StationEffect(
+            worst.azimuth_deg,
+            happened=worst.overturned,
+            overturned=worst.overturned,
+            probability=share,
+            max_slip_m=worst.max_displacement_m,
+        )
+
+
+FOLLOWED: Mapping[str, str | None] = {
+    "respond": "max_displacement_m",
+    "rock": None,
+    "slide": "max_slip_m",
+    "jump": "total_displacement_m",
+    "uplift": "max_uplift_m",
+}
+"""The solvers that follow a body at a station, and the column of a batch that tells how far it moved or rose."""
+
+
+def _effect(row: Row, model: BatchModel, record: Record) -> StationEffect:
+    """Return a row of a batch as the effect at a station."""
+    name, column = str(row["component"]), FOLLOWED[model.name]
+    distance = None if column is None or row[column] is None else abs(row[column])
+    known = {component.code: component.azimuth_deg for component in record.components}
+    overturned = row.get("overturned")
+    if model.name == "jump":
+        overturned = row["outcome"] in (OVERTURNED_ROCKING, OVERTURNED_LANDED)
+    return StationEffect(
+        known[name] if name in known else float(name),
+        happened=model.happened(row),
+        overturned=overturned,
+        probability=row.get("probability_overturned"),
+        max_slip_m=None if column == "max_uplift_m" else distance,
+        max_uplift_m=distance if column == "max_uplift_m" else None,
+    )
 
 
 @dataclass(frozen=True)

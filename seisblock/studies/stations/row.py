@@ -34,9 +34,12 @@ def row_of(answer: StationAnswer) -> dict[str, Any]:
         "jma_intensity": answer.jma_intensity,
         "azimuth_deg": effect.azimuth_deg,
         "rate": effect.rate,
+        "happened": effect.happened,
         "overturned": effect.overturned,
         "probability": effect.probability,
         "max_slip_m": effect.max_slip_m,
+        "max_uplift_m": effect.max_uplift_m,
         "failure": answer.failure,
         "doubts": "; ".join(answer.doubts) or None,
+        "history": "; ".join(answer.history) or None,
     }

@@ -65,6 +65,8 @@ class StationAnswer:
         Why there is no answer, or no effect.
     doubts : tuple of str
         What a careful reader notices about the record.
+    history : tuple of str
+        What was done to it, the storey on which a body stands among it.
     earthquake : Earthquake or None
     origin_told : str
         When that was on the network's own clock.
@@ -87,6 +89,7 @@ class StationAnswer:
     effect: StationEffect = field(default_factory=StationEffect)
     failure: str | None = None
     doubts: tuple[str, ...] = ()
+    history: tuple[str, ...] = ()
     earthquake: Earthquake | None = None
     origin_told: str = ""
     outline: tuple[tuple[float, float], ...] = ()
@@ -229,6 +232,7 @@ def _answer(
         "epicentral_distance_km": epicentral_distance_km(prepared),
         "local_start": told_time(prepared, prepared.start),
         "doubts": tuple(sentences([prepared])),
+        "history": prepared.history,
         "earthquake": earthquake,
         "origin_told": "" if earthquake is None else told_time(prepared, earthquake.origin_time),
     }

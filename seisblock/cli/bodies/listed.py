@@ -1,0 +1,53 @@
+"""The one body that options describe, as a list of bodies would hold it: what each solver of a batch takes of it is its own affair."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from seisblock.bodies.roster import ListedBody
+from seisblock.bodies.toml import read_table
+from seisblock.errors import ParameterError
+from seisblock.words import said
+
+SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset")
+"""Options that describe a body which has no name."""
+
+
+def listed_body(asked: Mapping[str, Any], solver: str) -> ListedBody:
+    """Return the one body that sizes or a name describe.
+
+    Parameters
+    ----------
+    asked : mapping
+        ``block`` and ``side``, or sizes, SI; None where not given.
+    solver : str
+        ``slide`` needs neither.
+
+    Raises
+    ------
+    ParameterError
+        If sizes and a named body are mixed, or something needed is missing.
+
+    Examples
+    --------
+    >>> listed_body({"width": 0.3, "height": 1.2}, "rock").name
+    'block 0.3 x 1.2 m'
+    """
+    told = {key: asked[key] for key in SIZES if asked.get(key) is not None}
+    if asked.get("block"):
+        sizes = [key for key in told if key != "inset"]
+        if sizes:
+            raise ParameterError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
+        side = {} if asked.get("side") is None else {"side": asked["side"]}
+        return ListedBody(Path(asked["block"]).stem, {**told, **side}, read_table(asked["block"]), asked["block"])
+    if solver == "slide":
+        return ListedBody(said("object"), told, None, said("the object"))
+    missing = [f"--{key}" for key in ("width", "height") if key not in told]
+    if missing:
+        raise ParameterError(
+            "which body? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
+        )
+    name = said("block {width:g} x {height:g} m", width=told["width"], height=told["height"])
+    return ListedBody(name, told, None, said("the block"))
