@@ -13,7 +13,7 @@ def test_points_are_the_stations():
     """Longitudes, latitudes and rates of all that have a place, the worst drawn last; the epicentre is the star."""
     found, subject = stations(StandingStones(AOYAMA))
     axis = figure(found, subject).axes[0]
-    points, star = axis.collections
+    points, star, *_ = axis.collections
     drawn = {(*place, value) for place, value in zip(points.get_offsets().data.tolist(), points.get_array().tolist(), strict=True)}
     assert drawn == {(answer.longitude, answer.latitude, answer.effect.rate) for answer in found.mapped}
     assert points.get_array()[-1] == 1.0

@@ -1,4 +1,4 @@
-"""An earthquake's stations on a map without a coast: a colour for what happened at each, the epicentre, a scale and north."""
+"""An earthquake's stations on a map: a colour for what happened at each, the epicentre, the coast where its lines are installed."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, Normalize, to_hex
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from seisblock.errors import ParameterError
+from seisblock.present.coast import coast_within
 from seisblock.present.figures import canvas
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.map import HAPPENS
@@ -25,6 +27,8 @@ from seisblock.words import tell
 
 SHADES = LinearSegmentedColormap.from_list("stations", ["#f3efe6", "#e9b872", "#c0392b", "#3d0c11"])
 """Light where nothing happens, dark where everything falls: in grey, too."""
+
+COAST = "#5b7f95"
 
 NAMED = 5
 """Stations that bear their names: the worst."""
@@ -88,6 +92,8 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
         places = np.vstack([places, squares])
     _epicentre(axis, found)
     _frame(axis, found, places)
+    if coast := coast_within(*axis.get_xlim(), *axis.get_ylim()):
+        axis.add_collection(LineCollection(coast, colors=COAST, linewidths=0.8, zorder=1.5))
     _names(axis, found)
     made.colorbar(points, ax=axis, label=label, shrink=0.8, pad=0.02)
     return made

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from seisblock.present.coast import coast_within
 from seisblock.present.figures.stations import KM_PER_DEGREE, shade, shown_values, surveyed_value, title
 from seisblock.present.page import page
 from seisblock.present.scales import acceleration_unit
@@ -18,6 +19,9 @@ from seisblock.studies.stations.survey import StationAnswer, Stations
 from seisblock.studies.stations.surveys import SurveyAnswer, contradictions
 from seisblock.units import GAL
 from seisblock.words import tell
+
+LEAST_ROOM_DEG = 0.2
+"""How far around one station the coast is drawn."""
 
 LEGEND = 9
 """Colours of the scale."""
@@ -58,13 +62,18 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True, s
         for each, row in zip(surveys, told, strict=True)
     ]
     earthquake = found.earthquake
+    coast = (
+        [[_place(longitude, latitude, centre) for longitude, latitude in line.tolist()] for line in coast_within(*_around(found))]
+        if points
+        else []
+    )
     epicentre = None if earthquake is None else _place(earthquake.longitude_deg, earthquake.latitude_deg, centre)
     return page(
         "map.html",
         title(found, subject) or tell("Stations"),
         subtitles=[earthquake_told(earthquake, found.origin_told)] if earthquake else [],
         lead=verdict(found, subject),
-        data={"points": points, "squares": squares, "epicentre": epicentre, "named": tell("epicentre")},
+        data={"points": points, "squares": squares, "epicentre": epicentre, "coast": coast, "named": tell("epicentre")},
         label=label,
         legend=[shade(i / (LEGEND - 1)) for i in range(LEGEND)],
         ends=["0", f"{most:.3g}"],
@@ -81,6 +90,17 @@ def _centre(found: Stations) -> tuple[float, float]:
     places = [(answer.longitude or 0.0, answer.latitude or 0.0) for answer in found.mapped] or [(0.0, 0.0)]
     east, north = zip(*places, strict=True)
     return 0.5 * (min(east) + max(east)), 0.5 * (min(north) + max(north))
+
+
+def _around(found: Stations) -> tuple[float, float, float, float]:
+    """Return a part of the Earth with the stations, the epicentre, and as much room on each side: west, east, south and north."""
+    places = [(answer.longitude or 0.0, answer.latitude or 0.0) for answer in found.mapped]
+    earthquake = found.earthquake
+    if earthquake is not None and earthquake.longitude_deg is not None and earthquake.latitude_deg is not None:
+        places.append((earthquake.longitude_deg, earthquake.latitude_deg))
+    (west, east), (south, north) = ((min(each), max(each)) for each in zip(*places, strict=True))
+    room = max(east - west, north - south, LEAST_ROOM_DEG)
+    return west - room, east + room, south - room, north + room
 
 
 def _place(longitude: float | None, latitude: float | None, centre: tuple[float, float]) -> list[float] | None:

@@ -20,6 +20,7 @@
   const middle = bounds.map(([low, high]) => (low + high) / 2);
   const view = { x: middle[0], y: middle[1], km: 1 };  // km for each pixel
   const circles = [], squares = [];
+  for (const line of data.coast) made("polyline", { points: line.join(" "), class: "coast" }, layer);
   let star, name;
 
   const whole = () => {
