@@ -102,7 +102,7 @@ def survey_cells(surveys: Sequence[SurveyAnswer]) -> tuple[list[str], list[list[
             f"{answer.surveyed.fallen}/{answer.surveyed.stones}",
             f"{told[0]} ({told[1]} – {told[2]})",
             number(None) if answer.expected_intensity is None else fixed(answer.expected_intensity, 1),
-            number(None) if answer.residual is None else f"{answer.residual:+.1f}",
+            number(None) if answer.residual is None else f"{round(answer.residual, 1) + 0.0:+.1f}",  # no -0.0
             "" if nearest is None else tell("{station}, {distance:.1f} km", station=nearest.station, distance=nearest.distance_km),
         ])  # fmt: skip
     return heads, rows

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from datetime import datetime, timedelta
 from functools import partial
 from itertools import groupby
 from os import PathLike
@@ -22,23 +21,17 @@ from seisblock.readers.gather import Recording, gather
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.records.doubtful import refuse_doubtful, sentences
-from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, great_circle_km, site_of, told_time
+from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, site_of, told_time
 from seisblock.studies.runs import RECORDS, in_threads
+from seisblock.studies.stations.earthquakes import are_two, words_of
 from seisblock.studies.stations.effects import StationEffect, WhatStands
 from seisblock.typing import FloatArray, Progress
-from seisblock.words import said
 
 AS_READ = Preparation()
 """Nothing is done to a record but what its format needs."""
 
 STRETCHES = 160
 """Of an outline."""
-
-APART_KM = 100.0
-"""Epicentres further apart than any two solutions of one earthquake are those of two."""
-
-APART = timedelta(minutes=3)
-"""Origin times further apart are those of two earthquakes; old headers tell the minute."""
 
 
 @dataclass(frozen=True)
@@ -272,31 +265,12 @@ def _of_one_earthquake(known: StationAnswer | None, answer: StationAnswer) -> St
     """Return the station whose earthquake is that of all so far, and refuse another earthquake."""
     if answer.earthquake is None or known is None or known.earthquake is None:
         return known if answer.earthquake is None else answer
-    if _differ(known.earthquake, answer.earthquake):
+    if are_two(known.earthquake, answer.earthquake):
         raise ParameterError(
             "these records are of two earthquakes: {one} ({first}) and {other} ({second}): give those of one",
-            one=_told(known.earthquake),
+            one=words_of(known.earthquake),
             first=known.label,
-            other=_told(answer.earthquake),
+            other=words_of(answer.earthquake),
             second=answer.label,
         )
     return known
-
-
-def _differ(one: Earthquake, other: Earthquake) -> bool:
-    """Return whether two headers tell of two earthquakes."""
-    if one.origin_time is not None and other.origin_time is not None and abs(one.origin_time - other.origin_time) > APART:
-        return True
-    places = [(each.latitude_deg, each.longitude_deg) for each in (one, other)]
-    known = [(float(north), float(east)) for north, east in places if north is not None and east is not None]
-    return len(known) == 2 and great_circle_km(known[0], known[1]) > APART_KM
-
-
-def _told(earthquake: Earthquake) -> str:
-    """Return an earthquake in words: its time, else its place or name."""
-    moment: datetime | None = earthquake.origin_time
-    if moment is not None:
-        return f"{moment:%Y-%m-%d %H:%M} UTC"
-    if earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
-        return f"{earthquake.latitude_deg:g}, {earthquake.longitude_deg:g}"
-    return earthquake.name or said("one that tells no place")
