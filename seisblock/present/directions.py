@@ -19,7 +19,7 @@ PHASES = {
 """Phases that have a direction: how they are told, and which side it is."""
 
 EIGHTH = 45.0
-"""Degrees to which a direction in the plane is told where it is no azimuth."""
+"""Degrees to which a direction in the plane is told where no azimuth is known."""
 
 
 def side(name: str, sign: float | str | None) -> str:
@@ -74,7 +74,7 @@ def moved_by(length: float, name: str, *, gal: bool = True) -> str:
 
 
 def towards(degrees: float, motion: Motion) -> str:
-    """Return a direction in the plane: an azimuth where +x is one, else the nearest of eight along the components, as in -NS+EW.
+    """Return a direction in the plane: an azimuth where that of +x is known, else the nearest of eight along the axes, as in -x+y.
 
     Parameters
     ----------
@@ -83,14 +83,12 @@ def towards(degrees: float, motion: Motion) -> str:
     motion : Motion
         Across +x lies a component of its record, or +y where none is known to.
     """
-    try:
-        azimuth = float(motion.name)
-    except ValueError:
-        eighth = math.radians(EIGHTH * round(degrees / EIGHTH))
-        along, (aside_name, turn) = round(math.cos(eighth), 1), across(motion)
-        aside = turn * round(math.sin(eighth), 1)
-        return "".join(side(name, part) for name, part in ((motion.name, along), (aside_name, aside)) if part)
-    return side(str(round((azimuth - degrees) % 360.0) % 360), 1.0)
+    if motion.azimuth_deg is not None:
+        return side(str(round((motion.azimuth_deg - degrees) % 360.0) % 360), 1.0)
+    eighth = math.radians(EIGHTH * round(degrees / EIGHTH))
+    along, (aside_name, turn) = round(math.cos(eighth), 1), across(motion)
+    aside = turn * round(math.sin(eighth), 1)
+    return "".join(side(name, part) for name, part in ((motion.name, along), (aside_name, aside)) if part)
 
 
 def phase(name: str, direction: str) -> str:

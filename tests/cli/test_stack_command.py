@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 
 import numpy as np
 import pytest
@@ -40,7 +41,7 @@ def test_no_record_means_the_bundled_one():
     result = run("--window", "24:30")
     assert result.exit_code == 0
     assert "synthetic_jma.csv" in result.stderr
-    assert "sao fell to" in " ".join(result.stdout.split())
+    assert re.search(r"sao fell at 2\d\.\d\d s to azimuth \d+, onto", " ".join(result.stdout.split()))
     assert "gedai" in result.stdout
 
 
@@ -54,6 +55,8 @@ def test_the_document_keeps_the_contract(pulse):
     assert found["overturned"] == ["sao"]
     assert found["overturned_any"] is True
     assert 0.3 < found["time_s"] < 2.0
+    (sao,) = (stone for stone in found["stones"] if stone["name"] == "sao")
+    assert (sao["fell_azimuth_deg"] + sao["fell_towards_deg"]) % 360.0 == pytest.approx(0.0, abs=1e-9)  # +x is north
     assert set(found["max_tilt_rad"]) == set(found["residual_slip_m"]) == {"gedai", "mizubachi", "chudai", "jodai", "sao"}
     assert found["max_tilt_rad"]["sao"] > 1.0
     assert document["parameters"]["mu"] == 0.438

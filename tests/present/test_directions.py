@@ -62,12 +62,12 @@ def test_a_side_is_a_component_or_an_azimuth():
         assert (phase("slip backward", "EW"), phase("rocks to +x", "127")) == ("-EW へすべる", "方位 127 へ傾斜")
 
 
-def test_a_stone_falls_towards_a_component_or_an_azimuth():
-    """+y is 90 degrees counter-clockwise of +x: west of north, north of east; the azimuth runs clockwise."""
+def test_a_stone_falls_towards_an_azimuth_or_along_its_axes():
+    """+y is 90 degrees counter-clockwise of +x: west of north, north of east; the azimuth runs clockwise from north."""
     row = np.array([0.0, 1.0])
     record = Record((Component("NS", row, 0.0), Component("EW", row, 90.0), Component("UD", row)), 0.01)
     north, east = (motion_of(record, name) for name in ("NS", "EW"))
-    assert [towards(angle, north) for angle in (0.0, 50.0, 90.0, 180.0, -90.0)] == ["+NS", "+NS-EW", "-EW", "-NS", "+EW"]
-    assert [towards(angle, east) for angle in (0.0, 90.0, -135.0)] == ["+EW", "+NS", "-EW-NS"]
+    assert [towards(angle, north) for angle in (0.0, 50.0, 90.0, 180.0, -90.0)] == [f"azimuth {angle}" for angle in (0, 310, 270, 180, 90)]
+    assert [towards(angle, east) for angle in (0.0, 90.0, -135.0)] == ["azimuth 90", "azimuth 0", "azimuth 225"]
     assert towards(30.0, motion_of(record, "37")) == "azimuth 7"
     assert towards(-45.0, Motion.from_arrays(row, 0.01)) == "+x-y"

@@ -62,13 +62,13 @@ def _row(stone: StoneFate, unit: Unit) -> list[str]:
 
 
 def _fall(stone: StoneFate, motion: Motion) -> str:
-    """Return in words where a fallen stone came to lie."""
-    where = {"stone": tell(stone.name), "side": towards(stone.fell_towards_deg or 0.0, motion)}
+    """Return in words when a stone fell, to which side, and where it came to lie."""
+    where = {"stone": tell(stone.name), "side": towards(stone.fell_towards_deg or 0.0, motion), "time": stone.fell_at_s}
     if stone.fell_onto is None:
-        return tell("{stone} fell to {side}, and is still in the air.", **where)
+        return tell("{stone} fell at {time:.2f} s to {side}, and is still in the air.", **where)
     if stone.fell_onto == GROUND:
-        return tell("{stone} fell to {side}, onto the ground.", **where)
-    return tell("{stone} fell to {side}, onto {other}.", **where, other=tell(stone.fell_onto))
+        return tell("{stone} fell at {time:.2f} s to {side}, onto the ground.", **where)
+    return tell("{stone} fell at {time:.2f} s to {side}, onto {other}.", **where, other=tell(stone.fell_onto))
 
 
 def verdict(response: Response[StackOutcome]) -> str:

@@ -43,6 +43,8 @@ class StoneFate:
     fell_at_s : float or None
     fell_towards_deg : float or None
         Direction of the fall from +x, counter-clockwise seen from above.
+    fell_azimuth_deg : float or None
+        The same clockwise from north; None where the azimuth of +x is not known.
     fell_onto : str or None
         The ground, or the stone on which it came to lie.
     """
@@ -57,6 +59,7 @@ class StoneFate:
     residual_turn_rad: float
     fell_at_s: float | None
     fell_towards_deg: float | None
+    fell_azimuth_deg: float | None
     fell_onto: str | None
 
 
@@ -197,8 +200,8 @@ def channels(pile: PileArrays, track: Track) -> tuple[Channel, ...]:
     return tuple(made)
 
 
-def stack_outcome(pile: PileArrays, end: End, *, start: float, gravity: float, step: float) -> StackOutcome:
-    """Return the outcome of a run.
+def stack_outcome(pile: PileArrays, end: End, *, start: float, gravity: float, step: float, azimuth: float | None) -> StackOutcome:
+    """Return the outcome of a run along an azimuth, in degrees.
 
     Raises
     ------
@@ -217,7 +220,7 @@ def stack_outcome(pile: PileArrays, end: End, *, start: float, gravity: float, s
             energy=books[CREATED],
         )
     momentum = masses @ end.bodies[:-1, V : V + 3] - books[IMPULSE : IMPULSE + 3]
-    stones = tuple(_fate(pile, end, i, start) for i in range(len(pile.body.stones)))
+    stones = tuple(_fate(pile, end, i, start, azimuth) for i in range(len(pile.body.stones)))
     fallen = [stone for stone in stones if stone.state == "fallen"]
     return StackOutcome(
         overturned=tuple(stone.name for stone in fallen),
@@ -234,15 +237,16 @@ def stack_outcome(pile: PileArrays, end: End, *, start: float, gravity: float, s
     )
 
 
-def _fate(pile: PileArrays, end: End, i: int, start: float) -> StoneFate:
+def _fate(pile: PileArrays, end: End, i: int, start: float, azimuth: float | None) -> StoneFate:
     """Return what became of one stone."""
     slip, turn = _slip(pile, end.track, i)[-1], turn_of(end.track, i)
     b = int(pile.owner[i])
     fates = end.kept.fates
     turned = float(turn[-1] - turn[0])
     if b == len(pile.members):
-        return StoneFate(pile.body.names[i], "standing", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None, None, None)
+        return StoneFate(pile.body.names[i], "standing", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None, None, None, None)
     fell = fates[b, FALL_TIME] >= 0.0
+    towards = math.degrees(math.atan2(fates[b, FALL_Y], fates[b, FALL_X]))
     distance = float(math.hypot(slip[0], slip[1]))
     state = (
         noted("fallen") if fell else noted("slid") if distance > SLID else noted("turned") if abs(turned) > TURNED else noted("standing")
@@ -257,7 +261,8 @@ def _fate(pile: PileArrays, end: End, i: int, start: float) -> StoneFate:
         residual_slip_y_m=float(slip[1]),
         residual_turn_rad=float(math.remainder(turned, 2.0 * math.pi)),
         fell_at_s=float(start + fates[b, FALL_TIME]) if fell else None,
-        fell_towards_deg=float(math.degrees(math.atan2(fates[b, FALL_Y], fates[b, FALL_X]))) if fell else None,
+        fell_towards_deg=towards if fell else None,
+        fell_azimuth_deg=(azimuth - towards) % 360.0 if fell and azimuth is not None else None,
         fell_onto=_lies_on(pile, b, end.kept.last_touch, end.time) if fell else None,
     )
 

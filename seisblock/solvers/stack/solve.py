@@ -123,7 +123,7 @@ def solve_stack(
             "the pile {name} left the finite numbers at {ended:.3f} s: give a finer time step", name=body.name, ended=end.time
         )
     try:
-        outcome = stack_outcome(pile, end, start=motion.start_s, gravity=gravity, step=motion.dt / steps)
+        outcome = stack_outcome(pile, end, start=motion.start_s, gravity=gravity, step=motion.dt / steps, azimuth=motion.azimuth_deg)
     except SolverError as error:
         if law is not None or springs is not None or (mu_kinetic, restitution, step) != (None, None, None):
             raise
