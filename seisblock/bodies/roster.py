@@ -9,7 +9,7 @@ from typing import Any
 
 from seisblock import checks
 from seisblock.bodies.inset import Inset, parse_inset
-from seisblock.bodies.sheet import MOST_NAMED, cells_of, heading, is_bare, length_of, number_of, row_of, rows_of, separator_of, sheet_text
+from seisblock.bodies.sheet import also_bad, cells_of, heading, is_bare, length_of, number_of, row_of, rows_of, separator_of, sheet_text
 from seisblock.bodies.toml import read_table
 from seisblock.errors import BodyError, InputError
 from seisblock.limits import check_budget
@@ -31,6 +31,9 @@ NUMBERS = (
     "damping",
 )
 TEXTS = ("name", "body", "surface", "side")
+POSITIVE = ("width", "height", "depth", "centroid_height", "slope_length", "mass", "density", "frequency_vertical")
+SIGNED = ("centroid_offset", "slope_deg")
+"""What may be negative: an offset has a side, a slope a direction. All other numbers are zero or more."""
 
 _JAPANESE = {
     "width": ("幅",),
@@ -150,9 +153,8 @@ def _of_table(name: str) -> list[ListedBody]:
         except InputError as error:
             wrong.append((number, error.said))
     if wrong:
-        (at, what), others = wrong[0], [number for number, _ in wrong[1:]]
-        more = said(" (and {count} more bad rows: lines {lines})", count=len(others), lines=others[:MOST_NAMED]) if others else ""
-        raise BodyError("{source}, line {line}: {what}{others}", source=name, line=at, what=what, others=more)
+        (at, what), others = wrong[0], also_bad([number for number, _ in wrong[1:]])
+        raise BodyError("{source}, line {line}: {what}{others}", source=name, line=at, what=what, others=others)
     return bodies
 
 
@@ -207,10 +209,16 @@ def _value(key: str, cell: str, unit: str) -> float | str | Inset:
     if key == "inset":
         return parse_inset(cell + unit if is_bare(cell) else cell)
     if key == "mass":
-        return parse_mass(cell + unit if is_bare(cell) else cell, what=key)
+        return _not_below(key, parse_mass(cell + unit if is_bare(cell) else cell, what=key), "kg")
     if key in LENGTHS:
         value = length_of(cell, key, unit)
         if abs(value) > LARGEST:
             raise BodyError("{key} of {value:g} m is no object's (without a unit it means metres)", key=key, value=value)
-        return checks.finite("{key}", value, "m", key=key, error=BodyError)
-    return checks.finite("{key}", number_of(cell, key), key=key, error=BodyError)
+        return _not_below(key, value, "m")
+    return _not_below(key, number_of(cell, key))
+
+
+def _not_below(key: str, value: float, unit: str = "") -> float:
+    """Return a number that is not below what its column may hold, whichever solver reads it."""
+    check = checks.finite if key in SIGNED else checks.positive if key in POSITIVE else checks.not_negative
+    return check("{key}", value, unit, key=key, error=BodyError)

@@ -11,6 +11,7 @@ from pathlib import Path
 from seisblock.contents import contents
 from seisblock.errors import BodyError
 from seisblock.units import LENGTH_UNITS, MASS_UNITS, parse_length
+from seisblock.words import said
 
 UNIT = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
 """A heading with a unit: ``height (cm)``."""
@@ -98,6 +99,28 @@ def row_of(columns: Sequence[str], cells: Sequence[str]) -> dict[str, str]:
     if any(cells[len(columns) :]):
         raise BodyError("expected {count} cells as in the header, found {found}", count=len(columns), found=len(cells))
     return dict(zip(columns, cells, strict=False))
+
+
+def also_bad(lines: Sequence[int]) -> str:
+    """Return a remark on the lines that are bad, too: none, one, or several, of which the first few are named.
+
+    Parameters
+    ----------
+    lines : sequence of int
+        Beyond the one that is told of.
+
+    Examples
+    --------
+    >>> from seisblock.words import tell
+    >>> [tell(also_bad(lines)) for lines in ([], [4], [4, 7])]
+    ['', ' (and one more bad row: line 4)', ' (and 2 more bad rows: lines 4, 7)']
+    """
+    if not lines:
+        return ""
+    if len(lines) == 1:
+        return said(" (and one more bad row: line {line})", line=lines[0])
+    named = ", ".join(map(str, lines[:MOST_NAMED])) + (" ..." if len(lines) > MOST_NAMED else "")
+    return said(" (and {count} more bad rows: lines {lines})", count=len(lines), lines=named)
 
 
 def length_of(text: str, what: str, unit: str) -> float:

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.text import Text
 
 from seisblock.errors import OutputError
-from seisblock.present.figures import size as size_module
+from seisblock.present.figures import least
 from seisblock.present.figures.canvas import SMALLEST_LETTERS
 from seisblock.present.figures.embed import picture
 from seisblock.present.figures.size import fitted
@@ -102,7 +102,7 @@ TOO_SMALL = {
 @pytest.mark.parametrize("name", sorted(name for name in EVERY if name != "field test" and not name.endswith(", two")))
 def test_a_small_size_holds_it_or_is_refused_with_one_that_does(name, monkeypatch):
     """At 85 mm x 60 mm no text lies on another or leaves the canvas, in no panel without room; or a size that will do is told, in mm."""
-    monkeypatch.setattr(size_module, "FINE", 0.5)  # the first size that will do, not the least
+    monkeypatch.setattr(least, "FINE", 0.5)  # the first size that will do, not the least
     with speaking("en"):
         figure = EVERY[name][1](True)
         try:

@@ -9,9 +9,9 @@ from pathlib import Path
 from seisblock import checks
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.sheet import (
-    MOST_NAMED,
     NO,
     YES,
+    also_bad,
     cells_of,
     heading,
     is_bare,
@@ -112,7 +112,7 @@ def parse_cemetery(text: str, *, source: str = "table") -> Cemetery:
         except InputError as error:
             wrong.append((number, error.said))
     if wrong:
-        (at, what), others = wrong[0], _others([number for number, _ in wrong[1:]])
+        (at, what), others = wrong[0], also_bad([number for number, _ in wrong[1:]])
         raise BodyError("{source}, line {line}: {what}{others}", source=source, line=at, what=what, others=others)
     size = sum(stone.count for stone in stones)
     check_budget(noted("gravestones"), size, "SEISBLOCK_STONES", where=source, error=BodyError)
@@ -221,11 +221,3 @@ def _truth(row: Mapping[str, str], key: str) -> bool | None:
     if text.casefold() not in yes | no:
         raise BodyError("{key} must be {expected}, found {text!r}", key=key, expected=said(expected), text=text)
     return text.casefold() in yes
-
-
-def _others(lines: Sequence[int]) -> str:
-    """Return a remark on further bad rows."""
-    if not lines:
-        return ""
-    named = ", ".join(map(str, lines[:MOST_NAMED])) + (" ..." if len(lines) > MOST_NAMED else "")
-    return said(" (and {count} more bad rows: lines {lines})", count=len(lines), lines=named)

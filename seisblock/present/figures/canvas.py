@@ -92,7 +92,7 @@ class Sheet(Figure):
         """Draw, in fonts that hold the letters."""
         with set_letters(self, self.spoken):
             self._fit_title(renderer)
-            self.laid_out = self.narrowed and not self._lift_legends(renderer)
+            self.laid_out = self.narrowed and self._lay_out()
             try:
                 super().draw(renderer)
             finally:
@@ -107,11 +107,16 @@ class Sheet(Figure):
         box, lines = key.get_window_extent(), key.axes.lines if key.axes is not None else ()
         return any(line.get_path().transformed(line.get_transform()).intersects_bbox(box, filled=False) for line in lines)
 
-    def _lift_legends(self, renderer: Any) -> bool:
-        """Lay the panels out, put each legend that lies on its panel's title above it, and return whether there was one."""
+    def _lay_out(self) -> bool:
+        """Give the panels their places, and return whether these hold: no legend had to be lifted."""
         engine = self.get_layout_engine()
         if engine is not None:
             engine.execute(self)
+        return not self.lift_legends()
+
+    def lift_legends(self) -> bool:
+        """Put each legend that lies on its panel's title above it, and return whether there was one."""
+        renderer = self.canvas.get_renderer()  # type: ignore[attr-defined]
         lifted = False
         for each in self.axes:
             key = each.get_legend()

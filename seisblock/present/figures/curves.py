@@ -78,6 +78,27 @@ def finer(
     return tuple(np.insert(old, at, new.ravel()) for old, new in zip((time, values, slopes), added, strict=True))  # type: ignore[return-value]
 
 
+def crossed(time: FloatArray, values: FloatArray, level: float) -> tuple[FloatArray, FloatArray]:
+    """Return a curve, (n,), with a point of its own wherever it passes a level.
+
+    Parameters
+    ----------
+    time, values : (n,) arrays
+        In the order of time.
+    level : float
+
+    Examples
+    --------
+    >>> time, values = crossed(np.array([0.0, 1.0, 2.0]), np.array([0.0, 4.0, 4.0]), 1.0)
+    >>> time.tolist(), values.tolist()
+    ([0.0, 0.25, 1.0, 2.0], [0.0, 1.0, 4.0, 4.0])
+    """
+    over = values - level
+    before = np.flatnonzero(over[:-1] * over[1:] < 0.0)
+    at = time[before] + (time[before + 1] - time[before]) * over[before] / (over[before] - over[before + 1])
+    return np.insert(time, before + 1, at), np.insert(values, before + 1, level)
+
+
 def in_view(time: FloatArray, values: FloatArray, first: float, last: float) -> tuple[FloatArray, FloatArray]:
     """Return the points of a curve between two times, and the next one on each side, which the line runs to."""
     inside = (time >= min(first, last)) & (time <= max(first, last))

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from seisblock.measures import RecordMeasures, fourier_amplitude, ground_history, response_spectrum
 from seisblock.measures.spectra import DAMPING
 from seisblock.present.figures.canvas import ACCENT, BETWEEN, INPUT, dress, label, legend, threshold, titled
-from seisblock.present.figures.curves import curve, in_view, thin
+from seisblock.present.figures.curves import crossed, curve, in_view, thin
 from seisblock.present.figures.heading import heading
 from seisblock.present.figures.histories import columns_of, strong_part
 from seisblock.present.scales import acceleration_unit, velocity_unit
@@ -22,6 +22,9 @@ from seisblock.words import tell
 
 LINES = (("0.1", "-"), ("#1f5a8c", (0, (5, 1.5))), ("#b5651d", (0, (1.2, 1.2))), ("0.55", "-"))
 """Colour and dashes of the components' spectra: told apart in grey too."""
+
+SHORT = {"handlelength": 1.5, "columnspacing": 1.1}
+"""A key of half a figure's width leaves room for the title beside it at any resolution."""
 
 
 def measure_figure(record: Record, answer: RecordMeasures, *, gal: bool = True) -> Figure:
@@ -77,8 +80,8 @@ def _draw_accelerations(axes: list[Axes], record: Record, parts: list[Component]
         # thinned by extrema, the filled part keeps every peak above the threshold
         time, thinned = thin(*in_view(record.time, values, *axis.get_xlim()))
         for sign in signs:
-            exceeds = sign * thinned >= level
-            axis.fill_between(time, sign * level, thinned, where=exceeds, interpolate=True, color=ACCENT, linewidth=0.6, zorder=3)
+            at, filled = crossed(time, thinned, sign * level)
+            axis.fill_between(at, sign * level, filled, where=sign * filled >= level, color=ACCENT, linewidth=0.6, zorder=3)
         peak = values[round((m.time_of_pga_s - record.offset_s) / record.dt)]
         axis.plot([m.time_of_pga_s], [peak], "o", ms=4, mfc="white", mec="black", zorder=4)
         axis.set_ylim(-reach, reach)
@@ -115,7 +118,7 @@ def _draw_fourier(axis: Axes, record: Record, parts: list[Component], smoothing_
     _logarithmic(axis)
     label(axis, x=tell("f (Hz)"), y=f"|A| ({name})")
     axis.set_title(tell("Fourier amplitude, Parzen {width:g} Hz", width=smoothing_hz), fontsize=8, loc="left")
-    legend(axis)
+    legend(axis, **SHORT)
 
 
 def _draw_response(axis: Axes, record: Record, parts: list[Component], *, gal: bool) -> None:
@@ -127,7 +130,7 @@ def _draw_response(axis: Axes, record: Record, parts: list[Component], *, gal: b
     _logarithmic(axis)
     label(axis, x=tell("T (s)"), y=f"Sₐ ({name})")
     axis.set_title(tell("Response spectrum, damping {damping:g%}", damping=DAMPING), fontsize=8, loc="left")
-    legend(axis)
+    legend(axis, **SHORT)
 
 
 def _styles(count: int) -> list[tuple[str, object]]:

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-import math
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
 from seisblock.errors import OutputError
 from seisblock.present.figures.canvas import ABOVE, DPI, INCH, MOST_PIXELS, SMALLEST_LETTERS, TICKS, Sheet, legend, legend_outside
 from seisblock.present.figures.fonts import set_letters
+from seisblock.present.figures.least import LARGEST, least_that, told, up
 from seisblock.present.wrap import columns, wrapped
-from seisblock.units import LENGTH_UNITS, Size
+from seisblock.units import Size
 
 TOUCH = 0.05
 """Share of a text's box that may lie in another's: boxes are a little larger than letters."""
@@ -30,12 +32,6 @@ MOST_LINES = 3
 
 MOST_HIDDEN = 0.25
 """Share of a panel that a key inside it may take."""
-
-LARGEST = 3.0
-"""A size that would do is looked for up to so many times that of the figure by itself, then not."""
-
-FINE = 0.04
-"""How near the least size is told, of the size."""
 
 
 def fitted(figure: Figure, *, size: tuple[float, float] | Size | None = None, dpi: int = DPI, title: str | None = None) -> Figure:
@@ -91,62 +87,26 @@ def _fit(sheet: Sheet, asked: Size, title: str | None) -> Sheet:
     wide, high = asked.width / INCH, asked.height / INCH
     if usual.fits(wide, high):
         return sheet
-    highest = LARGEST * max(usual.height, high)
-    reachable = usual.fits(wide, highest)
-    if not reachable and sheet.stacked is not None:
-        sheet = sheet.in_a_column(sheet.stacked, title)
-        usual = Usual.of(sheet)
-        if usual.fits(wide, high):
-            return sheet
-        highest = LARGEST * max(usual.height, high)
-        reachable = usual.fits(wide, highest)
-    if reachable:
-        least = _least(lambda tall: usual.fits(wide, tall), high, highest, asked.unit)
+    least = least_that(lambda tall: usual.fits(wide, tall), high, usual.height, asked.unit)
+    if least is not None:
         raise OutputError(
             "the texts of this figure do not fit into {width} x {height}: at this width it must be {least} high at least",
-            width=_told(wide, asked.unit),
-            height=_told(high, asked.unit),
-            least=_told(least, asked.unit),
+            width=told(wide, asked.unit),
+            height=told(high, asked.unit),
+            least=told(least, asked.unit),
         )
+    if sheet.stacked is not None:
+        return _fit(sheet.in_a_column(sheet.stacked, title), asked, title)
     share = usual.height / usual.width
-    widest = LARGEST * max(usual.width, wide)
-    least = _least(lambda broad: usual.fits(broad, _up(max(high, share * broad), asked.unit)), wide, widest, asked.unit)
+    least = least_that(lambda broad: usual.fits(broad, up(max(high, share * broad), asked.unit)), wide, usual.width, asked.unit)
+    enough = up(LARGEST * max(usual.width, wide), asked.unit) if least is None else least
     raise OutputError(
         "the texts of this figure do not fit into {width} x {height}, nor at any height of this width: give it {enough} x {tall}",
-        width=_told(wide, asked.unit),
-        height=_told(high, asked.unit),
-        enough=_told(least, asked.unit),
-        tall=_told(_up(max(high, share * least), asked.unit), asked.unit),
+        width=told(wide, asked.unit),
+        height=told(high, asked.unit),
+        enough=told(enough, asked.unit),
+        tall=told(up(max(high, share * enough), asked.unit), asked.unit),
     )
-
-
-def _least(fits: Callable[[float], bool], too_small: float, enough: float, unit: str) -> float:
-    """Return the least size between one that is too small and one that is enough, inch, by halving: one that can be told, and fits."""
-    while enough / too_small > 1.0 + FINE:
-        middle = math.sqrt(too_small * enough)
-        if fits(middle):
-            enough = middle
-        else:
-            too_small = middle
-    told = _up(enough, unit)
-    while not fits(told) and told < LARGEST * enough:
-        told = _up((1.0 + FINE) * told, unit)
-    return told
-
-
-def _step(unit: str) -> float:
-    """Return the digit to which a size is told in a unit, inch."""
-    return {"mm": 1.0, "cm": 0.1}.get(unit, 0.01) * LENGTH_UNITS[unit] / INCH
-
-
-def _up(inches: float, unit: str) -> float:
-    """Return the next larger length that can be told in a unit, inch."""
-    return math.ceil(inches / _step(unit) - 1e-6) * _step(unit)
-
-
-def _told(inches: float, unit: str) -> str:
-    """Return a length in the unit of the user."""
-    return f"{inches * INCH / LENGTH_UNITS[unit]:.4g} {unit}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,6 +123,8 @@ class Usual:
         The axes and the size of their numbers.
     keys : dict
         How each key was made.
+    places : list of (Axes, Bbox)
+        Where each panel is before panels are laid out, shares of the figure: a layout begins at these, whatever was tried before.
     """
 
     sheet: Sheet
@@ -171,6 +133,7 @@ class Usual:
     texts: list[tuple[Text, str, float]]
     rulers: list[tuple[Axis, float]]
     keys: dict[Any, tuple[list[Any], dict[str, Any]]]
+    places: list[tuple[Axes, Bbox]]
 
     @classmethod
     def of(cls, sheet: Sheet) -> Usual:
@@ -185,6 +148,7 @@ class Usual:
             [(text, text.get_text(), float(text.get_fontsize())) for text in texts],
             [(ruler, float(ruler.get_tick_params().get("labelsize", TICKS))) for ruler in rulers],
             dict(sheet.keys),
+            [(axis, axis.get_position(original=True)) for axis in sheet.axes],
         )
 
     def fits(self, width: float, height: float) -> bool:
@@ -198,18 +162,30 @@ class Usual:
             text.set_fontsize(share * size)
         for ruler, size in self.rulers:
             ruler.set_tick_params(labelsize=share * size)
-        with warnings.catch_warnings():
+        for axis, place in self.places:
+            axis.set_position(place)
+            axis.set_in_layout(True)
+        with warnings.catch_warnings(record=True) as remarks:
             # that panels have no room left is what is looked for here
-            warnings.simplefilter("ignore", UserWarning)
+            warnings.simplefilter("always", UserWarning)
             _rekey(sheet, self.keys, share, {})
             with set_letters(sheet, sheet.spoken):
                 sheet.get_layout_engine().execute(sheet)  # type: ignore[union-attr]
+            if _without_room(remarks):
+                return False
             few = _given_way(sheet)
             if few:
                 _rekey(sheet, self.keys, share, few)
             _break(sheet)
+            # what drawing would lift, and then lay everything out once more
+            sheet.lift_legends()
             sheet.draw_without_rendering()
-            return min(_panels(sheet)) >= LEAST_PANEL and not crowded(sheet)
+            return not _without_room(remarks) and min(_panels(sheet)) >= LEAST_PANEL and not crowded(sheet)
+
+
+def _without_room(remarks: list[warnings.WarningMessage]) -> bool:
+    """Return whether matplotlib found no room for panels, and left them as they were."""
+    return any("collapsed to zero" in str(remark.message) for remark in remarks)
 
 
 def _rekey(sheet: Sheet, keys: dict[Any, tuple[list[Any], dict[str, Any]]], share: float, otherwise: dict[Any, dict[str, Any]]) -> None:

@@ -9,7 +9,7 @@ from seisblock.present.figures import canvas
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.stack_criterion import Scaled
 from seisblock.studies.gravestone_criterion import CriterionStudy, frequencies_of
-from seisblock.words import tell
+from seisblock.words import noted, tell
 
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
@@ -20,7 +20,12 @@ def figure(study: CriterionStudy, rigid: dict[float, float], scaled: Scaled, *, 
 
     fit, equation = published(reinforced)
     unit, unit_name = acceleration_unit(gal=gal)
-    made, (left, right) = canvas.new_figure(1, columns=2, width=9.5, height=4.4)
+    title = (
+        noted("Which gravestones fall, dowelled: thresholds of the pile")
+        if reinforced
+        else noted("Which gravestones fall: thresholds of the pile")
+    )
+    made, (left, right) = canvas.new_figure(1, columns=2, width=9.5, height=4.6, title=tell(title))
     fine = np.linspace(1.0, 13.5, 200)
     for index, f in enumerate(frequencies_of(study)):
         shade = str(0.12 + 0.62 * index / max(len(frequencies_of(study)) - 1, 1))

@@ -23,7 +23,7 @@ from seisblock.words import noted, tell
 HEADINGS = {"pga_pgv": "PGA/2πPGV", "fourier": "Fourier", "pulse_width": noted("pulse")}
 """The equivalent frequencies, as short as a column."""
 MOST_DECIMALS = 6
-"""Of a ratio that is all but 1."""
+"""Of a ratio that is all but 1, or 0."""
 
 DEFINITIONS = {"pga_pgv": "PGA/(2π PGV)", "fourier": "Fourier", "pulse_width": noted("pulse width")}
 
@@ -108,15 +108,16 @@ def _tables(card: Card, *, gal: bool) -> Iterator[Any]:
 
 
 def ratio(row: Row) -> str:
-    """Return demand over threshold, to as many digits as tell it apart from 1: just below a criterion says stands, just above falls.
+    """Return demand over threshold, to as many digits as tell it apart from 1, just below which a criterion says stands, and from 0.
 
     Examples
     --------
-    >>> [ratio(Row("West", "eq. (1)", "m/s^2", None, None, 1.0, demand, demand > 1.0)) for demand in (0.31, 0.9996, 1.0, 1.004)]
-    ['0.31', '0.9996', '1.00', '1.004']
+    >>> demands = (0.00042, 0.0123, 0.31, 0.9996, 1.0, 1.004)
+    >>> [ratio(Row("West", "eq. (1)", "m/s^2", None, None, 1.0, demand, demand > 1.0)) for demand in demands]
+    ['0.0004', '0.01', '0.31', '0.9996', '1.00', '1.004']
     """
     found = row.demand / row.threshold
-    decimals = next((n for n in range(2, MOST_DECIMALS) if round(found, n) != 1.0 or found == 1.0), MOST_DECIMALS)
+    decimals = next((n for n in range(2, MOST_DECIMALS) if round(found, n) not in (0.0, 1.0) or found in (0.0, 1.0)), MOST_DECIMALS)
     return f"{found:.{decimals}f}"
 
 

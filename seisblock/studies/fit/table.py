@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from seisblock import checks
-from seisblock.bodies.sheet import MOST_NAMED, NO, YES, cells_of, heading, number_of, row_of, rows_of, separator_of, sheet_text
+from seisblock.bodies.sheet import NO, YES, also_bad, cells_of, heading, number_of, row_of, rows_of, separator_of, sheet_text
 from seisblock.errors import BodyError, InputError, ParameterError, SeisblockError
 from seisblock.readers.dispatch import Options
 from seisblock.readers.source import Location
@@ -179,9 +179,8 @@ def _rows(text: str, source: str, kind: str | None) -> tuple[str, list[_Row], li
         except InputError as error:
             wrong.append((number, error.said))
     if wrong:
-        (at, what), others = wrong[0], [number for number, _ in wrong[1:]]
-        more = said(" (and {count} more bad rows: lines {lines})", count=len(others), lines=others[:MOST_NAMED]) if others else ""
-        raise ParameterError("{source}, line {line}: {what}{others}", source=source, line=at, what=what, others=more)
+        (at, what), others = wrong[0], also_bad([number for number, _ in wrong[1:]])
+        raise ParameterError("{source}, line {line}: {what}{others}", source=source, line=at, what=what, others=others)
     known = [row for row in rows if row.happened is not None]
     if not known:
         raise ParameterError("{source}: no outcome is known: every cell of the column {column} is empty", source=source, column=chosen)
