@@ -4,12 +4,16 @@ import csv
 import json
 import math
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from seisblock import find_risk, read_hazard
 from seisblock.cli import main
+from seisblock.present.documents.risk import document
 from seisblock.studies.fragility.lognormal import Lognormal
+from seisblock.studies.hazard.curve import Hazard, HazardCurve
+from seisblock.studies.hazard.given import GivenFragility
 
 LINE = ("--median", "60cm/s", "--beta", "0.4", "--hazard", "synthetic_hazard.csv")
 
@@ -85,3 +89,15 @@ def test_no_output_falls_on_the_hazard(run, tmp_path):
     done = run(*LINE[:4], "--hazard", "h.csv", "--csv", "h.csv")
     assert done.exit_code == 3 and "is a file that is read" in done.stderr
     assert (tmp_path / "h.csv").read_text() == before
+
+
+def test_a_doubt_about_one_of_several_curves_says_about_which():
+    """What is said of the hazard is said once."""
+    hazard = Hazard("pga", "m/s2", (HazardCurve(np.array([0.1, 0.2]), np.array([1e-2, 2e-3])),), notes=("passed over",))
+    given = [
+        GivenFragility("shelf", limit, "pga", "m/s2", Lognormal(median, 0.4)) for limit, median in (("overturns", 3.0), ("slides", 2.0))
+    ]
+    answer = document([(each, find_risk(each.curve, hazard)) for each in given], hazard, "site.csv")
+    about, *doubts = answer.warnings
+    assert about == "passed over"
+    assert [doubt.partition(": ")[0] for doubt in doubts] == ["shelf, overturns", "shelf, slides"]

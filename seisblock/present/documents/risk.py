@@ -14,6 +14,7 @@ from seisblock.references import papers
 from seisblock.studies.hazard.curve import Hazard
 from seisblock.studies.hazard.given import GivenFragility
 from seisblock.studies.hazard.risk import Risk
+from seisblock.words import said
 
 
 class HazardBranch(Struct, frozen=True, kw_only=True):
@@ -86,8 +87,9 @@ def document(found: Sequence[tuple[GivenFragility, Risk]], hazard: Hazard, sourc
         stood_years=first.stood_years,
     )
     entries = ((None, entry_of(RISK_RESULT, risk, body=given.body, limit=given.limit)) for given, risk in found)
-    warnings = [note for _, risk in found for note in risk.notes]
-    return RISK.document(parameters, entries, citations=papers("risk"), warnings=warnings)
+    own = [(", ".join(filter(None, (given.body, given.limit))), note) for given, risk in found for note in risk.notes[len(hazard.notes) :]]
+    named = [said("{name}: {text}", name=name, text=note) if name and len(found) > 1 else note for name, note in own]
+    return RISK.document(parameters, entries, citations=papers("risk"), warnings=[*hazard.notes, *named])
 
 
 def _branch(index: int, weight: float, hazard: Hazard) -> HazardBranch:
