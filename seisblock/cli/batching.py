@@ -202,7 +202,7 @@ def _journal(path: Path, plan: Plan, *, resume: bool) -> Iterator[Journal]:
     """Give the journal of a batch, which no other run writes meanwhile: the one that was interrupted, or a new one."""
     told = repr((__version__, plan.solver, plan.bodies, plan.components, plan.preparation, plan.runs, plan.seed, plan.strict))
     reading = repr([getattr(plan.reading, key) for key in ("format", "units", "dt", "station", "level")])
-    purpose = {"seisblock": "batch", "of": hashlib.sha256((told + reading).encode()).hexdigest()}
+    purpose = {"seisblock": "batch", "of": hashlib.sha256((told + reading).encode(errors="surrogatepass")).hexdigest()}
     interrupted = resume and path.exists()
     with alone_with(path):
         journal = Journal.resume(path, purpose) if interrupted else Journal.begin(path, purpose)

@@ -30,6 +30,9 @@ FIGURES, FILMS = (".png", ".svg", ".pdf"), (".gif", ".mp4", ".html")
 TIME_DECIMALS = 9
 """Of the times of samples, s: what is beyond is round-off."""
 
+SPELT_OUT = "backslashreplace"
+"""How bytes in names of files that are no UTF-8 are written."""
+
 BLOCK = 2**14
 """Rows of a time history that are made at a time."""
 
@@ -164,7 +167,7 @@ def _umask() -> int:
 def write_text(path: Path | str, text: str) -> None:
     """Write a text file in UTF-8, whole or not at all."""
     with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+        temporary.write_text(text, encoding="utf-8", errors=SPELT_OUT)
 
 
 def made_folder(folder: Path) -> None:
@@ -203,7 +206,7 @@ def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
 
 def write_table(path: Path | str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
     """Write rows as CSV; floats keep all their digits, and no text of a record's becomes a formula of a spreadsheet."""
-    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as stream:
+    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", errors=SPELT_OUT, newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(header)
         writer.writerows(map(guarded, row) for row in rows)

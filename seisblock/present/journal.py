@@ -140,7 +140,7 @@ class Journal:
 
 def _line(content: Mapping[str, Any]) -> bytes:
     """Return a line that can be told from a damaged one; floats keep all their digits."""
-    written = json.dumps(dict(content), ensure_ascii=False).encode()
+    written = json.dumps(dict(content), ensure_ascii=False).encode(errors="surrogatepass")  # names of files need not be text
     return _check(written) + b" " + written + b"\n"
 
 

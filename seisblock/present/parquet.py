@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.errors import OutputError
-from seisblock.present.files import check_columns, reading_back, replacing
+from seisblock.present.files import SPELT_OUT, check_columns, reading_back, replacing
 
 ROWS = 50_000
 """Rows that are held and written at a time."""
@@ -46,8 +46,14 @@ def write_parquet(path: Path, columns: Mapping[str, type], rows: Iterable[Sequen
     schema = pyarrow.schema([(name, kinds[kind]) for name, kind in columns.items()])
     with replacing(path) as temporary, ParquetWriter(temporary, schema) as writer:
         for block in _blocks(rows):
-            arrays = [pyarrow.array(cells, field.type) for cells, field in zip(zip(*block, strict=True), schema, strict=True)]
+            told = zip(*([_told(cell) for cell in row] for row in block), strict=True)
+            arrays = [pyarrow.array(cells, field.type) for cells, field in zip(told, schema, strict=True)]
             writer.write_batch(pyarrow.record_batch(arrays, schema=schema))
+
+
+def _told(cell: Any) -> Any:
+    """Return a cell in letters that there are: bytes in the name of a file that are no UTF-8 are spelt out."""
+    return cell.encode(errors=SPELT_OUT).decode() if isinstance(cell, str) else cell
 
 
 def read_parquet(path: Path, columns: Mapping[str, type]) -> Iterator[dict[str, Any]]:

@@ -336,6 +336,20 @@ def test_names_that_are_not_utf_8(tmp_path):
     assert done.returncode == 0 and b"Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize("suffix", [".csv", ".parquet"])
+def test_a_batch_over_names_that_are_not_utf_8(suffix, folder):
+    """R16: the bytes are spelt out in the table, and kept in its journal as they are."""
+    if suffix == ".parquet":
+        pytest.importorskip("pyarrow")
+    done = run("batch", "in.csv", "\udcff.csv", "--bodies", "gravestone", "--solver", "rock", "--out", f"out{suffix}")
+    assert done.exit_code == 0 and "UnicodeEncodeError" not in done.output, done.output
+    table = (folder / f"out{suffix}").read_bytes()
+    assert b"\\udcff.csv" in table
+    Journal.begin(folder / "a.journal", {"seisblock": "batch"}).keep(("\udcff.csv", "gone"), [{"record": "\udcff"}])
+    again = Journal.resume(folder / "a.journal", {"seisblock": "batch"})
+    assert again.rows(("\udcff.csv", "gone")) == [{"record": "\udcff"}]
+
+
 @pytest.mark.parametrize("words", ["--csv out.csv --json > out.csv", "--plot out.png >> out.png", "--json >> in.csv"])
 def test_a_file_that_stdout_goes_to_is_no_other_output_and_no_input(words, folder):
     """What stdout holds would be lost behind the new file; the record would grow by an answer."""
