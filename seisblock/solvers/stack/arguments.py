@@ -93,8 +93,6 @@ class PileSettings(NamedTuple):
         Sampling interval.
     steps : int
         How many of them are in it.
-    rigid : bool
-        Whether contacts are rigid, or springs.
     stop_at_fall : bool
     moved : float, m and rad
         Movement that makes a row.
@@ -109,7 +107,6 @@ class PileSettings(NamedTuple):
     gravity: float
     dt: float
     steps: int
-    rigid: bool
     stop_at_fall: bool
     moved: float
     longest_gap: int
@@ -170,6 +167,6 @@ LAYOUT = _t.NamedTuple(
 MEMORY = _t.NamedTuple(
     (FOURFOLD, FOURFOLD, FOURFOLD, FOURFOLD, INTEGERS, MATRIX, MATRIX, MATRIX, INTEGER_TABLE, MATRIX, MATRIX, MATRIX, VECTOR), PileMemory
 )
-SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.boolean, _t.float64, _t.int64, _t.int64, _t.int64), PileSettings)
+SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.float64, _t.int64, _t.int64, _t.int64), PileSettings)
 CURSOR = _t.NamedTuple((INTEGERS, MATRIX), PileCursor)
 KEPT = _t.NamedTuple((MATRIX, MATRIX, MATRIX, VECTOR), PileKept)

@@ -15,10 +15,12 @@ from seisblock.records.motion import ACROSS, UP, Motion
 from seisblock.results import Status
 from seisblock.solvers.stack.arguments import BASE, KEPT_ROWS, PLACE, SAMPLE, STEPS_LEFT, PileCursor, PileKept, PileMemory, PileSettings
 from seisblock.solvers.stack.arrays import PileArrays
+from seisblock.solvers.stack.books import BOOKS, FALL_TIME, FATE, FLOOR, LEAN, LEAST_COSINE
 from seisblock.solvers.stack.frames import Q, X, orient
 from seisblock.solvers.stack.outcome import End, Track, stone_track
 from seisblock.solvers.stack.rest import sink
-from seisblock.solvers.stack.run import BOOKS, FALL_TIME, FATE, FLOOR, LEAN, LEAST_COSINE, run
+from seisblock.solvers.stack.rigid_run import run_rigid
+from seisblock.solvers.stack.run import run_springs
 from seisblock.typing import FloatArray
 
 FALLEN_TILT = math.radians(60.0)
@@ -78,7 +80,7 @@ class Course:
         """How the loop goes."""
         motion, quiet = self.motion, math.ceil(AFTERWARDS / self.motion.dt)
         gap, last = max(1, round(LONGEST_GAP / motion.dt)), motion.samples - 1
-        return PileSettings(self.gravity, motion.dt, self.steps, self.rigid, self.stop_at_fall, MOVED, gap, last, last + quiet)
+        return PileSettings(self.gravity, motion.dt, self.steps, self.stop_at_fall, MOVED, gap, last, last + quiet)
 
     def follow(self, rows: int | None = None, *, progress: Callable[[int, int], None] | None = None) -> End:
         """Follow the pile to the end.
@@ -149,7 +151,7 @@ class Course:
         """Follow the pile to the end, in slices between which Python may be interrupted."""
         pile, layout = self.pile, self.pile.layout
         slice_ = max(1, POINTS_AT_ONCE // (pile.grids.shape[0] * pile.points**2 + pile.pairs.shape[0]))
-        status = Status.PAUSED
+        status, run = Status.PAUSED, run_rigid if self.rigid else run_springs
         for first, shaking in self._stretches():
             cursor.place[BASE] = first
             last = first + shaking.shape[1] - 1

@@ -12,8 +12,8 @@ from seisblock.errors import SolverError
 from seisblock.results import Channel, Status
 from seisblock.solvers.stack.arguments import PileKept
 from seisblock.solvers.stack.arrays import PileArrays
+from seisblock.solvers.stack.books import CREATED, FALL_TIME, FALL_X, FALL_Y, IMPULSE, LEAST_COSINE, LOST, WORK
 from seisblock.solvers.stack.frames import AT, MASS, V
-from seisblock.solvers.stack.run import CREATED, FALL_TIME, FALL_X, FALL_Y, IMPULSE, LEAST_COSINE, LOST, WORK
 from seisblock.typing import FloatArray
 from seisblock.words import noted
 
