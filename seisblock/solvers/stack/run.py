@@ -82,7 +82,7 @@ def run_springs(motion, settings, pile, memory, cursor, kept):
         See :mod:`seisblock.solvers.stack.arguments`.
     """
     place, bodies = cursor
-    look = max(int(LOOK_EVERY * settings.steps / settings.dt), 1)
+    look = max(int(LOOK_EVERY / (settings.dt / settings.steps)), 1)
     total_mass = 0.0
     for i in range(bodies.shape[0] - 1):
         total_mass += pile.inert[i, MASS]
