@@ -185,6 +185,8 @@ def _check_target(out: Path, *, resume: bool, force: bool) -> None:
         check_parquet()
     journal = journal_path(out)
     _check_files(out)
+    if resume and any(path.exists() and not path.is_file() for path in (out, journal)):
+        raise OutputError("{path} is no table that was begun: leave --resume out", path=out)
     if not (resume or force) and out.exists():
         raise OutputError("{path} is there already: --force makes it anew, or give another name", path=out)
     if not (resume or force) and journal.exists():

@@ -251,3 +251,11 @@ def test_memory_does_not_grow_with_the_records(folder):
     peak(2)
     few, many = peak(10), peak(40)
     assert many - few < 30 * 4000 * 3 * 8 / 10  # a tenth of the samples that thirty records more hold
+
+
+@pytest.mark.parametrize("name", ["t.csv", "t.csv.journal"])
+def test_a_pipe_is_no_table_to_go_on_with(folder, name):
+    """Nobody would write into it."""
+    os.mkfifo(folder / name)
+    answer = run(LINE + " --resume")
+    assert answer.exit_code == 3 and answer.stderr.endswith("t.csv is no table that was begun: leave --resume out\n")
