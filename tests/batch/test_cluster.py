@@ -60,6 +60,19 @@ def test_the_same_table(client, records):
     assert list(together.cells()) == list(alone.cells())
 
 
+def test_an_answer_travels_in_one_piece(client, monkeypatch):
+    """Two hundred rows of a record were two hundred frames to Dask, and before each record the scheduler was asked who works for it."""
+    futures, asked = [], []
+    submit, nthreads = client.submit, client.nthreads
+    monkeypatch.setattr(client, "submit", lambda *given, **how: futures.append(submit(*given, **how)) or futures[-1])
+    monkeypatch.setattr(client, "nthreads", lambda: asked.append(True) or nthreads())
+    monkeypatch.setattr(cluster, "NEWS_S", 3600.0)
+    tasks = [[{"body": f"b{row}", "impacts": row}] * 3 for row in range(12)]
+    assert list(cluster.on_cluster(client, list, tasks, lost=None)) == tasks
+    assert {future.type for future in futures} == {bytes}
+    assert len(asked) == 1
+
+
 @pytest.mark.slow
 def test_records_that_were_read_already(client, records):
     """They travel as they are."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 
 import pytest
@@ -11,8 +12,10 @@ from seisblock.records import Component, Record, motion_of
 from seisblock.solvers.respond import solve_respond
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.solvers.slide.solve import solve_slide
+from seisblock.studies.batch import cluster
 from seisblock.studies.batch.run import run_batch
-from tests.batch.conftest import shaking
+from seisblock.studies.runs import cores
+from tests.batch.conftest import shaking, write_record
 
 BODIES = {f"block {number}": Block(0.15 + 0.01 * number, 1.0) for number in range(20)}
 FRICTIONS = {f"mu {number}": 0.05 + 0.02 * number for number in range(20)}
@@ -51,6 +54,33 @@ def test_a_row(benchmark, solver, bodies, options, single):
         together = benchmark.stats.stats.min / 20
         benchmark.extra_info |= {"ms_per_row": 1e3 * together, "ms_per_call": 1e3 * alone}
         assert together < alone + 0.3e-3
+
+
+def test_two_processes(benchmark, tmp_path):
+    """Two of a local cluster against one; what client and scheduler take of a record is told beside, which no load changes."""
+    pytest.importorskip("distributed")
+    if benchmark.disabled or cores() < 2 or os.getloadavg()[0] > 0.5:
+        pytest.skip("is a measurement, on two idle cores")
+    names = [str(write_record(tmp_path / f"r{seed:02d}.csv", seed, samples=6000, peak=3.0)) for seed in range(20)]
+    bodies = {f"block {number}": Block(0.15 + 0.005 * number, 0.9) for number in range(100)}
+    alone, beside = _on_processes(1, names, bodies)
+    with cluster.connected("local:2") as client:
+        run_batch(names[:4], bodies, "rock", client=client)
+        table = benchmark.pedantic(run_batch, args=(names, bodies, "rock"), kwargs={"client": client}, rounds=3)
+    assert len(table) == 20 * 2 * 100
+    if benchmark.stats is not None:
+        benchmark.extra_info |= {"times_one": alone / benchmark.stats.stats.min, "client_ms_per_record": 1e3 * beside / len(names)}
+
+
+def _on_processes(count, names, bodies):
+    """Return how long a batch takes on some processes, at best, and the time of a processor that this one spends meanwhile."""
+    with cluster.connected(f"local:{count}") as client:
+        run_batch(names[: 2 * count], bodies, "rock", client=client)
+        found = []
+        for _ in range(3):
+            spent = time.process_time()
+            found.append((_seconds(lambda: run_batch(names, bodies, "rock", client=client)), time.process_time() - spent))
+    return min(taken for taken, _ in found), min(spent for _, spent in found)
 
 
 def _seconds(work):

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import logging
+import pickle
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
+from functools import partial
 from itertools import islice
+from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from seisblock.errors import ParameterError
@@ -27,6 +30,16 @@ PATIENCE_S = 10
 PER_THREAD = 4
 """Tasks handed out for each thread of the workers: enough that none waits, few enough that memory stays flat."""
 
+NEWS_S = 1.0
+"""How often a scheduler is asked how many threads its workers have: they come and go, and each question is a round trip."""
+
+UNWATCHED = {
+    "distributed.admin.tick.interval": "1s",
+    "distributed.admin.system-monitor.interval": "5s",
+    "distributed.worker.profile.enabled": False,
+}
+"""How seldom the processes started here look at themselves: by default fifty to a hundred times a second, and nobody reads it."""
+
 
 @contextmanager
 def connected(address: str) -> Iterator[Client]:
@@ -43,11 +56,13 @@ def connected(address: str) -> Iterator[Client]:
         If the package is not installed, the address is none, or no scheduler answers there.
     """
     try:
+        import dask
         from distributed import Client, LocalCluster
     except ImportError as error:
         raise ParameterError("a cluster needs Dask: pip install 'seisblock[distributed]'") from error
     if address.startswith(LOCAL):
         with (
+            dask.config.set(UNWATCHED),
             LocalCluster(
                 n_workers=_processes(address), threads_per_worker=1, dashboard_address=None, silence_logs=50, memory_limit=0
             ) as cluster,
@@ -100,20 +115,23 @@ def on_cluster(
 
     remaining = iter(tasks)
     under_way: deque[tuple[Task, Any]] = deque()
+    packing = partial(_sealed, work)
+    room, asked_s = 0, -NEWS_S
     try:
         while True:
-            room = PER_THREAD * max(sum(client.nthreads().values()), 1) - len(under_way)
-            under_way.extend((task, client.submit(work, task, pure=False)) for task in islice(remaining, max(room, 0)))
+            if monotonic() - asked_s >= NEWS_S:
+                room, asked_s = PER_THREAD * max(sum(client.nthreads().values()), 1), monotonic()
+            under_way.extend((task, client.submit(packing, task, pure=False)) for task in islice(remaining, max(room - len(under_way), 0)))
             if not under_way:
                 return
             task, future = under_way[0]
             answer, why = _answered(client, future)
             if why:  # what waited in a worker is blamed for its death, too: the one that is to blame dies alone as well
                 wait([future for _, future in under_way])
-                under_way[0] = task, client.submit(work, task, pure=False)
+                under_way[0] = task, client.submit(packing, task, pure=False)
                 answer, why = _answered(client, under_way[0][1])
             under_way.popleft()
-            yield lost(task, why) if why else answer
+            yield lost(task, why) if why else pickle.loads(answer)
     except (OSError, CancelledError) as error:
         if not _is_gone(client, error):
             raise
@@ -122,6 +140,11 @@ def on_cluster(
         if client.status == "running":
             with suppress(OSError):  # it may go this very moment
                 client.cancel([future for _, future in under_way])
+
+
+def _sealed(work: Callable[[Task], Answer], task: Task) -> bytes:
+    """Return the answer of a task as bytes: rows that Dask sees into travel one by one."""
+    return pickle.dumps(work(task))
 
 
 def _answered(client: Client, future: Any) -> tuple[Any, str]:
