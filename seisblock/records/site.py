@@ -25,6 +25,9 @@ CLOCKS = {
 
 HALF_A_SECOND = timedelta(seconds=0.5)
 
+MOST_LATITUDE, MOST_LONGITUDE = 90.0, 360.0
+"""Degrees beyond which nothing lies on the Earth; longitudes are told from -180 as well as to 360."""
+
 EARTH_KM = 6371.0
 """Mean radius of the Earth."""
 
@@ -54,6 +57,11 @@ class Site:
         """Code and name, as far as they are known."""
         return " ".join(dict.fromkeys(part for part in (self.code, self.name) if part))
 
+    @property
+    def place(self) -> tuple[float, float] | None:
+        """Latitude and longitude, None where they are not known or not on the Earth."""
+        return place_of(self.latitude_deg, self.longitude_deg)
+
 
 @dataclass(frozen=True)
 class Earthquake:
@@ -77,6 +85,11 @@ class Earthquake:
     depth_km: float | None = None
     magnitude: float | None = None
     name: str = ""
+
+    @property
+    def place(self) -> tuple[float, float] | None:
+        """Latitude and longitude of the epicentre, None where they are not known or not on the Earth."""
+        return place_of(self.latitude_deg, self.longitude_deg)
 
 
 def site_of(record: Record) -> Site:
@@ -106,9 +119,33 @@ def epicentral_distance_km(record: Record) -> float | None:
     if told is not None:
         return told
     site, earthquake = site_of(record), earthquake_of(record)
-    if earthquake is None or None in (site.latitude_deg, site.longitude_deg, earthquake.latitude_deg, earthquake.longitude_deg):
+    if earthquake is None or site.place is None or earthquake.place is None:
         return None
-    return great_circle_km((site.latitude_deg, site.longitude_deg), (earthquake.latitude_deg, earthquake.longitude_deg))  # type: ignore[arg-type]
+    return great_circle_km(site.place, earthquake.place)
+
+
+def place_of(latitude: float | None, longitude: float | None) -> tuple[float, float] | None:
+    """Return latitude and longitude, degrees, None where one is missing or they are not on the Earth.
+
+    Examples
+    --------
+    >>> place_of(-37.6, 181.0), place_of(99.9, 139.0)
+    ((-37.6, 181.0), None)
+    """
+    if latitude is None or longitude is None or not (abs(latitude) <= MOST_LATITUDE and abs(longitude) <= MOST_LONGITUDE):
+        return None
+    return latitude, longitude
+
+
+def beside(longitude: float, other: float) -> float:
+    """Return a longitude by the name, turns of 360 degrees away, that lies nearest to another: a map may cross the date line.
+
+    Examples
+    --------
+    >>> beside(-179.5, 178.0), beside(139.0, 178.0)
+    (180.5, 139.0)
+    """
+    return longitude - 360.0 * round((longitude - other) / 360.0)
 
 
 def great_circle_km(one: tuple[float, float], other: tuple[float, float]) -> float:

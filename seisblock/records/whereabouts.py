@@ -7,7 +7,7 @@ from datetime import timedelta
 
 from seisblock.records.doubts import Doubt
 from seisblock.records.record import Record
-from seisblock.records.site import earthquake_of, site_of, told_time
+from seisblock.records.site import MOST_LATITUDE, MOST_LONGITUDE, earthquake_of, site_of, told_time
 from seisblock.words import said
 
 EARLIEST = timedelta(seconds=60)
@@ -22,7 +22,7 @@ def doubts_of_header(record: Record) -> Iterator[Doubt]:
     site, earthquake = site_of(record), earthquake_of(record)
     places = {said("the station"): site} | ({said("the epicentre"): earthquake} if earthquake else {})
     for what, place in places.items():
-        for degrees, most in ((place.latitude_deg, 90.0), (place.longitude_deg, 360.0)):
+        for degrees, most in ((place.latitude_deg, MOST_LATITUDE), (place.longitude_deg, MOST_LONGITUDE)):
             if degrees is not None and abs(degrees) > most:
                 yield Doubt("header", said("{what} lies at {degrees:g} degrees, beyond {most:g}", what=what, degrees=degrees, most=most))
     origin = earthquake.origin_time if earthquake else None

@@ -11,6 +11,7 @@ from seisblock.records.site import great_circle_km
 from seisblock.studies.stations.effects import StandingStones
 from seisblock.words import speaking
 from tests.present.long_record import AOYAMA, stations
+from tests.present.test_stations_figure import across_the_date_line
 
 
 def data_of(page):
@@ -31,6 +32,14 @@ def test_every_station_is_where_it_is():
     assert highest["name"] == max(found.mapped, key=lambda answer: answer.latitude).label
     assert page.count("<tr>") == 1 + 13
     assert "b.csv: cut short" in page and "a.csv" in page
+
+
+def test_the_date_line_is_no_edge():
+    """Stations on both sides of it lie as far apart on the page as 41 degrees further west."""
+    found, subject = stations()
+    here, there = (data_of(map_page(each, subject)) for each in (found, across_the_date_line(found)))
+    for one, other in zip([*here["points"], {"at": here["epicentre"]}], [*there["points"], {"at": there["epicentre"]}], strict=True):
+        assert other["at"] == pytest.approx(one["at"], abs=0.002)
 
 
 def test_it_opens_without_network():

@@ -1,11 +1,14 @@
 """The map of an earthquake's stations: each where it is, in the colour of what happened, to scale."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from seisblock.present.figures.stations import figure
 from seisblock.records.site import great_circle_km
 from seisblock.studies.stations.effects import StandingStones
+from seisblock.studies.stations.survey import Stations
 from tests.present.long_record import AOYAMA, stations
 
 
@@ -35,6 +38,30 @@ def test_the_scale_bar_is_as_long_as_it_says():
     box = axis.get_window_extent()
     across, along = (right - left) * np.cos(np.radians(middle)) / box.width, (top - bottom) / box.height
     assert across == pytest.approx(along, rel=1e-6)
+
+
+def across_the_date_line(found):
+    """Return the stations moved east until half of them have longitudes below zero, as files tell them, and one lies nowhere on Earth."""
+    moved = [
+        answer if answer.longitude is None else replace(answer, longitude=(answer.longitude + 41.0 + 180.0) % 360.0 - 180.0)
+        for answer in found.answers
+    ]
+    lost = replace(moved[0], station="LOST", latitude=99.9)
+    return Stations((*moved, lost), replace(found.earthquake, longitude_deg=180.0), found.origin_told)
+
+
+def test_a_map_across_the_date_line_is_as_wide_as_elsewhere():
+    """The same distances as 41 degrees further west, longitudes told from -180 to 180; what is not on the Earth is on no map."""
+    found, _ = stations()
+    there = across_the_date_line(found)
+    assert any(answer.longitude < 0.0 for answer in there.mapped) and len(there.mapped) == len(found.mapped)
+    axes = [figure(each, None).axes[0] for each in (found, there)]
+    widths = [axis.get_xlim()[1] - axis.get_xlim()[0] for axis in axes]
+    assert widths[1] == pytest.approx(widths[0])
+    here, moved = (axis.collections[0].get_offsets().data for axis in axes)
+    np.testing.assert_allclose(np.diff(moved, axis=0), np.diff(here, axis=0), atol=1e-9)
+    axes[1].figure.draw_without_rendering()
+    assert all(abs(float(label.get_text().replace("\N{MINUS SIGN}", "-"))) <= 180.0 for label in axes[1].get_xticklabels())
 
 
 def test_without_a_subject_the_colours_are_the_shaking():

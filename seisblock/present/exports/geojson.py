@@ -58,7 +58,7 @@ def feature_collection(found: Stations, surveys: Sequence[SurveyAnswer] = ()) ->
             "origin_time": earthquake.origin_time.isoformat() if earthquake.origin_time else None,
             "magnitude": earthquake.magnitude,
             "depth_km": earthquake.depth_km,
-            "coordinates": None if earthquake.latitude_deg is None else _position(earthquake.longitude_deg, earthquake.latitude_deg),
+            "coordinates": None if earthquake.place is None else _position(earthquake.longitude_deg, earthquake.latitude_deg),
         }
     return collection
 

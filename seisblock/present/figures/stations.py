@@ -18,7 +18,7 @@ from seisblock.present.coast import coast_within
 from seisblock.present.figures import canvas
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.map import HAPPENS
-from seisblock.records.site import EARTH_KM
+from seisblock.records.site import EARTH_KM, beside
 from seisblock.studies.stations.effects import StandingBody, WhatStands
 from seisblock.studies.stations.survey import StationAnswer, Stations
 from seisblock.studies.stations.surveys import SurveyAnswer
@@ -43,6 +43,9 @@ SCALE_AT, NORTH_AT = (0.15, 0.05), (0.95, 0.9)
 
 APART = (0.2, 0.07)
 """How far names of stations keep from each other and from those, across and along, shares of the map."""
+
+HALF_TURN = 180.0
+"""Degrees east or west at which longitudes change their name."""
 
 LEAST_KM = 10.0
 """Extent of a map of one station."""
@@ -71,7 +74,7 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
     made = canvas.titled(title(found, subject), width=7.2, height=6.4)
     axis = made.add_subplot(1, 1, 1)
     values, label, most = shown_values(found, subject, gal=gal)
-    places = np.array([(answer.longitude, answer.latitude) for answer in found.mapped], dtype=float)
+    places = np.array([located(found, answer.longitude, answer.latitude) for answer in found.mapped])
     order = np.arange(len(places))[::-1]  # the worst on top
     points = axis.scatter(
         places[order, 0],
@@ -85,7 +88,7 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
         zorder=3,
     )
     if surveys:
-        squares = np.array([(each.surveyed.longitude, each.surveyed.latitude) for each in surveys])
+        squares = np.array([located(found, each.surveyed.longitude, each.surveyed.latitude) for each in surveys])
         filled = [surveyed_value(each, subject, gal=gal) for each in surveys]
         norm = Normalize(0.0, most)
         axis.scatter(squares[:, 0], squares[:, 1], c=filled, cmap=SHADES, norm=norm, marker="s", s=52, edgecolor="black", zorder=3.5)
@@ -97,6 +100,31 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
     _names(axis, found)
     made.colorbar(points, ax=axis, label=label, shrink=0.8, pad=0.02)
     return made
+
+
+def located(found: Stations, longitude: float | None, latitude: float | None) -> tuple[float, float]:
+    """Return degrees east and north on the map, east counted on beyond 180 where its stations lie on both sides of the date line.
+
+    Parameters
+    ----------
+    found : Stations
+    longitude, latitude : float, degrees
+    """
+    first = next((answer.longitude for answer in found.answers if answer.is_mapped), None)
+    return beside(longitude or 0.0, first or 0.0), latitude or 0.0
+
+
+def epicentre_of(found: Stations) -> tuple[float, float] | None:
+    """Return where the epicentre lies on the map, degrees east and north, None where it is not known.
+
+    Parameters
+    ----------
+    found : Stations
+    """
+    earthquake = found.earthquake
+    if earthquake is None or earthquake.place is None:
+        return None
+    return located(found, earthquake.longitude_deg, earthquake.latitude_deg)
 
 
 def shown_values(found: Stations, subject: WhatStands | None, *, gal: bool) -> tuple[FloatArray, str, float]:
@@ -166,10 +194,9 @@ def title(found: Stations, subject: WhatStands | None) -> str:
 
 def _epicentre(axis: Axes, found: Stations) -> None:
     """Draw the epicentre as a star, named."""
-    earthquake = found.earthquake
-    if earthquake is None or earthquake.latitude_deg is None or earthquake.longitude_deg is None:
+    at = epicentre_of(found)
+    if at is None:
         return
-    at = (earthquake.longitude_deg, earthquake.latitude_deg)
     axis.scatter(*at, marker="*", s=170, color="white", edgecolor="black", linewidth=1.0, zorder=4)
     axis.annotate(
         tell("epicentre"), at, xytext=(0, -13), textcoords="offset points", ha="center", va="top", fontsize=8, path_effects=HALO, zorder=5
@@ -178,9 +205,8 @@ def _epicentre(axis: Axes, found: Stations) -> None:
 
 def _frame(axis: Axes, found: Stations, places: FloatArray) -> None:
     """Give the map its extent, its proportions at that latitude, a scale bar and north."""
-    earthquake, there = found.earthquake, places
-    if earthquake is not None and earthquake.latitude_deg is not None and earthquake.longitude_deg is not None:
-        there = np.vstack([places, (earthquake.longitude_deg, earthquake.latitude_deg)])
+    epicentre = epicentre_of(found)
+    there = places if epicentre is None else np.vstack([places, epicentre])
     (west, south), (east, north) = there.min(axis=0), there.max(axis=0)
     middle = 0.5 * (south + north)
     narrowing = max(math.cos(math.radians(middle)), 0.01)
@@ -192,6 +218,8 @@ def _frame(axis: Axes, found: Stations, places: FloatArray) -> None:
     axis.set_xlabel(tell("longitude (°)"))
     axis.set_ylabel(tell("latitude (°)"))
     axis.ticklabel_format(useOffset=False)
+    if there[:, 0].max() > HALF_TURN or there[:, 0].min() < -HALF_TURN:
+        axis.xaxis.set_major_formatter(lambda east, _: f"{beside(east, 0.0):g}".replace("-", "\N{MINUS SIGN}"))
     axis.locator_params(nbins=6)
     _scale_bar(axis, 2.0 * half * KM_PER_DEGREE)
     arrow = {"arrowstyle": "-|>", "color": "black"}
@@ -214,13 +242,13 @@ def _names(axis: Axes, found: Stations) -> None:
     """Write the codes of the worst stations beside their points, as far as they are apart from each other."""
     (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
 
-    def within(longitude: float | None, latitude: float | None) -> tuple[float, float]:
-        return ((longitude or 0.0) - left) / (right - left), ((latitude or 0.0) - bottom) / (top - bottom)
+    def within(east: float, north: float) -> tuple[float, float]:
+        return (east - left) / (right - left), (north - bottom) / (top - bottom)
 
-    earthquake = found.earthquake
-    taken = [SCALE_AT, NORTH_AT] + ([] if earthquake is None else [within(earthquake.longitude_deg, earthquake.latitude_deg)])
+    epicentre = epicentre_of(found)
+    taken = [SCALE_AT, NORTH_AT] + ([] if epicentre is None else [within(*epicentre)])
     for answer in found.mapped[:NAMED]:
-        x, y = float(answer.longitude or 0.0), float(answer.latitude or 0.0)
+        x, y = located(found, answer.longitude, answer.latitude)
         place = within(x, y)
         if any(abs(place[0] - other[0]) < APART[0] and abs(place[1] - other[1]) < APART[1] for other in taken):
             continue

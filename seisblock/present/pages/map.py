@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.present.coast import coast_within
-from seisblock.present.figures.stations import KM_PER_DEGREE, shade, shown_values, surveyed_value, title
+from seisblock.present.figures.stations import KM_PER_DEGREE, epicentre_of, located, shade, shown_values, surveyed_value, title
 from seisblock.present.page import page
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.map import cells, survey_cells, verdict
@@ -45,14 +45,17 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True, s
     drawn = {id(answer): value / most for answer, value in zip(found.mapped, values.tolist(), strict=True)}
     centre = _centre(found)
     points = [
-        _point(answer, row, heads, shade(drawn[id(answer)]), centre, gal=gal)
+        {
+            "at": _place(located(found, answer.longitude, answer.latitude), centre),
+            **_point(answer, row, heads, shade(drawn[id(answer)]), gal=gal),
+        }
         for answer, row in zip(answered, rows, strict=True)
         if answer.is_mapped
     ]
     names, told = survey_cells(surveys)
     squares = [
         {
-            "at": _place(each.surveyed.longitude, each.surveyed.latitude, centre),
+            "at": _place(located(found, each.surveyed.longitude, each.surveyed.latitude), centre),
             "name": each.surveyed.place,
             "colour": shade(surveyed_value(each, subject, gal=gal) / most),
             "told": [[name, cell] for name, cell in zip(names[1:], row[1:], strict=True)],
@@ -62,18 +65,15 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True, s
         for each, row in zip(surveys, told, strict=True)
     ]
     earthquake = found.earthquake
-    coast = (
-        [[_place(longitude, latitude, centre) for longitude, latitude in line.tolist()] for line in coast_within(*_around(found))]
-        if points
-        else []
-    )
-    epicentre = None if earthquake is None else _place(earthquake.longitude_deg, earthquake.latitude_deg, centre)
+    coast = [[_place(point, centre) for point in line.tolist()] for line in coast_within(*_around(found))] if points else []
+    epicentre = epicentre_of(found)
+    star = None if epicentre is None else _place(epicentre, centre)
     return page(
         "map.html",
         title(found, subject) or tell("Stations"),
         subtitles=[earthquake_told(earthquake, found.origin_told)] if earthquake else [],
         lead=verdict(found, subject),
-        data={"points": points, "squares": squares, "epicentre": epicentre, "coast": coast, "named": tell("epicentre")},
+        data={"points": points, "squares": squares, "epicentre": star, "coast": coast, "named": tell("epicentre")},
         label=label,
         legend=[shade(i / (LEGEND - 1)) for i in range(LEGEND)],
         ends=["0", f"{most:.3g}"],
@@ -87,38 +87,36 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True, s
 
 def _centre(found: Stations) -> tuple[float, float]:
     """Return the middle of the stations, degrees east and north."""
-    places = [(answer.longitude or 0.0, answer.latitude or 0.0) for answer in found.mapped] or [(0.0, 0.0)]
+    places = _places(found) or [(0.0, 0.0)]
     east, north = zip(*places, strict=True)
     return 0.5 * (min(east) + max(east)), 0.5 * (min(north) + max(north))
 
 
+def _places(found: Stations) -> list[tuple[float, float]]:
+    """Return where the stations lie on the map, degrees east and north."""
+    return [located(found, answer.longitude, answer.latitude) for answer in found.mapped]
+
+
 def _around(found: Stations) -> tuple[float, float, float, float]:
     """Return a part of the Earth with the stations, the epicentre, and as much room on each side: west, east, south and north."""
-    places = [(answer.longitude or 0.0, answer.latitude or 0.0) for answer in found.mapped]
-    earthquake = found.earthquake
-    if earthquake is not None and earthquake.longitude_deg is not None and earthquake.latitude_deg is not None:
-        places.append((earthquake.longitude_deg, earthquake.latitude_deg))
+    epicentre = epicentre_of(found)
+    places = _places(found) + ([] if epicentre is None else [epicentre])
     (west, east), (south, north) = ((min(each), max(each)) for each in zip(*places, strict=True))
     room = max(east - west, north - south, LEAST_ROOM_DEG)
     return west - room, east + room, south - room, north + room
 
 
-def _place(longitude: float | None, latitude: float | None, centre: tuple[float, float]) -> list[float] | None:
-    """Return how far a place is from the middle, km to the east and to the south, as a page counts."""
-    if longitude is None or latitude is None:
-        return None
+def _place(at: tuple[float, float], centre: tuple[float, float]) -> list[float]:
+    """Return how far a place is from the middle, km to the east and to the south, as a page counts; both in degrees east and north."""
     narrowing = math.cos(math.radians(centre[1]))
-    return [round((longitude - centre[0]) * narrowing * KM_PER_DEGREE, 3), round((centre[1] - latitude) * KM_PER_DEGREE, 3)]
+    return [round((at[0] - centre[0]) * narrowing * KM_PER_DEGREE, 3), round((centre[1] - at[1]) * KM_PER_DEGREE, 3)]
 
 
-def _point(
-    answer: StationAnswer, row: list[str], heads: list[str], colour: str, centre: tuple[float, float], *, gal: bool
-) -> dict[str, Any]:
+def _point(answer: StationAnswer, row: list[str], heads: list[str], colour: str, *, gal: bool) -> dict[str, Any]:
     """Return what the page's script draws of one station."""
     unit = acceleration_unit(gal=gal)
     told = [[head, cell] for head, cell in zip(heads[1:], row[1:], strict=True)]
     return {
-        "at": _place(answer.longitude, answer.latitude, centre),
         "name": answer.label,
         "colour": colour,
         "told": [*told, [tell("record"), answer.record], [tell("begins"), answer.local_start]],

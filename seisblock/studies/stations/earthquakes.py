@@ -28,9 +28,7 @@ def are_two(one: Earthquake, other: Earthquake) -> bool:
     """
     if one.origin_time is not None and other.origin_time is not None and abs(one.origin_time - other.origin_time) > APART:
         return True
-    places = [(each.latitude_deg, each.longitude_deg) for each in (one, other)]
-    known = [(float(north), float(east)) for north, east in places if north is not None and east is not None]
-    return len(known) == 2 and great_circle_km(known[0], known[1]) > APART_KM
+    return one.place is not None and other.place is not None and great_circle_km(one.place, other.place) > APART_KM
 
 
 def words_of(earthquake: Earthquake) -> str:

@@ -21,7 +21,7 @@ from seisblock.readers.gather import Recording, gather
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.records.doubtful import refuse_doubtful, sentences
-from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, site_of, told_time
+from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, place_of, site_of, told_time
 from seisblock.studies.runs import RECORDS, in_threads
 from seisblock.studies.stations.earthquakes import are_two, words_of
 from seisblock.studies.stations.effects import StationEffect, WhatStands
@@ -91,7 +91,7 @@ class StationAnswer:
     @property
     def is_mapped(self) -> bool:
         """Whether it is known where the station is, and what was measured there."""
-        return self.latitude is not None and self.longitude is not None and self.pga_m_s2 is not None
+        return place_of(self.latitude, self.longitude) is not None and self.pga_m_s2 is not None
 
     @property
     def label(self) -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.contents import contents
 from seisblock.errors import BodyError
-from seisblock.records.site import great_circle_km
+from seisblock.records.site import great_circle_km, place_of
 from seisblock.studies.inverse.assumptions import Assumptions
 from seisblock.studies.inverse.estimate import ShakingEstimate, estimate_shaking
 from seisblock.studies.inverse.survey import counted_survey
@@ -153,7 +153,7 @@ def _place(path: Path, line: int, cells: dict[str, str]) -> SurveyedPlace:
     except ValueError:
         raise BodyError("{name}, line {line}: expected degrees and whole numbers of stones, found {found}", name=path, line=line,
                         found=list(cells.values())) from None  # fmt: skip
-    if not (abs(latitude) <= 90.0 and abs(longitude) <= 360.0):
+    if place_of(latitude, longitude) is None:
         raise BodyError("{name}, line {line}: {place} lies at {latitude}, {longitude}, which is not on the Earth", name=path, line=line,
                         place=cells["place"], latitude=latitude, longitude=longitude)  # fmt: skip
     if not 0 <= fallen <= stones or stones == 0:

@@ -80,10 +80,18 @@
     }
   };
 
-  // the worst comes first in the data and lies on top
+  const shown = new Map();
+  let dragged = 0;
+  // the worst comes first in the data and lies on top; touched again, a station gives way to the one beneath it
   const place = (point, circle) => {
     made("title", {}, circle).textContent = point.name;
-    circle.addEventListener("click", () => choose(point, circle));
+    shown.set(circle, point);
+    circle.addEventListener("click", (event) => {
+      if (event.detail && dragged > 5) return;
+      const here = document.elementsFromPoint(event.clientX, event.clientY).filter((node) => shown.has(node));
+      const next = here[(here.indexOf(map.querySelector(".chosen")) + 1) % here.length] ?? circle;
+      choose(shown.get(next), next);
+    });
     circle.addEventListener("keydown", (event) => {
       if (event.key === "Enter" || event.key === " ") {
         event.preventDefault();
@@ -112,11 +120,15 @@
   }
 
   const fingers = new Map();
-  map.addEventListener("pointerdown", (event) => fingers.set(event.pointerId, [event.clientX, event.clientY]));
+  map.addEventListener("pointerdown", (event) => {
+    fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    dragged = 0;
+  });
   window.addEventListener("pointermove", (event) => {
     const before = fingers.get(event.pointerId);
     if (!before) return;
     const now = [event.clientX, event.clientY];
+    dragged += Math.hypot(now[0] - before[0], now[1] - before[1]);
     if (fingers.size === 1) {
       view.x -= (now[0] - before[0]) * view.km;
       view.y -= (now[1] - before[1]) * view.km;
