@@ -42,6 +42,15 @@ def test_the_date_line_is_no_edge():
         assert other["at"] == pytest.approx(one["at"], abs=0.002)
 
 
+def test_an_epicentre_on_the_other_side_of_the_earth_is_off_the_map():
+    """The stations fill the page as without one; one near by is on it."""
+    found, subject = stations(StandingStones(AOYAMA))
+    far = replace(found, earthquake=replace(found.earthquake, latitude_deg=-30.0, longitude_deg=-70.0))
+    for each, beside in ((found, 1), (far, 0)):
+        page = data_of(map_page(each, subject))
+        assert len(page["framed"]) == len(found.mapped) + beside and page["epicentre"]
+
+
 def test_it_opens_without_network():
     """No address but the name of SVG's vocabulary; nothing is loaded."""
     page = map_page(*stations())

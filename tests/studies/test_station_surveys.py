@@ -39,11 +39,13 @@ def test_a_survey_stands_beside_the_nearest_three_stations():
 
 
 def test_where_no_stone_fell_there_is_a_bound_and_no_residual():
-    """So it is without any station with an intensity."""
+    """So it is without any station with an intensity, and where all are further away than shaking is alike."""
     (none,) = judge_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 0)], AROUND, AOYAMA)
     assert none.residual is None and none.expected_intensity is not None
     (alone,) = judge_surveys([SurveyedPlace("temple", 35.0, 139.0, 40, 20)], Stations((), None), AOYAMA)
-    assert (alone.neighbours, alone.expected_intensity, alone.residual) == ((), None, None)
+    (far,) = judge_surveys([SurveyedPlace("temple", -20.0, -179.9, 40, 20)], AROUND, AOYAMA)
+    for answer in (alone, far):
+        assert (answer.neighbours, answer.expected_intensity, answer.residual) == ((), None, None)
 
 
 def test_pairs_that_contradict_each_other_are_named():

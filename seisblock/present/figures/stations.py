@@ -18,7 +18,7 @@ from seisblock.present.coast import coast_within
 from seisblock.present.figures import canvas
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.map import HAPPENS
-from seisblock.records.site import EARTH_KM, beside
+from seisblock.records.site import EARTH_KM, beside, great_circle_km
 from seisblock.studies.stations.effects import StandingBody, WhatStands
 from seisblock.studies.stations.survey import StationAnswer, Stations
 from seisblock.studies.stations.surveys import SurveyAnswer
@@ -49,6 +49,9 @@ HALF_TURN = 180.0
 
 LEAST_KM = 10.0
 """Extent of a map of one station."""
+
+FAR_KM = 1000.0
+"""What lies further from the middle of the stations is off the map: they would be one dot on it."""
 
 
 def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, surveys: Sequence[SurveyAnswer] = ()) -> Figure:
@@ -92,9 +95,8 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
         filled = [surveyed_value(each, subject, gal=gal) for each in surveys]
         norm = Normalize(0.0, most)
         axis.scatter(squares[:, 0], squares[:, 1], c=filled, cmap=SHADES, norm=norm, marker="s", s=52, edgecolor="black", zorder=3.5)
-        places = np.vstack([places, squares])
     _epicentre(axis, found)
-    _frame(axis, found, places)
+    _frame(axis, framed(found, surveys))
     if coast := coast_within(*axis.get_xlim(), *axis.get_ylim()):
         axis.add_collection(LineCollection(coast, colors=COAST, linewidths=0.8, zorder=1.5))
     _names(axis, found)
@@ -125,6 +127,27 @@ def epicentre_of(found: Stations) -> tuple[float, float] | None:
     if earthquake is None or earthquake.place is None:
         return None
     return located(found, earthquake.longitude_deg, earthquake.latitude_deg)
+
+
+def framed(found: Stations, surveys: Sequence[SurveyAnswer] = ()) -> FloatArray:
+    """Return the places that a map shows from the first: its stations; epicentre and surveyed places that are not too far away.
+
+    Parameters
+    ----------
+    found : Stations
+    surveys : sequence of SurveyAnswer
+
+    Returns
+    -------
+    (n, 2) array, degrees
+        East and north.
+    """
+    stations = np.array([located(found, answer.longitude, answer.latitude) for answer in found.mapped])
+    epicentre = epicentre_of(found)
+    others = [located(found, each.surveyed.longitude, each.surveyed.latitude) for each in surveys] + ([epicentre] if epicentre else [])
+    east, north = 0.5 * (stations.min(axis=0) + stations.max(axis=0))
+    near = [other for other in others if great_circle_km((other[1], other[0]), (north, east)) <= FAR_KM]
+    return np.vstack([stations, *near])
 
 
 def shown_values(found: Stations, subject: WhatStands | None, *, gal: bool) -> tuple[FloatArray, str, float]:
@@ -203,11 +226,9 @@ def _epicentre(axis: Axes, found: Stations) -> None:
     )
 
 
-def _frame(axis: Axes, found: Stations, places: FloatArray) -> None:
+def _frame(axis: Axes, places: FloatArray) -> None:
     """Give the map its extent, its proportions at that latitude, a scale bar and north."""
-    epicentre = epicentre_of(found)
-    there = places if epicentre is None else np.vstack([places, epicentre])
-    (west, south), (east, north) = there.min(axis=0), there.max(axis=0)
+    (west, south), (east, north) = places.min(axis=0), places.max(axis=0)
     middle = 0.5 * (south + north)
     narrowing = max(math.cos(math.radians(middle)), 0.01)
     km = np.array([(east - west) * narrowing, north - south]) * KM_PER_DEGREE
@@ -218,7 +239,7 @@ def _frame(axis: Axes, found: Stations, places: FloatArray) -> None:
     axis.set_xlabel(tell("longitude (°)"))
     axis.set_ylabel(tell("latitude (°)"))
     axis.ticklabel_format(useOffset=False)
-    if there[:, 0].max() > HALF_TURN or there[:, 0].min() < -HALF_TURN:
+    if max(abs(west), abs(east)) > HALF_TURN:
         axis.xaxis.set_major_formatter(lambda east, _: f"{beside(east, 0.0):g}".replace("-", "\N{MINUS SIGN}"))
     axis.locator_params(nbins=6)
     _scale_bar(axis, 2.0 * half * KM_PER_DEGREE)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.present.coast import coast_within
-from seisblock.present.figures.stations import KM_PER_DEGREE, epicentre_of, located, shade, shown_values, surveyed_value, title
+from seisblock.present.figures.stations import KM_PER_DEGREE, epicentre_of, framed, located, shade, shown_values, surveyed_value, title
 from seisblock.present.page import page
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.map import cells, survey_cells, verdict
@@ -17,6 +17,7 @@ from seisblock.present.text.whereabouts import earthquake_told
 from seisblock.studies.stations.effects import WhatStands
 from seisblock.studies.stations.survey import StationAnswer, Stations
 from seisblock.studies.stations.surveys import SurveyAnswer, contradictions
+from seisblock.typing import FloatArray
 from seisblock.units import GAL
 from seisblock.words import tell
 
@@ -65,7 +66,8 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True, s
         for each, row in zip(surveys, told, strict=True)
     ]
     earthquake = found.earthquake
-    coast = [[_place(point, centre) for point in line.tolist()] for line in coast_within(*_around(found))] if points else []
+    shown = framed(found, surveys) if points else np.empty((0, 2))
+    coast = [[_place(point, centre) for point in line.tolist()] for line in coast_within(*_around(shown))] if points else []
     epicentre = epicentre_of(found)
     star = None if epicentre is None else _place(epicentre, centre)
     return page(
@@ -73,7 +75,14 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True, s
         title(found, subject) or tell("Stations"),
         subtitles=[earthquake_told(earthquake, found.origin_told)] if earthquake else [],
         lead=verdict(found, subject),
-        data={"points": points, "squares": squares, "epicentre": star, "coast": coast, "named": tell("epicentre")},
+        data={
+            "points": points,
+            "squares": squares,
+            "epicentre": star,
+            "framed": [_place(at, centre) for at in shown.tolist()],
+            "coast": coast,
+            "named": tell("epicentre"),
+        },
         label=label,
         legend=[shade(i / (LEGEND - 1)) for i in range(LEGEND)],
         ends=["0", f"{most:.3g}"],
@@ -97,16 +106,14 @@ def _places(found: Stations) -> list[tuple[float, float]]:
     return [located(found, answer.longitude, answer.latitude) for answer in found.mapped]
 
 
-def _around(found: Stations) -> tuple[float, float, float, float]:
-    """Return a part of the Earth with the stations, the epicentre, and as much room on each side: west, east, south and north."""
-    epicentre = epicentre_of(found)
-    places = _places(found) + ([] if epicentre is None else [epicentre])
-    (west, east), (south, north) = ((min(each), max(each)) for each in zip(*places, strict=True))
+def _around(places: FloatArray) -> tuple[float, float, float, float]:
+    """Return a part of the Earth with these places and as much room on each side: west, east, south and north."""
+    (west, south), (east, north) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
     room = max(east - west, north - south, LEAST_ROOM_DEG)
     return west - room, east + room, south - room, north + room
 
 
-def _place(at: tuple[float, float], centre: tuple[float, float]) -> list[float]:
+def _place(at: Sequence[float], centre: tuple[float, float]) -> list[float]:
     """Return how far a place is from the middle, km to the east and to the south, as a page counts; both in degrees east and north."""
     narrowing = math.cos(math.radians(centre[1]))
     return [round((at[0] - centre[0]) * narrowing * KM_PER_DEGREE, 3), round((centre[1] - at[1]) * KM_PER_DEGREE, 3)]

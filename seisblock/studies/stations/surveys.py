@@ -41,6 +41,9 @@ BESIDE_PLACE = noted(
 NEIGHBOURS = 3
 """Stations that tell what the shaking at a place may have been, weighted by the inverse of the distance."""
 
+REACH_KM = 100.0
+"""Stations further from a place tell nothing of the shaking there."""
+
 NEAR_KM = 10.0
 """Places further apart need not have felt the same."""
 
@@ -93,7 +96,7 @@ class SurveyAnswer:
     estimate : ShakingEstimate
         Of the fallen stones alone.
     neighbours : tuple of Neighbour
-        The nearest stations with an intensity, the nearest first.
+        The nearest stations with an intensity, the nearest first, none further than ``REACH_KM``.
     expected_intensity : float or None, 1
         Theirs, weighted by the inverse of the distance.
     residual : float or None, 1
@@ -184,14 +187,12 @@ def judge_surveys(
 def _answer(place: SurveyedPlace, stations: Sequence[StationAnswer], cemetery: Cemetery, assumptions: Assumptions | None) -> SurveyAnswer:
     """Return what one surveyed place says."""
     estimate = estimate_shaking(counted_survey(cemetery, place.fallen, place.stones), None, assumptions)
-    away = sorted(
-        (
-            Neighbour(each.station or each.record, _apart(place, each), each.jma_intensity)
-            for each in stations
-            if each.jma_intensity is not None
-        ),
-        key=lambda each: each.distance_km,
-    )[:NEIGHBOURS]
+    told = (
+        Neighbour(each.station or each.record, _apart(place, each), each.jma_intensity)
+        for each in stations
+        if each.jma_intensity is not None
+    )
+    away = sorted((each for each in told if each.distance_km <= REACH_KM), key=lambda each: each.distance_km)[:NEIGHBOURS]
     if not away:
         return SurveyAnswer(place, estimate, (), None, None)
     weights = [1.0 / max(each.distance_km, 0.1) for each in away]

@@ -15,8 +15,7 @@
     return node;
   };
   // kilometres east and south of the middle are the map's own units
-  const places = [...data.points, ...data.squares].map((point) => point.at).concat(data.epicentre ? [data.epicentre] : []);
-  const bounds = [0, 1].map((axis) => [Math.min(...places.map((p) => p[axis])), Math.max(...places.map((p) => p[axis]))]);
+  const bounds = [0, 1].map((axis) => [Math.min(...data.framed.map((p) => p[axis])), Math.max(...data.framed.map((p) => p[axis]))]);
   const middle = bounds.map(([low, high]) => (low + high) / 2);
   const view = { x: middle[0], y: middle[1], km: 1 };  // km for each pixel
   const circles = [], squares = [];
