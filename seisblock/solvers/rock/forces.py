@@ -113,8 +113,9 @@ def demand(block: Rocker, motion: Motion, trajectory: Trajectory, *, until_s: fl
     if not (rows.mode != REST).any():
         return Demand(float(ratio[best]), float(rows.time[best]), float(rows.time[best]) if ratio[best] == math.inf else None)
     chosen = _chosen(ratio, normal)
-    at = np.unique(np.concatenate([chosen, chosen - 1]))
-    at = at[(at >= 0) & (at < rows.time.size - 1)]
+    near = np.zeros(rows.time.size, dtype=bool)
+    near[chosen] = near[chosen - 1] = True
+    at = np.flatnonzero(near[:-1])
     at = at[(rows.mode[at] == rows.mode[at + 1]) & (rows.time[at] < rows.time[at + 1]) & (rows.number[at] + 1 == rows.number[at + 1])]
     moments, along, normal = _between(rows, at)
     lost = np.flatnonzero((normal <= 0.0).ravel())
