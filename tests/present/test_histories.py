@@ -9,12 +9,12 @@ from scipy.integrate import cumulative_simpson
 from seisblock import Block, Contact, SlidingBase, solve_jump, solve_respond, solve_rock, solve_slide
 from seisblock.measures import measure
 from seisblock.present.faces import figure_of
+from seisblock.present.figures.between import POINTS, with_points_between
 from seisblock.present.figures.curves import MOST_POINTS, thin
-from seisblock.present.figures.flights import FLOWN, with_flights
 from seisblock.present.figures.measure import measure_figure
-from seisblock.records import Preparation, motion_of
+from seisblock.records import Motion, Preparation, motion_of
 from seisblock.records.process import crop
-from seisblock.solvers.jump.chain import FLIGHT
+from seisblock.solvers.jump.chain import FLIGHT, ROCKING
 from tests.present.long_record import DT, PAVILION, SAMPLES, SOLVED, motion, record, response
 
 DRAWN = {
@@ -88,12 +88,12 @@ def test_the_drawing_on_file_is_the_response(tmp_path):
 def test_a_flight_is_drawn_as_its_parabola():
     """Between two samples a body in the air is where gravity and the ground, as straight as its samples, bring it."""
     found = response("jump")
-    time, drawn = with_flights(found)
+    time, drawn = with_points_between(found)
     flights = [phase for phase in found.phases if phase.name == FLIGHT]
     assert len(flights) > 2
     for flight in flights:
         seen = (time > flight.start_s) & (time < flight.end_s)
-        assert seen.sum() >= FLOWN - 1
+        assert seen.sum() >= POINTS[FLIGHT] - 1
         steps = np.append(flight.start_s, time[seen]) - flight.start_s
         low, high = found["height"][np.searchsorted(found.time, flight.start_s)], found["height"][np.searchsorted(found.time, flight.end_s)]
         long = flight.end_s - flight.start_s
@@ -107,6 +107,22 @@ def test_a_flight_is_drawn_as_its_parabola():
     speed = cumulative_simpson(push, x=t, initial=0.0)
     path = cumulative_simpson(speed, x=t, initial=0.0)
     assert np.ptp(x - path - np.polyval(np.polyfit(t, x - path, 1), t)) < 1e-6
+
+
+def test_short_rocking_is_drawn_as_its_arc():
+    """Between samples it leans as on a motion of ten times the samples that runs along the same straight lines; chords do not."""
+    time = np.arange(61) * 0.01
+    push = np.where(time < 0.03, 9.0, -4.0)
+    shaken = Motion.from_arrays(push, 0.01)
+    often = Motion.from_arrays(np.interp(np.arange(601) * 0.001, time, push), 0.001)
+    found, truth = (solve_jump(PAVILION, each, contact=Contact(mu=0.18), first=True) for each in (shaken, often))
+    (rocking,) = [phase for phase in found.phases if phase.name == ROCKING]
+    drawn_at, drawn = with_points_between(found)
+    for name, values in drawn.items():
+        inside, seen = ((each >= rocking.start_s) & (each <= rocking.end_s) for each in (truth.time, drawn_at))
+        true, high = truth[name][inside], np.ptp(truth[name][inside])
+        assert np.abs(np.interp(truth.time[inside], drawn_at[seen], values[seen]) - true).max() < 0.01 * high
+        assert np.abs(np.interp(truth.time[inside], found.time, found[name]) - true).max() > 0.03 * high
 
 
 def test_a_closer_look_draws_more():

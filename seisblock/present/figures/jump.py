@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from seisblock.present.figures import canvas
+from seisblock.present.figures.between import with_points_between
 from seisblock.present.figures.curves import curve
-from seisblock.present.figures.flights import with_flights
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.scales import Unit, acceleration_unit, length_unit
@@ -64,9 +64,9 @@ def _column(panels: Sequence[Any], called: str, response: Response[JumpOutcome],
     (near,) = canvas.within_reach(panels[0], peak, [(-level, level, tell("rocks beyond"))], name)
     if near:
         canvas.threshold(panels[0], [level, -level], tell("rocks beyond"))
-    time, drawn = with_flights(response)
+    time, drawn = with_points_between(response)
     rise = drawn["height"] - response.body.centroid_height
-    rows = (response.time, np.degrees(response["rotation"])), (time, rise / far.size), (time, drawn["displacement"] / far.size)
+    rows = (time, np.degrees(drawn["rotation"])), (time, rise / far.size), (time, drawn["displacement"] / far.size)
     for panel, row in zip(panels[1:], rows, strict=False):
         curve(panel, *row, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
     for panel in panels:

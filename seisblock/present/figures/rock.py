@@ -24,6 +24,9 @@ LEAST_LEAN = 1e-4
 LONGEST_CHORD = 0.02
 """Of the phase plane, a share of its half widths."""
 
+LONGEST_STEP = 0.002
+"""From sample to sample, a share of the time shown: in a longer one a chord would be seen."""
+
 COLOURS = {"rocks to +x": "#f6dfcf", "rocks to -x": "#a6b6dc", "beyond +alpha": "#c27c58", "beyond -alpha": "#5262a4"}
 
 
@@ -103,9 +106,13 @@ def draw_ground(axis: Any, response: Response[RockOutcome], called: str, *, gal:
 
 def draw_lean(axis: Any, response: Response[RockOutcome]) -> None:
     """Draw the lean over alpha with its phases and impacts."""
-    ratio = response["rotation"] / response.outcome.slenderness_rad
-    canvas.shade(axis, _seen(response, *axis.get_xlim()), COLOURS, names=True, direction=response.motion.name)
-    curve(axis, response.time, ratio, color=canvas.ACCENT)
+    alpha, (first, last) = response.outcome.slenderness_rad, axis.get_xlim()
+    ratio = response["rotation"] / alpha
+    canvas.shade(axis, _seen(response, first, last), COLOURS, names=True, direction=response.motion.name)
+    inside = (response.time[1:] >= first) & (response.time[:-1] <= last)
+    coarse = inside & (np.diff(response.time) > LONGEST_STEP * (last - first))
+    time, drawn, _ = finer(response.time, ratio, response["angular_velocity"] / alpha, coarse)
+    curve(axis, time, drawn, color=canvas.ACCENT)
     canvas.threshold(axis, [-1.0, 1.0])
     reach = float(np.abs(ratio).max())
     limit = 1.6 if reach > 1.6 else max(1.15 * reach, 1e-3) if reach < 0.8 else 1.2

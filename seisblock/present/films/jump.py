@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from seisblock.bodies.two_layer import TwoLayerBlock
-from seisblock.present.figures.flights import with_flights
+from seisblock.present.figures.between import with_points_between
 from seisblock.present.figures.heading import heading_of
 from seisblock.present.figures.jump import COLOURS
 from seisblock.present.films.animation import Filming
@@ -34,7 +34,7 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
     """Return the film of a jump for the times of its pictures, (n,), s."""
     block: TwoLayerBlock = response.body
     motion, drop = response.motion, float(response.options["drop_m"])
-    time, drawn = with_flights(response)
+    time, drawn = with_points_between(response)
     x, z, turn = (at(times, time, drawn[name]) for name in ("displacement", "height", "rotation"))
     body = Body(_pieces(block), x, z, turn)
     half, below = block.width / 2, -block.centroid_height
@@ -60,7 +60,7 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
         ),
         strips=(
             ground_strip(motion, (-level, level), gal=gal),
-            Strip(tell("θ (deg)"), (Line(response.time, np.degrees(response["rotation"])),)),
+            Strip(tell("θ (deg)"), (Line(time, np.degrees(drawn["rotation"])),)),
             Strip(tell("rise of G ({unit})", unit=far.name), (Line(time, rise),)),
         ),
         phases=response.phases,

@@ -43,6 +43,10 @@ MOST_SHOWN = 6
 """Chains in the table: those that moved the block most, in the order of time."""
 
 
+LEAST_TOLD = 0.005
+"""Angular velocity that two decimals show, rad/s; one below it has a digit of its own."""
+
+
 def tables(responses: Jumps, *, gal: bool, tenon: float | None) -> Iterator[Any]:
     """Yield, per component, what became of the block, and a table with a column per chain as in [Sugimoto2017]_ table 1."""
     for opening, part in answered(responses, lambda each: each.motion.record, lambda each: [line(verdict(each, gal=gal))]):
@@ -152,13 +156,13 @@ def sentences(response: Response[JumpOutcome], tenon: float | None = None, *, ga
         yield tell(
             "{count} more chains moved it by no more than {least} each.", count=len(chains) - len(shown), least=told_length(least, gal=gal)
         )
-    left = [chain.end_angular_velocity_rad_s or 0.0 for chain in chains if chain.outcome == JUMPED]
-    if left and response.outcome.landing == "paper":
-        yield tell(
+    left = max((chain.end_angular_velocity_rad_s or 0.0 for chain in chains if chain.outcome == JUMPED), default=0.0)
+    if left > 0.0 and response.outcome.landing == "paper":
+        text = noted(
             "A chain ends when the tilt is back at zero: the paper's model ends here, and makes nothing of the angular velocity left, "
-            "up to {most:.2f} rad/s.",
-            most=max(left),
+            "up to {most} rad/s."
         )
+        yield tell(text, most=f"{left:.2f}" if left >= LEAST_TOLD else f"{left:.1g}")
 
 
 def _hole(foot: float, centroid: float, tenon: float, *, gal: bool) -> str:

@@ -1,0 +1,86 @@
+"""What a jump looks like between the samples of its response: a body in the air follows its parabola, a leaning one its arc, no chord."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from seisblock.results import Phase, Response
+from seisblock.solvers.jump.chain import FLIGHT, ROCKING
+from seisblock.solvers.jump.solve import JumpOutcome
+from seisblock.typing import FloatArray, IntArray
+
+POINTS = {FLIGHT: 64, ROCKING: 24}
+"""Of a phase at the least: with so many no chord is seen, of a flight not where it is enlarged either."""
+
+
+def with_points_between(response: Response[JumpOutcome]) -> tuple[FloatArray, dict[str, FloatArray]]:
+    """Return the time, s, and the rotation, displacement and height of a jump, (n,): its own points and, where it rocks or flies, more.
+
+    What has landed slips, sticks and slips again between two samples: there its own points stand alone.
+
+    Notes
+    -----
+    In the air nothing but gravity and the ground's motion acts: y'' = -g, x'' = -z'', which is straight between samples, and the
+    rotation is even ([Sugimoto2017]_ section 3.8). Between two points a known acceleration leaves one curve. A rocking block's
+    follows from its tilt ([Sugimoto2017]_ eq. (3a)), and its centroid goes round the corner on which it stands.
+    """
+    time = response.time
+    curves = {name: response[name] for name in ("rotation", "displacement", "height")}
+    draw = {FLIGHT: _flown, ROCKING: _rocked}
+    places: list[IntArray] = []
+    whens: list[FloatArray] = []
+    added: list[dict[str, FloatArray]] = []
+    for phase in response.phases:
+        if phase.name not in draw:
+            continue
+        before, share = _gaps(time, phase)
+        if before.size and share.size:
+            places.append(np.repeat(before + 1, share.size))
+            whens.append((time[before, None] + share * np.diff(time)[before, None]).ravel())
+            added.append({name: values.ravel() for name, values in draw[phase.name](response, before, share).items()})
+    if not places:
+        return time, curves
+    after = np.concatenate(places)
+    between = {name: np.concatenate([each[name] for each in added]) for name in curves}
+    return np.insert(time, after, np.concatenate(whens)), {name: np.insert(old, after, between[name]) for name, old in curves.items()}
+
+
+def _gaps(time: FloatArray, phase: Phase) -> tuple[IntArray, FloatArray]:
+    """Return before which gaps of a phase points stand, (m,), and at which shares of each gap more are wanted, (k,): none in a long one."""
+    inside = np.flatnonzero((time[:-1] >= phase.start_s) & (time[1:] <= phase.end_s) & (np.diff(time) > 0.0))
+    each = -(-POINTS[phase.name] // max(inside.size, 1))
+    return inside, np.arange(1, each) / each
+
+
+def _flown(response: Response[JumpOutcome], before: IntArray, share: FloatArray) -> dict[str, FloatArray]:
+    """Return a flight's curves between its points, (m, k) each."""
+    gravity = float(response.options["gravity_m_s2"])
+    fall, ground = np.full(response.time.size, -gravity), -response["ground_acceleration"]
+    even = np.zeros(response.time.size)
+    pulls = {"rotation": even, "displacement": ground, "height": fall}
+    return {name: _between(response.time, response[name], pull, before, share) for name, pull in pulls.items()}
+
+
+def _rocked(response: Response[JumpOutcome], before: IntArray, share: FloatArray) -> dict[str, FloatArray]:
+    """Return a rocking's curves between its points, (m, k) each."""
+    block, gravity, rotation = response.body, float(response.options["gravity_m_s2"]), response["rotation"]
+    # z'' > 0 tips it to -x, see the solver: the tilt is positive in the frame in which the chain goes forward
+    sign = -1.0 if rotation[before].sum() > 0.0 else 1.0
+    tilt, push = -sign * rotation, sign * response["ground_acceleration"]
+    lean = block.slenderness - tilt
+    pull = block.mass * block.radius / block.corner_inertia * (push * np.cos(lean) - gravity * np.sin(lean))
+    leans = block.slenderness - _between(response.time, tilt, pull, before, share)
+    start = lean[before, None]
+    return {
+        "rotation": -sign * (block.slenderness - leans),
+        "displacement": response["displacement"][before, None] + sign * block.radius * (np.sin(leans) - np.sin(start)),
+        "height": response["height"][before, None] + block.radius * (np.cos(leans) - np.cos(start)),
+    }
+
+
+def _between(time: FloatArray, values: FloatArray, pull: FloatArray, before: IntArray, share: FloatArray) -> FloatArray:
+    """Return a curve at shares of some gaps between its points, (m, k), whose second derivative is straight in each."""
+    long, start, rise = (each[before, None] for each in (np.diff(time), pull, np.diff(values)))
+    change = np.diff(pull)[before, None]
+    bow: FloatArray = -(long**2) * share * (1.0 - share) * (start / 2.0 + change * (1.0 + share) / 6.0)
+    return values[before, None] + share * rise + bow
