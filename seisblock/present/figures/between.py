@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from seisblock.results import Phase, Response
@@ -13,8 +15,10 @@ POINTS = {FLIGHT: 64, ROCKING: 24}
 """Of a phase at the least: with so many no chord is seen, of a flight not where it is enlarged either."""
 
 
-def with_points_between(response: Response[JumpOutcome]) -> tuple[FloatArray, dict[str, FloatArray]]:
-    """Return the time, s, and the rotation, displacement and height of a jump, (n,): its own points and, where it rocks or flies, more.
+def with_points_between(
+    response: Response[JumpOutcome], of: Collection[str] = (ROCKING, FLIGHT)
+) -> tuple[FloatArray, dict[str, FloatArray]]:
+    """Return the time, s, and the rotation, displacement and height of a jump, (n,): its own points and, in phases of some names, more.
 
     What has landed slips, sticks and slips again between two samples: there its own points stand alone.
 
@@ -31,7 +35,7 @@ def with_points_between(response: Response[JumpOutcome]) -> tuple[FloatArray, di
     whens: list[FloatArray] = []
     added: list[dict[str, FloatArray]] = []
     for phase in response.phases:
-        if phase.name not in draw:
+        if phase.name not in of or phase.name not in draw:
             continue
         before, share = _gaps(time, phase)
         if before.size and share.size:

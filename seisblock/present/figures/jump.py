@@ -65,8 +65,10 @@ def _column(panels: Sequence[Any], called: str, response: Response[JumpOutcome],
     if near:
         canvas.threshold(panels[0], [level, -level], tell("rocks beyond"))
     time, drawn = with_points_between(response)
+    # in the air the rotation is even: points on a straight line would only be thinned out again
+    leaning, tilt = with_points_between(response, [ROCKING])
     rise = drawn["height"] - response.body.centroid_height
-    rows = (time, np.degrees(drawn["rotation"])), (time, rise / far.size), (time, drawn["displacement"] / far.size)
+    rows = (leaning, np.degrees(tilt["rotation"])), (time, rise / far.size), (time, drawn["displacement"] / far.size)
     for panel, row in zip(panels[1:], rows, strict=False):
         curve(panel, *row, longest_gap=1.5 * motion.dt, color=canvas.ACCENT)
     for panel in panels:

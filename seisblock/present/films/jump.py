@@ -16,6 +16,7 @@ from seisblock.present.films.plane import Body, Box, Piece, Plane, Trail, ground
 from seisblock.present.films.projector import animate_film
 from seisblock.present.scales import length_unit
 from seisblock.results import Response
+from seisblock.solvers.jump.chain import ROCKING
 from seisblock.solvers.jump.solve import JumpOutcome
 from seisblock.typing import FloatArray
 from seisblock.words import tell
@@ -35,6 +36,7 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
     block: TwoLayerBlock = response.body
     motion, drop = response.motion, float(response.options["drop_m"])
     time, drawn = with_points_between(response)
+    leaning, tilt = with_points_between(response, [ROCKING])
     x, z, turn = (at(times, time, drawn[name]) for name in ("displacement", "height", "rotation"))
     body = Body(_pieces(block), x, z, turn)
     half, below = block.width / 2, -block.centroid_height
@@ -60,7 +62,7 @@ def jump_film(response: Response[JumpOutcome], times: FloatArray, *, gal: bool =
         ),
         strips=(
             ground_strip(motion, (-level, level), gal=gal),
-            Strip(tell("θ (deg)"), (Line(time, np.degrees(drawn["rotation"])),)),
+            Strip(tell("θ (deg)"), (Line(leaning, np.degrees(tilt["rotation"])),)),
             Strip(tell("rise of G ({unit})", unit=far.name), (Line(time, rise),)),
         ),
         phases=response.phases,
