@@ -41,6 +41,22 @@ def test_rows_are_single_runs():
         assert many.longest_flight_s[row] <= max(flights, default=0.0) + 1e-12
 
 
+@pytest.mark.parametrize("up", [0.0, 14.0], ids=["level", "beyond 1 g upwards"])
+def test_rows_at_the_extremes_are_single_runs(up):
+    """Ice and glue, slivers and slabs, no rebound and almost all of it; records that end while they hop, and vertical motion beyond 1 g."""
+    whole = Motion(MOTION.acceleration * np.array([[1.0], [1.0], [up / np.abs(MOTION.vertical).max()]]), MOTION.dt)
+    motion = Motion(whole.acceleration[:, : whole.samples // 2], whole.dt)
+    blocks = (Block(0.002, 1.0), Block(0.35, 0.9), Block(3.0, 0.5))
+    rows = [(block, {"mu": mu, "restitution": e}) for block in blocks for mu in (0.01, 0.7, 100.0) for e in (0.0, 0.95)]
+    many = respond_many([make_setting(block, **options) for block, options in rows], motion, gains=(1.0, 0.0, 1.0))
+    assert 0 < many.overturned.sum() < len(rows)
+    for row, (block, options) in enumerate(rows):
+        one = solve_respond(block, motion, sensitivity=False, vertical=True, **options).outcome
+        assert many.overturned[row] == one.overturned
+        for name in ("settled", "final_displacement_m", "max_displacement_m", "max_rotation_rad", "slip_path_m", "impacts", "end_s"):
+            assert getattr(many, name)[row] == getattr(one, name), (name, block.width, options)
+
+
 @pytest.mark.parametrize("initial", [None, (0.0, 1.2, 0.0, 0.0, 0.0, 0.1)], ids=["upright", "thrown"])
 def test_settings_of_arrays_are_the_settings_one_by_one(initial):
     """Parameters and fates, jamming frictions and tenons among them, to the last bit."""
