@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.records import Motion
 from seisblock.units import STANDARD_GRAVITY
+
+FALLEN = math.cos(math.radians(60.0))
 
 
 def model_of(body: Pile, timestep: float, time_constant: float = 0.004):
@@ -30,20 +33,37 @@ def model_of(body: Pile, timestep: float, time_constant: float = 0.004):
     )
 
 
-def falls(body: Pile, motion: Motion, timestep: float = 5e-4) -> bool:
-    """Return whether any stone leans beyond 60 degrees under a motion."""
+def followed(body: Pile, motion: Motion, timestep: float, time_constant: float = 0.004) -> Iterator:
+    """Yield MuJoCo's state at each sample of a motion."""
     import mujoco
 
-    model = model_of(body, timestep)
+    model = model_of(body, timestep, time_constant)
     data = mujoco.MjData(model)
     steps = round(motion.dt / timestep)
     time = timestep * np.arange((motion.samples - 1) * steps)
     pull = -np.array([np.interp(time, motion.time, row) for row in motion.acceleration]).T
     pull[:, 2] -= STANDARD_GRAVITY
-    lean = math.cos(math.radians(60.0))
     for index, gravity in enumerate(pull):
         model.opt.gravity[:] = gravity
         mujoco.mj_step(model, data)
-        if index % steps == 0 and data.xmat[1:, 8].min() < lean:
-            return True
-    return False
+        if index % steps == 0:
+            yield data
+
+
+def falls(body: Pile, motion: Motion, timestep: float = 5e-4) -> bool:
+    """Return whether any stone leans beyond 60 degrees under a motion."""
+    return any(data.xmat[1:, 8].min() < FALLEN for data in followed(body, motion, timestep))
+
+
+def fate(body: Pile, motion: Motion, timestep: float = 1e-4, time_constant: float = 5e-4) -> tuple[list[str], float]:
+    """Return the stones that lean beyond 60 degrees first, and how far the centre of the last one has come from its place, m.
+
+    With steps this fine and contacts this stiff, halving the step changes displacements by 1 or 2 %.
+    """
+    place, away = np.array(body.centres())[-1], 0.0
+    for data in followed(body, motion, timestep, time_constant):
+        away = max(away, float(np.linalg.norm(data.xpos[-1] - place)))
+        fallen = [name for name, up in zip(body.names, data.xmat[1:, 8], strict=True) if up < FALLEN]
+        if fallen:
+            return fallen, away
+    return [], away
