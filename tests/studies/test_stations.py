@@ -15,7 +15,7 @@ from seisblock.measures import measure
 from seisblock.readers import read, read_all
 from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import gather
-from seisblock.records import Component, Preparation, motion_of
+from seisblock.records import Component, Preparation, Record, motion_of
 from seisblock.solvers.respond.solve import solve_respond
 from seisblock.studies.batch.run import run_batch
 from seisblock.studies.cemetery.judgement import Method, judge_cemetery
@@ -51,6 +51,16 @@ def test_a_damaged_member_costs_only_itself(found):
     assert [answer.failure is None for answer in found.answers] == [True] * 7 + [False]
     assert "SYA003" in found.answers[-1].record and "is cut short" in found.answers[-1].failure
     assert len(found.mapped) == 7
+
+
+def test_two_earthquakes_are_two_behind_a_header_that_tells_neither_time_nor_place():
+    """The first record tells a magnitude alone; the next two are of two earthquakes, and refused as if they stood alone."""
+    told = ({}, {"event_latitude_deg": 35.0, "event_longitude_deg": 139.0}, {"event_latitude_deg": 38.0, "event_longitude_deg": 143.0})
+    row = np.sin(np.arange(200.0))
+    records = [Record([Component("NS", row)], 0.01, metadata={"magnitude": 7.0, **each}) for each in told]
+    with pytest.raises(ParameterError, match="two earthquakes"):
+        survey_stations(records)
+    assert survey_stations(records[:2]).earthquake.latitude_deg == 35.0
 
 
 def test_the_worst_comes_first(found):

@@ -262,7 +262,7 @@ def _outline(row: FloatArray) -> tuple[tuple[float, float], ...]:
 
 
 def _of_one_earthquake(known: StationAnswer | None, answer: StationAnswer) -> StationAnswer | None:
-    """Return the station whose earthquake is that of all so far, and refuse another earthquake."""
+    """Return the station that tells most of the earthquake of all so far, and refuse another earthquake."""
     if answer.earthquake is None or known is None or known.earthquake is None:
         return known if answer.earthquake is None else answer
     if are_two(known.earthquake, answer.earthquake):
@@ -273,4 +273,10 @@ def _of_one_earthquake(known: StationAnswer | None, answer: StationAnswer) -> St
             other=words_of(answer.earthquake),
             second=answer.label,
         )
-    return known
+    return max(known, answer, key=_told_of_earthquake)
+
+
+def _told_of_earthquake(answer: StationAnswer) -> int:
+    """Return how much of what tells two earthquakes apart a station tells: the time, the place."""
+    earthquake = answer.earthquake
+    return 0 if earthquake is None else (earthquake.origin_time is not None) + (earthquake.place is not None)
