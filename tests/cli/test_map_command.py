@@ -113,7 +113,7 @@ def test_bad_input(words, code, says, tmp_path):
 @pytest.mark.parametrize(
     ("words", "says", "heads"),
     [
-        ("--solver rock --block gravestone --runs 3", "gravestone falls at 0 of 1 station(s)", "falls share worst"),
+        ("--solver rock --block gravestone --runs 3", "gravestone falls at 0 of 1 station(s)", "falls share worst versions"),
         ("--solver slide --mu 0.1", "object slides at 1 of 1 station(s)", "slides moves"),
         ("--solver jump --body chozusha --mu 0.18", "chozusha jumps at 0 of 1 station(s)", "jumps falls moves"),
         ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m lifts at 1 of 1 station(s)", "lifts rises"),

@@ -61,13 +61,27 @@ def tables(found: Stations, subject: WhatStands | None, *, gal: bool) -> Iterato
     if shown:
         heads, rows = cells(shown, subject, gal=gal)
         more = tell("and {count} more stations, in the files", count=len(answered) - MOST) if len(answered) > MOST else ""
-        yield table("", [head.replace(" (", "\n(") for head in heads], rows, caption=more)  # names need the room
+        caption = " ".join(filter(None, (more, which_is_which(shown, subject))))
+        yield table("", [head.replace(" (", "\n(") for head in heads], rows, caption=caption)  # names need the room
     missing = [answer for answer in found.answers if answer.failure]
     if missing:
         yield line(tell("without an answer: {count}", count=len(missing)), "yellow")
     unmapped = [answer for answer in answered if not answer.is_mapped]
     if unmapped:
         yield line(tell("listed, and on no map, for their files do not say where they are: {count}", count=len(unmapped)), "yellow")
+
+
+def which_is_which(answers: Sequence[StationAnswer], subject: WhatStands | None) -> str:
+    """Return of what the verdict and the share beside it are told, empty where there is no share.
+
+    Parameters
+    ----------
+    answers : sequence of StationAnswer
+    subject : StandingBody, StandingStones or None
+    """
+    if not isinstance(subject, StandingBody) or all(answer.effect.probability is None for answer in answers):
+        return ""
+    return tell("falls: as given, in the worst direction; share: of {runs} plausible versions there", runs=subject.runs)
 
 
 def survey_tables(surveys: Sequence[SurveyAnswer]) -> Iterator[Any]:
