@@ -145,6 +145,19 @@ def test_threads_change_nothing(event, found):
     assert again == found
 
 
+@pytest.mark.parametrize("asked", ["SYA005", " sya005 "])
+def test_one_station_is_answered_where_it_is_asked_for(event, tmp_path, asked):
+    """Of a bundle and of a folder; what cannot be read is named all the same."""
+    for name, data in {**station_files(4), **station_files(5)}.items():
+        (tmp_path / name).write_bytes(data)
+    (one, damaged) = survey_stations(event, reading=Options(station=asked)).answers
+    (other,) = survey_stations(tmp_path, reading=Options(station=asked)).answers
+    assert one.station == other.station == "SYA005" and one.pga_m_s2 == other.pga_m_s2
+    assert damaged.failure is not None
+    with pytest.raises(ParameterError, match="no station 'NOWHERE'"):
+        survey_stations(tmp_path, reading=Options(station="NOWHERE"))
+
+
 def test_two_earthquakes_are_refused(tmp_path):
     """Another origin time, or an epicentre far away, with the stations that tell them; three minutes are one earthquake."""
     for number, changes in ((1, {}), (2, {"Origin Time": "2004/10/23 18:34:00", "time": "2004/10/23 18:34:20"})):

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from seisblock import checks
-from seisblock.errors import KindError, ParameterError, SeisblockError
+from seisblock.errors import ComponentError, KindError, ParameterError, SeisblockError
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.intensity import jma_intensity
 from seisblock.measures.peaks import peak_acceleration, peak_velocity
@@ -173,8 +173,12 @@ def survey_stations(
     answers: list[StationAnswer] = []
     known: StationAnswer | None = None
     for answer in _with_progress(in_threads(work, _recordings(records, reading), workers=workers, ahead=RECORDS), progress):
+        if answer is None:
+            continue
         known = _of_one_earthquake(known, answer)
         answers.append(answer)
+    if not answers and reading.station is not None:
+        raise ParameterError("no station {station!r} among these records", station=reading.station)
     if not answers:
         raise ParameterError("there is no record: name files, folders or bundles of one earthquake")
     answers.sort(key=lambda each: (each.pga_m_s2 is not None, *each.effect.severity, each.pga_m_s2 or 0.0), reverse=True)
@@ -194,7 +198,7 @@ def _recordings(records: Station | Iterable[Station], reading: Options) -> Itera
             yield from some
 
 
-def _with_progress(answers: Iterable[StationAnswer], progress: Progress | None) -> Iterator[StationAnswer]:
+def _with_progress(answers: Iterable[StationAnswer | None], progress: Progress | None) -> Iterator[StationAnswer | None]:
     """Yield answers, and tell how many there are so far."""
     for done, answer in enumerate(answers, start=1):
         if progress is not None:
@@ -204,18 +208,21 @@ def _with_progress(answers: Iterable[StationAnswer], progress: Progress | None) 
 
 def _answer(
     recording: Recording | Record, *, subject: WhatStands | None, preparation: Preparation, reading: Options, strict: bool
-) -> StationAnswer:
-    """Return the answer of one station."""
+) -> StationAnswer | None:
+    """Return the answer of one station, None for one that was not asked for."""
     if not isinstance(recording, (Recording, Record)):
         raise KindError("names or records of stations are needed, found {found}", found=checks.kind_of(recording))
     name = recording.name if isinstance(recording, Recording) else recording.source.rsplit("/", 1)[-1]
     try:
         record = recording.read(reading) if isinstance(recording, Recording) else recording
+        if not _is_asked_for(record, reading.station):
+            return None
         if strict:
             refuse_doubtful(record)
         prepared = preparation.apply(record)
     except SeisblockError as error:
-        return StationAnswer(name, failure=error.said)
+        other = reading.station is not None and isinstance(error, ComponentError)  # a file without that station
+        return None if other else StationAnswer(name, failure=error.said)
     site, earthquake = site_of(prepared), earthquake_of(prepared)
     where: dict[str, object] = {
         "station": site.code,
@@ -253,6 +260,11 @@ def _measured(record: Record) -> dict[str, Any]:
         "pgv_m_s": max(peak_velocity(ground_history(row, record.dt), record.dt) for row in rows),
         "jma_intensity": jma_intensity(record),
     }
+
+
+def _is_asked_for(record: Record, station: str | None) -> bool:
+    """Return whether a record is of the station that was asked for, by its code or its name."""
+    return station is None or station.strip().lower() in (record.station.lower(), site_of(record).name.lower())
 
 
 def _outline(row: FloatArray) -> tuple[tuple[float, float], ...]:
