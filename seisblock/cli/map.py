@@ -136,6 +136,8 @@ def map(  # noqa: A001 - the command's name
         )
     if all(answer.failure is not None and answer.pga_m_s2 is None for answer in found.answers):
         raise RecordError("no station has an answer: {why}", why=found.answers[0].failure)
+    if output.plot is not None and not found.mapped:
+        raise RecordError("of no station it is known where it is: there is nothing to map")
     surveys = () if surveyed is None else judge_surveys(surveyed, found, read_cemetery(cemetery or "aoyama.csv"))
     if geojson is not None:
         from seisblock.present.exports.geojson import write_geojson

@@ -1,16 +1,18 @@
-"""What lies in a .tar, .tar.gz, .gz or .zip: the files in it, however deeply packed, as far as the budget goes."""
+"""What lies in a .tar, .zip, or what gzip, bzip2 or xz packed: the files in it, however deeply packed, as far as the budget goes."""
 
 from __future__ import annotations
 
+import bz2
 import gzip
 import io
+import lzma
 import re
 import struct
 import tarfile
 import zipfile
 import zlib
-from collections.abc import Iterator
-from typing import IO
+from collections.abc import Callable, Iterator
+from typing import IO, Any
 
 from seisblock.errors import InputError, RecordFormatError
 from seisblock.limits import MIB
@@ -24,6 +26,7 @@ _DAMAGE = (
     zlib.error,
     EOFError,
     gzip.BadGzipFile,
+    lzma.LZMAError,
     NotImplementedError,
     RuntimeError,
     struct.error,
@@ -32,14 +35,25 @@ _DAMAGE = (
 )
 """What the packers of the standard library raise on archives that are cut, spoilt or encrypted."""
 
+_PACKERS: tuple[tuple[bytes, Callable[[IO[bytes]], Any]], ...] = (
+    (rb"\x1f\x8b", lambda stream: gzip.GzipFile(fileobj=stream)),
+    (rb"BZh[1-9]1AY&SY", bz2.BZ2File),
+    (rb"\xfd7zXZ\x00", lzma.LZMAFile),
+)
+"""How what was packed begins, and what unpacks it."""
 
 _TAR_MARK = slice(257, 262)
 """Where a tar says that it is one."""
 
 
 def is_bundle(data: bytes) -> bool:
-    """Return whether bytes are a zip, gzip or tar archive."""
-    return data.startswith((b"PK\x03\x04", b"PK\x05\x06", b"\x1f\x8b")) or data[_TAR_MARK] == b"ustar"
+    """Return whether bytes are a zip or tar archive, or packed by gzip, bzip2 or xz."""
+    return data.startswith((b"PK\x03\x04", b"PK\x05\x06")) or data[_TAR_MARK] == b"ustar" or _packer(data[:16]) is not None
+
+
+def _packer(head: bytes) -> Callable[[IO[bytes]], Any] | None:
+    """Return what unpacks bytes that begin so."""
+    return next((opened for mark, opened in _PACKERS if re.match(mark, head)), None)
 
 
 def members_of(blob: Blob, budget: Budget) -> list[Blob]:
@@ -92,10 +106,11 @@ def _unpacked(blob: Blob, budget: Budget) -> Iterator[Blob]:
     """Yield the members of one archive, named archive/member, none held but the one that is taken."""
     stream = io.BufferedReader(Held(blob.held), MIB)
     head = blob.held[: _TAR_MARK.stop]
+    packer = _packer(head)
     if head.startswith(b"PK"):
         yield from _of_zip(blob.name, stream, budget)
-    elif head.startswith(b"\x1f\x8b"):
-        yield from _of_gzip(blob.name, stream, budget)
+    elif packer is not None:
+        yield from _of_packed(blob.name, packer(stream), budget)
     else:
         yield from _of_tar(blob.name, stream, budget)
 
@@ -112,13 +127,13 @@ def _of_zip(name: str, stream: IO[bytes], budget: Budget) -> Iterator[Blob]:
                     yield Blob(inner, budget.read(inner, member))
 
 
-def _of_gzip(name: str, stream: IO[bytes], budget: Budget) -> Iterator[Blob]:
+def _of_packed(name: str, stream: IO[bytes], budget: Budget) -> Iterator[Blob]:
     """Yield what is packed, and the members of a tar, unpacked as they are taken and to the end, where its checksum stands."""
-    with gzip.GzipFile(fileobj=stream) as packed:
+    with stream as packed:
         is_tar = packed.read(_TAR_MARK.stop)[_TAR_MARK] == b"ustar"
         packed.seek(0)
         if not is_tar:
-            yield Blob(re.sub(r"\.gz\Z", "", name, flags=re.IGNORECASE), budget.read(name, packed))
+            yield Blob(re.sub(r"\.(?:gz|bz2|xz)\Z", "", name, flags=re.IGNORECASE), budget.read(name, packed))
             return
         metered = Metered(name, packed, budget)
         yield from _of_tar(name, metered, budget)

@@ -145,8 +145,9 @@ def test_a_map_needs_a_place(tmp_path):
     page = CliRunner().invoke(main, ["map", str(tmp_path / "SYA0010410231756.NS"), "--html", str(tmp_path / "a.html")])
     assert page.exit_code == 0 and "SYA001" in (tmp_path / "a.html").read_text(encoding="utf-8")
     assert (tmp_path / "a.png").stat().st_size > 10_000
-    refused = CliRunner().invoke(main, ["map", "elcentro_1940_ns", "--plot", str(tmp_path / "b.svg")])
-    assert (refused.exit_code, (tmp_path / "b.svg").exists()) == (3, False)
+    words = ["--plot", str(tmp_path / "b.svg"), "--html", str(tmp_path / "b.html"), "--csv", str(tmp_path / "b.csv")]
+    refused = CliRunner().invoke(main, ["map", "elcentro_1940_ns", *words])
+    assert (refused.exit_code, list(tmp_path.glob("b.*"))) == (3, [])
     assert "of no station it is known where it is" in refused.stderr
 
 

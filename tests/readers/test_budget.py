@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import bz2
 import gzip
 import io
+import lzma
 import os
 import subprocess
 import sys
@@ -76,11 +78,12 @@ def test_declared_sizes_come_first(tmp_path, small):
     refused(tmp_path / "plain.csv", "4 MiB, and 2 may be read")
 
 
-def test_a_size_that_is_a_lie_is_noticed(tmp_path, small):
+@pytest.mark.parametrize("packer", [gzip, bz2, lzma])
+def test_a_size_that_is_a_lie_is_noticed(packer, tmp_path, small):
     """What is unpacked is counted, whatever was declared."""
     small(mib=1)
     path = tmp_path / "bomb.csv.gz"
-    path.write_bytes(gzip.compress(b"0" * 3 * 2**20))
+    path.write_bytes(packer.compress(b"0" * 3 * 2**20))
     refused(path, "holds more than the 1 MiB that may be read: set SEISBLOCK_READ_MIB")
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import bz2
 import gzip
 import io
+import lzma
 import pickle
 import zipfile
 
@@ -42,6 +44,20 @@ def test_a_nested_bundle_of_several_stations_needs_one(tmp_path):
     record = read(outer, station="nig017")
     assert (record.station, record.codes) == ("NIG017", ("NS", "EW", "UD"))
     assert record.source == str(outer)
+
+
+@pytest.mark.parametrize(("suffix", "pack"), [("gz", gzip.compress), ("bz2", bz2.compress), ("xz", lzma.compress)])
+def test_what_other_packers_packed_is_unpacked(suffix, pack, tmp_path):
+    """A bundle, and a lone file; one that was cut is damaged."""
+    bundle, alone = tmp_path / f"event.knt.tar.{suffix}", tmp_path / f"mine.csv.{suffix}"
+    bundle.write_bytes(tar(station_files("NIG019"), mode=f"w:{suffix}"))
+    assert read(bundle).codes == ("NS", "EW", "UD")
+    plain = "time,EW (gal)\n" + "".join(f"{0.01 * k:.2f},{k % 7}\n" for k in range(400))
+    alone.write_bytes(pack(plain.encode()))
+    assert read(alone).samples == 400
+    alone.write_bytes(pack(plain.encode())[:-20])
+    with pytest.raises(RecordFormatError, match="damaged or encrypted archive"):
+        read(alone)
 
 
 def test_a_users_zip_with_folders(tmp_path):
