@@ -8,6 +8,7 @@ from dataclasses import replace
 from seisblock.errors import ComponentError, RecordError
 from seisblock.readers.source import LONGEST_SHOWN
 from seisblock.records import Component, Record
+from seisblock.records.site import is_of_station
 from seisblock.words import said
 
 LEVELS = ("surface", "borehole")
@@ -84,8 +85,7 @@ def _of_station(name: str, parts: Sequence[Record], station: str | None) -> Sequ
     stations = list(dict.fromkeys(p.station for p in parts))
     listed = [s or said("(unnamed)") for s in stations]
     if station is not None:
-        wanted = station.strip().lower()
-        chosen = [p for p in parts if wanted in (p.station.lower(), str(p.metadata.get("station_name", "")).lower())]
+        chosen = [p for p in parts if is_of_station(p, station)]
         if not chosen:
             raise ComponentError("{name}: no station {station!r}; it holds {listed}", name=name, station=station, listed=listed)
         return chosen

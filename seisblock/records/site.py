@@ -101,6 +101,18 @@ def site_of(record: Record) -> Site:
     return Site(record.station, name if isinstance(name, str) else "", latitude, longitude, height)
 
 
+def is_of_station(record: Record, station: str) -> bool:
+    """Return whether a record is of a station, by its code or its name, in capitals or not.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> is_of_station(read("hanmer_springs_2016"), "hses")
+    True
+    """
+    return station.strip().lower() in (record.station.lower(), site_of(record).name.lower())
+
+
 def earthquake_of(record: Record) -> Earthquake | None:
     """Return what shook, or None where the file does not say, or has zeros for all it might."""
     origin = record.metadata.get("origin_time")

@@ -117,7 +117,7 @@ def test_each_station_of_a_bundle_is_a_record(folder, suffix, order):
 
 
 def test_one_station_of_a_bundle(folder):
-    """The others have no rows."""
+    """The others have no rows; capitals do not matter, as everywhere."""
     members = [
         (f"{station}1604160125.{path.suffix[1:]}", path.read_bytes().replace(b"SYN001", station.encode()))
         for station in ("AAA001", "BBB002")
@@ -126,6 +126,8 @@ def test_one_station_of_a_bundle(folder):
     packed(folder / "event.zip", members)
     assert run("batch event.zip --station BBB002 --bodies gravestone --solver rock --out t.csv").exit_code == 0
     assert {line.split(",")[2] for line in Path("t.csv").read_text().splitlines()[1:]} == {"BBB002"}
+    assert run("batch event.zip --station bbb002 --bodies gravestone --solver rock --out v.csv").exit_code == 0
+    assert Path("v.csv").read_text() == Path("t.csv").read_text()
     assert run("batch event.zip --station ZZZ --bodies gravestone --solver rock --out u.csv").exit_code == 3
 
 

@@ -14,6 +14,7 @@ from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import Recording
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.doubtful import refuse_doubtful, sentences
+from seisblock.records.site import is_of_station
 from seisblock.studies.azimuths import ALL_AZIMUTHS
 from seisblock.studies.batch.azimuths import around, worst_azimuth
 from seisblock.studies.batch.models import BATCH_MODELS, BatchModel, Placed
@@ -102,7 +103,7 @@ def rows_of(recording: Recording | Record, plan: Plan) -> list[Row]:
     known = _known(recording, plan)
     try:
         record = recording if isinstance(recording, Record) else recording.read(plan.reading)
-        if record.station != (plan.reading.station or record.station):
+        if plan.reading.station is not None and not is_of_station(record, plan.reading.station):
             return []
         known |= {"station": record.station or None, "start": record.start.isoformat() if record.start else None}
         if plan.strict:

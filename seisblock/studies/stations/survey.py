@@ -21,7 +21,7 @@ from seisblock.readers.gather import Recording, gather
 from seisblock.readers.source import Location
 from seisblock.records import Preparation, Record
 from seisblock.records.doubtful import refuse_doubtful, sentences
-from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, place_of, site_of, told_time
+from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, is_of_station, place_of, site_of, told_time
 from seisblock.studies.runs import RECORDS, in_threads
 from seisblock.studies.stations.earthquakes import are_two, words_of
 from seisblock.studies.stations.effects import StationEffect, WhatStands
@@ -215,7 +215,7 @@ def _answer(
     name = recording.name if isinstance(recording, Recording) else recording.source.rsplit("/", 1)[-1]
     try:
         record = recording.read(reading) if isinstance(recording, Recording) else recording
-        if not _is_asked_for(record, reading.station):
+        if reading.station is not None and not is_of_station(record, reading.station):
             return None
         if strict:
             refuse_doubtful(record)
@@ -260,11 +260,6 @@ def _measured(record: Record) -> dict[str, Any]:
         "pgv_m_s": max(peak_velocity(ground_history(row, record.dt), record.dt) for row in rows),
         "jma_intensity": jma_intensity(record),
     }
-
-
-def _is_asked_for(record: Record, station: str | None) -> bool:
-    """Return whether a record is of the station that was asked for, by its code or its name."""
-    return station is None or station.strip().lower() in (record.station.lower(), site_of(record).name.lower())
 
 
 def _outline(row: FloatArray) -> tuple[tuple[float, float], ...]:
