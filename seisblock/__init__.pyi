@@ -92,6 +92,7 @@ from .studies.rocking.spectra import RockingSpectrum, rocking_spectrum, rocking_
 from .studies.sliding import SlidePoint, slide_study
 from .studies.standing.azimuths import AzimuthFate, respond_directions
 from .studies.standing.mode_map import ModeMap, mode_map
+from .studies.standing.pile_probability import PileProbability, PileVersions, StoneChance, stack_probability
 from .studies.standing.probability import Probability, Versions, respond_probability
 from .studies.stations.effects import StandingBody, StandingStones
 from .studies.stations.survey import StationAnswer, Stations, survey_stations
@@ -175,7 +176,9 @@ __all__ = [
     "Phase",
     "Pile",
     "PileContact",
+    "PileProbability",
     "PileStone",
+    "PileVersions",
     "Probability",
     "Ranges",
     "Rate",
@@ -242,6 +245,7 @@ __all__ = [
     "solvers",
     "Spread",
     "SpringBlock",
+    "stack_probability",
     "StackOutcome",
     "StandingBody",
     "StandingStones",
@@ -249,6 +253,7 @@ __all__ = [
     "Stations",
     "Status",
     "Stone",
+    "StoneChance",
     "Storey",
     "studies",
     "Survey",

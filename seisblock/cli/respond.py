@@ -14,14 +14,13 @@ from seisblock.cli.options import Source, gravity_option, output_options, record
 from seisblock.cli.output import Output
 from seisblock.cli.sweeping import drawing, swept
 from seisblock.cli.talk import say
-from seisblock.cli.types import LENGTH, Count
-from seisblock.words import noted
+from seisblock.cli.versions import version_options, widths_of
 
 if TYPE_CHECKING:
     from seisblock.records import Record
     from seisblock.studies.standing.azimuths import AzimuthFate
 
-VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth_deg")
+VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth")
 
 
 @click.command(
@@ -38,23 +37,7 @@ VARIED = ("size", "inset", "mu", "restitution", "amplitude", "azimuth_deg")
     default=None,
     help="Whether the vertical component acts. [default: where the record has one]",
 )
-@option(
-    "--runs",
-    type=Count(noted("versions"), "SEISBLOCK_RUNS", least=0),
-    default=200,
-    show_default=True,
-    help="Plausible versions behind the probability; 0 for none.",
-)
-@option("--moved", type=LENGTH, default=0.01, help="Displacement beyond which it counts as moved, m or with a unit. [default: 1cm]")
-@option("--vary-size", type=float, default=0.05, show_default=True, help="Versions: half width of the size, a share.")
-@option(
-    "--vary-inset", type=float, default=0.1, show_default=True, help="Versions: worn from sharp edges to this share of the width per side."
-)
-@option("--vary-mu", type=float, default=0.2, show_default=True, help="Versions: half width of the friction, a share.")
-@option("--vary-restitution", type=float, default=0.1, show_default=True, help="Versions: how much larger the restitution may be, 1.")
-@option("--vary-amplitude", type=float, default=0.1, show_default=True, help="Versions: half width of the shaking's amplitude, a share.")
-@option("--vary-azimuth", type=float, default=10.0, show_default=True, help="Versions: half width of the direction of shaking, degrees.")
-@option("--seed", type=int, default=0, show_default=True, help="Seed of the versions.")
+@version_options(*VARIED, runs=200)
 @option("--settle", type=float, default=60.0, show_default=True, metavar="S", help="How long it is followed after the record, s.")
 @gravity_option
 @output_options()
@@ -82,7 +65,7 @@ def respond(
     from seisblock.solvers.respond.solve import solve_respond
     from seisblock.studies.standing.probability import Versions, respond_probability
 
-    widths = {name: given.pop(f"vary_{name.removesuffix('_deg')}") for name in VARIED}
+    widths = widths_of(given, *VARIED)
     chosen = choose_standing({**given, "gal": output.gal})
     say("body: {says}", says=chosen.says)
     options: dict[str, Any] = {

@@ -15,6 +15,7 @@ from seisblock.cli.options import Source, gravity_option, output_options, record
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
 from seisblock.cli.types import Touching
+from seisblock.cli.versions import version_options, widths_of
 from seisblock.words import said
 
 if TYPE_CHECKING:
@@ -26,6 +27,9 @@ RIGID, SPRINGS = "rigid", "springs"
 EDGES, GRID = 2, 5
 """Points along each side of a joint: on its edges, and as in Furukawa2009."""
 
+VARIED = ("size", "mu", "amplitude", "azimuth")
+"""What versions of a pile differ in."""
+
 COARSEST = 29
 """Of the heights of the study one is left."""
 
@@ -35,6 +39,7 @@ COARSEST = 29
     examples=(
         "seisblock stack --stones wagata.toml --reinforced",
         "seisblock stack record.csv --stones lantern.toml --plot stack.png --animate stack.gif",
+        "seisblock stack --component NS --scale 0.5 --runs 20",
         "seisblock stack --criterion --grid 4 --contact edges --resume study.jsonl --plot criterion.png",
     ),
 )
@@ -120,6 +125,7 @@ COARSEST = 29
     metavar="FILE",
     help="--criterion: keep finished sines in this file, and go on from it.",
 )
+@version_options(*VARIED, runs=0)
 @gravity_option
 @output_options()
 def stack(
@@ -138,7 +144,8 @@ def stack(
     """Follow a pile of stones through an earthquake, in three dimensions (Furukawa et al. 2009).
 
     Both horizontal components and the vertical one act together; +x of the pile is the component's positive direction. Without
-    --component that is the record's first. Slips are relative to the stone below, in m.
+    --component that is the record's first. Slips are relative to the stone below, in m. A pile is chaotic: --runs 100 tells in what
+    share of plausible versions of it and the shaking each stone falls.
     """
     from seisblock.bodies.pile.contact import PileContact
     from seisblock.errors import ParameterError
@@ -160,6 +167,8 @@ def stack(
         dowels=said(", dowels in") if body.dowels else "",
     )
     if criterion:
+        if asked["runs"]:
+            raise ParameterError("--criterion takes no --runs")
         if not (asked["mu_kinetic"] is None and asked["restitution"] is None):
             raise ParameterError("--criterion takes no --mu-kinetic and no --restitution")
         _study(source, output, body, contact, grid, resume, points=asked["points"], gravity=asked["gravity"], reinforced=reinforced)
@@ -191,20 +200,28 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
     from seisblock.present.text import stack as shown
     from seisblock.solvers.stack.solve import solve_stack
     from seisblock.studies.agreement import pile_agreement
+    from seisblock.studies.standing.pile_probability import PileVersions, stack_probability
 
-    responses = []
+    versions = PileVersions(**widths_of(asked, *VARIED))
+    varied = {"versions": versions, **{name: asked.pop(name) for name in ("runs", "seed")}, "moved_m": asked.pop("moved")}
+    responses, extras = [], []
     for record in load(source):
         turned = list(motions(record, source))
         # all components act in every run: without --component one run tells all
         for motion in turned if source.component else turned[:1]:
-            with progress(f"{record.station} {motion.name}".strip()) as advance:
+            name = f"{record.station} {motion.name}".strip()
+            with progress(name) as advance:
                 responses.append(solve_stack(body, motion, contact=contact, progress=advance, **asked))
-    agreements = [pile_agreement(response) for response in responses]
+            extra: dict[str, Any] = {"agreement": pile_agreement(responses[-1])}
+            if varied["runs"]:
+                with progress("versions {name}", name=name) as advance:
+                    extra["probability"] = stack_probability(body, motion, progress=advance, contact=contact, **varied, **asked)
+            extras.append(extra)
     emit(
-        document(responses, body, contact, agreements),
+        document(responses, body, contact, extras),
         output,
         responses=responses,
-        tables=lambda: shown.tables(responses, agreements, gal=output.gal),
+        tables=lambda: shown.tables(responses, extras, gal=output.gal),
     )
 
 

@@ -269,9 +269,11 @@ def _least(
 def rigid_levels(study: CriterionStudy, body: Pile, *, points: int, gravity: float = STANDARD_GRAVITY) -> dict[float, float]:
     """Return a(f) of the top stone as one rigid block, over the study's sines ([Furukawa2009]_ eq. (7)); parameters as for the study."""
     blocks = [(ratio, rigid_top(with_top(body, ratio), points)) for ratio in RATIOS]
-    found = []
-    for threshold in study.thresholds:
+
+    def work(threshold: Threshold) -> Threshold:
+        """Return the most squat block that falls under the same sine."""
         motion = sine_base(threshold.frequency_hz, threshold.pga_m_s2)
         falls = (ratio for ratio, block in blocks if rock_verdict(block, motion, gravity=gravity).overturned)
-        found.append(Threshold(threshold.frequency_hz, threshold.pga_m_s2, next(falls, None)))
-    return fitted_levels(found)
+        return Threshold(threshold.frequency_hz, threshold.pga_m_s2, next(falls, None))
+
+    return fitted_levels(tuple(in_threads(work, study.thresholds)))

@@ -18,6 +18,7 @@ OF_MOTIONS = {
     "mode_map": lambda motion: sb.mode_map([0.3], [1.0], [0.2], motion),
     "slide_study": lambda motion: sb.slide_study(0.2, motion),
     "respond_probability": lambda motion: sb.respond_probability(BLOCK, motion, mu=0.3, runs=2),
+    "stack_probability": lambda motion: sb.stack_probability(PILE, motion, runs=2),
     "respond_many": lambda motion: sb.respond_many([sb.make_setting(BLOCK, mu=0.3)], motion),
     "jump_many": lambda motion: sb.jump_many([LAYERS], motion, contacts=[sb.load_contact("chozusha")]),
     "uplift_many": lambda motion: sb.uplift_many([SPRINGS], motion),
@@ -46,6 +47,7 @@ OF_RECORDS = {
 OF_BODIES = {
     "make_setting": (lambda body: sb.make_setting(body, mu=0.3), "Block"),
     "respond_probability": (lambda body: sb.respond_probability(body, MOTION, mu=0.3, runs=2), "Block"),
+    "stack_probability": (lambda body: sb.stack_probability(body, MOTION, runs=2), "Pile"),
     "respond_directions": (lambda body: sb.respond_directions(body, RECORD, mu=0.3), "Block"),
     "overturning_card": (lambda body: sb.overturning_card(body, 3.0, 0.4, {}), "Block"),
     "natural_modes": (sb.natural_modes, "SpringBlock"),

@@ -91,6 +91,23 @@ def test_each_component_asked_for_is_a_run():
     assert [entry["component"] for entry in found] == ["EW", "NS"]
 
 
+def test_versions_tell_how_sure_it_is(pulse):
+    """--runs tells in what share of versions each stone falls, with the keys of respond; without it nothing is told."""
+    (found,) = answer(pulse, "--scale", "0.7", "--runs", "6", "--seed", "1", "--vary-amplitude", "0.3")["results"]
+    chance = found["probability"]
+    assert set(chance) == {"runs", "overturned", "moved", "interval", "moved_m", "stones", "versions", "seed"}
+    assert (chance["runs"], chance["seed"], chance["moved_m"], chance["versions"]["amplitude"]) == (6, 1, 0.01, 0.3)
+    assert [stone["name"] for stone in chance["stones"]] == ["gedai", "mizubachi", "chudai", "jodai", "sao"]
+    assert 0.0 < chance["overturned"] < 1.0
+    shown = " ".join(run(pulse, "--scale", "0.7", "--runs", "6", "--seed", "1", "--vary-amplitude", "0.3").stdout.split())
+    count = round(6 * chance["overturned"])
+    assert f"a stone falls in {count} of 6 plausible versions" in shown
+    assert "6 plausible versions; moves: more than 1.0 cm, or falls" in shown
+    assert "probability" not in answer(pulse, "--scale", "0.7")["results"][0]
+    refused = run("--criterion", "--runs", "3")
+    assert refused.exit_code == 3 and "--criterion takes no --runs" in refused.stderr
+
+
 def test_stones_can_be_left_out_and_fixed(pulse):
     """--without and --fix change the pile."""
     (found,) = answer(pulse, "--without", "mizubachi", "--fix", "gedai", "--contact", "edges", "--mu", "0.6")["results"]

@@ -40,7 +40,7 @@ EVERY = (
     "uplift --width 1.2 --height 3 --frequency-vertical 8 --component NS",
     "uplift --harmonic --frequency-ratio 0.5,1",
     "uplift --harmonic --damping 0,0.05 --frequency-ratio 0.5,1 --corner 4",
-    "stack --window 24:25",
+    "stack --window 24:25 --runs 2",
     "stack --criterion --grid 14 --contact edges --without mizubachi",
     "criteria --block gravestone",
     "spectrum --steps 3",

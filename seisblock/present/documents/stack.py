@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
-from msgspec import Meta, Struct
+from msgspec import Meta, Struct, UnsetType
 
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
@@ -21,6 +21,7 @@ from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.solvers.stack.solve import SPRINGS
 from seisblock.studies.agreement import Agreement
 from seisblock.studies.gravestone_criterion import CriterionStudy, Threshold, frequencies_of
+from seisblock.studies.standing.pile_probability import PileProbability
 
 
 class StackParameters(Struct, frozen=True, kw_only=True):
@@ -142,15 +143,18 @@ class StudyResult(Result, frozen=True, kw_only=True):
 
 
 AGREEMENT = Annotated[Agreement | None, Meta(description="What the models of the top stone say; null where it is held.")]
-STACK_RESULT = entry_type("StackResult", StackOutcome, before=COMPONENT, beside={"agreement": AGREEMENT})
+PROBABILITY = (
+    Annotated[PileProbability, Meta(description="Share of plausible versions in which stones fall; left out with --runs 0.")] | UnsetType
+)
+STACK_RESULT = entry_type("StackResult", StackOutcome, before=COMPONENT, beside={"agreement": AGREEMENT, "probability": PROBABILITY})
 STACK = Kind("stack", StackParameters, STACK_RESULT)
 STUDY = Kind("stack", StudyParameters, StudyResult, name="criterion")
 
 
 def document(
-    responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact | None, agreements: Sequence[Agreement | None]
+    responses: Sequence[Response[StackOutcome]], pile: Pile, contact: PileContact | None, extras: Sequence[Mapping[str, Any]]
 ) -> Document:
-    """Return the document of one run per direction; a contact of None is rigid."""
+    """Return the document of one run per direction, with what its models and its versions say; a contact of None is rigid."""
     options: dict[str, Any] = {**responses[0].options, "base": base_of(responses[0])}
     if contact is None and options["law"] == SPRINGS:
         contact = PileContact()  # where rigid stones created energy
@@ -158,7 +162,7 @@ def document(
     options |= {name: bool(options[name]) for name in ("vertical", "across")}
     return STACK.document(
         StackParameters(**options, pile=pile_entry(pile)),
-        (outcome_of(STACK_RESULT, response, agreement=found) for response, found in zip(responses, agreements, strict=True)),
+        (outcome_of(STACK_RESULT, response, **extra) for response, extra in zip(responses, extras, strict=True)),
         citations=[key for response in responses for key in response.citations],
         warnings=[text for response in responses for text in response.warnings],
     )

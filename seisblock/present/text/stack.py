@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
+
+from rich.text import Text
 
 from seisblock.bodies.pile.stone import GROUND
 from seisblock.present.directions import towards
-from seisblock.present.scales import Unit, length_cell, length_unit
+from seisblock.present.scales import Unit, length_cell, length_unit, told_length
 from seisblock.present.text.agreement import agreement_line
 from seisblock.present.text.tables import NOTHING, answered, fixed, line, seconds, table
 from seisblock.records import Motion
@@ -17,31 +19,44 @@ from seisblock.solvers.stack.base import base_of
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
 from seisblock.solvers.stack.solve import EDGES, RIGID
 from seisblock.studies.agreement import Agreement
-from seisblock.words import strung, tell
+from seisblock.studies.standing.pile_probability import PileProbability, StoneChance
+from seisblock.words import roughly, strung, tell
 
 NOTICEABLE_TILT, NOTICEABLE_SLIP = 2e-3, 2e-4
 """What shows in a figure, rad and m."""
 
+TO_ALL_SIDES = 0.3
+"""Below this :attr:`~seisblock.studies.standing.pile_probability.StoneChance.fell_alike_ratio` a mean direction tells nothing."""
 
 Stacks = Sequence[Response[StackOutcome]]
 
 
-def tables(responses: Stacks, agreements: Sequence[Agreement | None], *, gal: bool = True) -> Iterator[Any]:
-    """Yield the record, a row per stone, a sentence per run, and how far the models of the top stone are apart."""
-    both = zip(responses, agreements, strict=True)
-    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: [line(verdict(each[0]))]):
+def tables(responses: Stacks, extras: Sequence[Mapping[str, Any]], *, gal: bool = True) -> Iterator[Any]:
+    """Yield what falls and how sure that is, the record, a row per stone, and how far the models of the top stone are apart."""
+    both = zip(responses, extras, strict=True)
+    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: _happened(*each, gal=gal)):
         yield from opening
         yield from (shown for each in part for shown in _details(*each, gal=gal))
 
 
-def _details(response: Response[StackOutcome], found: Agreement | None, *, gal: bool) -> Iterator[Any]:
-    """Yield the table of one run, its energies, and how far the models of the top stone are apart."""
+def _happened(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Text]:
+    """Yield what happened, and in what share of the versions."""
+    yield line(verdict(response))
+    if "probability" in extra:
+        yield line("  " + share(extra["probability"], gal=gal))
+
+
+def _details(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Any]:
+    """Yield the table of one run, on what the stones stand, what was varied, and how far the models of the top stone are apart."""
+    found: Agreement | None = extra["agreement"]
     unit = length_unit((stone.residual_slip_m for stone in response.outcome.stones if stone.state != "fallen"), gal=gal)
     slip = tell("slip ({unit})", unit=unit.name)
     columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), slip, tell("turn (deg)")]
     title = tell("{name}: {what}", name=f"+x = {response.motion.name}", what=tell(response.body.name))
     yield table(title, columns, (_row(stone, unit) for stone in reversed(response.outcome.stones)))
     yield line(standing(response))
+    if "probability" in extra:
+        yield from _versions(extra["probability"], gal=gal)
     if found is not None:
         top = tell("{stone}, {name}", stone=tell(response.body.names[-1]), name=response.motion.name)
         yield line(agreement_line(top, found))
@@ -80,6 +95,65 @@ def verdict(response: Response[StackOutcome]) -> str:
     if moved := [tell(stone.name) for stone in outcome.stones if stone.state != "standing"]:
         return tell("Every stone stands; moved: {stones}.", stones=moved)
     return tell("Every stone stands where it was.")
+
+
+def _versions(found: PileProbability, *, gal: bool) -> Iterator[Any]:
+    """Yield in what share of the versions each stone falls and moves, and what was varied."""
+    columns = [tell("stone"), tell("falls (%)"), tell("95 % interval"), tell("falls to (deg)"), tell("moves (%)")]
+    far = told_length(found.moved_m, gal=gal)
+    yield line()
+    yield table(
+        tell("{runs} plausible versions; moves: more than {far}, or falls", runs=found.runs, far=far),
+        columns,
+        map(_chance, reversed(found.stones)),
+    )
+    yield line(varied(found), "dim")
+
+
+def _chance(chance: StoneChance) -> list[str]:
+    """Return how often one stone falls, and to what azimuth, of +x where north is not known; nothing where it falls to all sides."""
+    mean = chance.fell_towards_deg if chance.fell_azimuth_deg is None else chance.fell_azimuth_deg
+    known = mean is not None and chance.fell_alike_ratio is not None and chance.fell_alike_ratio >= TO_ALL_SIDES
+    low, high = (fixed(100.0 * end, 0) for end in chance.interval)
+    share, moved = fixed(100.0 * chance.overturned, 1), fixed(100.0 * chance.moved, 1)
+    return [tell(chance.name), share, f"{low}–{high}", fixed(mean % 360.0, 0) if known and mean is not None else NOTHING, moved]
+
+
+def share(found: PileProbability, *, gal: bool = True) -> str:
+    """Return in how many versions a stone falls or moves, as a sentence; never as if it were the pile's own probability."""
+    fallen = round(found.overturned * found.runs)
+    low, high = found.interval
+    if fallen == 0:
+        falls = tell("no stone falls in any of {runs} plausible versions", runs=found.runs)
+    elif fallen == found.runs:
+        falls = tell("a stone falls in all {runs} plausible versions", runs=found.runs)
+    else:
+        falls = tell(
+            "a stone falls in {fallen} of {runs} plausible versions, {share} ({low} to {high})",
+            fallen=fallen,
+            runs=found.runs,
+            share=roughly(found.overturned),
+            low=roughly(low),
+            high=roughly(high),
+        )
+    far = told_length(found.moved_m, gal=gal)
+    if found.moved in (0.0, 1.0):
+        moves = tell("in all, one moves more than {far}", far=far) if found.moved else tell("none moves more than {far}", far=far)
+    else:
+        moves = tell("in {share} one moves more than {far}", share=roughly(found.moved), far=far)
+    return tell("{falls}; {moves}.", falls=falls, moves=moves)
+
+
+def varied(found: PileProbability) -> str:
+    """Return what was varied, and of what the share is."""
+    by = found.versions
+    return tell(
+        "of this model's scatter alone: size ±{size}, friction of each joint ±{mu}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees",
+        size=roughly(by.size),
+        mu=roughly(by.mu),
+        amplitude=roughly(by.amplitude),
+        azimuth=by.azimuth_deg,
+    )
 
 
 def standing(response: Response[StackOutcome]) -> str:

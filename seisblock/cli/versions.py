@@ -1,0 +1,59 @@
+"""Plausible versions behind a probability: how many, and how far they differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from seisblock.cli.command import option
+from seisblock.cli.types import LENGTH, Count
+from seisblock.words import noted
+
+_VARIED = {
+    "size": (0.05, "Versions: half width of the size, a share."),
+    "inset": (0.1, "Versions: worn from sharp edges to this share of the width per side."),
+    "mu": (0.2, "Versions: half width of the friction, a share."),
+    "restitution": (0.1, "Versions: how much larger the restitution may be, 1."),
+    "amplitude": (0.1, "Versions: half width of the shaking's amplitude, a share."),
+    "azimuth": (10.0, "Versions: half width of the direction of shaking, degrees."),
+}
+"""What versions may differ in: how far, and what is said of it."""
+
+
+def version_options(*varied: str, runs: int) -> Callable[..., Any]:
+    """Return a decorator that adds --runs with its default, --moved, one option for all that versions differ in, and --seed.
+
+    Examples
+    --------
+    >>> def f(): ...
+    >>> [each.name for each in reversed(version_options("size", "azimuth", runs=0)(f).__click_params__)]
+    ['runs', 'moved', 'vary_size', 'vary_azimuth', 'seed']
+    """
+    added = [
+        option(
+            "--runs",
+            type=Count(noted("versions"), "SEISBLOCK_RUNS", least=0),
+            default=runs,
+            show_default=True,
+            help="Plausible versions behind the probability; 0 for none.",
+        ),
+        option("--moved", type=LENGTH, default=0.01, help="Displacement beyond which it counts as moved, m or with a unit. [default: 1cm]"),
+        *(
+            option(f"--vary-{name}", type=float, default=_VARIED[name][0], show_default=True, help=_VARIED[name][1])
+            for name in varied
+        ),
+        option("--seed", type=int, default=0, show_default=True, help="Seed of the versions."),
+    ]  # fmt: skip
+
+    def decorate(function: Any) -> Any:
+        """Return the command with the options."""
+        for add in reversed(added):
+            function = add(function)
+        return function
+
+    return decorate
+
+
+def widths_of(given: dict[str, Any], *varied: str) -> dict[str, float]:
+    """Return how far versions differ, taken out of what was given, by the names of their fields."""
+    return {"azimuth_deg" if name == "azimuth" else name: given.pop(f"vary_{name}") for name in varied}

@@ -1,0 +1,104 @@
+"""In what share of its plausible versions a pile falls, stone by stone, and to which side."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.errors import ParameterError
+from seisblock.readers import read
+from seisblock.records import Motion, motion_of
+from seisblock.solvers.stack.solve import solve_stack
+from seisblock.studies.intervals import clopper_pearson
+from seisblock.studies.standing.pile_probability import PileVersions, changed_motion, changed_pile, stack_probability
+
+PILE = Pile("two", (PileStone("lower", 0.5, 0.5, 0.2, mu=0.6), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.02, 0.0), on="lower")), mu=0.5)
+PULSE = Motion.from_arrays(3.3 * np.sin(np.linspace(0.0, 2 * np.pi, 101)), 0.01, name="20")
+NOTHING_VARIES = PileVersions(size=0.0, mu=0.0, amplitude=0.0, azimuth_deg=0.0)
+
+
+@pytest.fixture(scope="module")
+def found():
+    """The answer of sixteen versions, of which some fall and some do not."""
+    return stack_probability(PILE, PULSE, runs=16, seed=3, workers=1)
+
+
+@pytest.mark.parametrize("factor", [0.6, 2.0])
+def test_versions_that_do_not_differ_are_the_verdict(factor):
+    """With nothing varied every share is that of the single run, 0 or 1, and the mean fall is its fall."""
+    motion = Motion.from_arrays(factor * PULSE.horizontal, PULSE.dt, name="20")
+    outcome = solve_stack(PILE, motion).outcome
+    answer = stack_probability(PILE, motion, runs=2, versions=NOTHING_VARIES, moved_m=0.002)
+    assert answer.overturned == float(outcome.overturned_any)
+    for chance, fate in zip(answer.stones, outcome.stones, strict=True):
+        assert (chance.name, chance.overturned) == (fate.name, float(fate.state == "fallen"))
+        assert chance.moved == float(fate.state == "fallen" or fate.residual_slip_m > 0.002)
+        if fate.fell_azimuth_deg is None:
+            assert chance.fell_alike_ratio is chance.fell_azimuth_deg is chance.fell_towards_deg is None
+        else:
+            assert chance.fell_azimuth_deg == pytest.approx(fate.fell_azimuth_deg)
+            assert chance.fell_alike_ratio == pytest.approx(1.0)
+
+
+def test_the_same_seed_gives_the_same_answer_on_any_number_of_threads(found):
+    """Versions are drawn before they are handed out; another seed draws others."""
+    assert stack_probability(PILE, PULSE, runs=16, seed=3, workers=3) == found
+    assert replace(stack_probability(PILE, PULSE, runs=16, seed=4), seed=3) != found
+
+
+def test_shares_are_counts_with_their_interval(found):
+    """The share of any stone is at least that of each, and its interval Clopper and Pearson's."""
+    count = round(found.overturned * found.runs)
+    assert 0 < count < found.runs
+    assert found.interval == clopper_pearson(count, found.runs)
+    assert found.overturned >= max(stone.overturned for stone in found.stones)
+    assert found.moved >= max(stone.moved for stone in found.stones)
+    upper = found.stones[-1]
+    assert upper.interval == clopper_pearson(round(upper.overturned * found.runs), found.runs)
+    assert upper.overturned > 0.0 and 0.0 < upper.fell_alike_ratio <= 1.0
+
+
+def test_versions_stay_within_their_half_widths():
+    """All lengths change by one factor, each joint's friction by its own; the pile stands as it did."""
+    draws = np.random.default_rng(1).uniform(-1.0, 1.0, (50, 5))
+    changed = [changed_pile(PILE, PileVersions(), draw) for draw in draws]
+    sizes = np.array([[stone.size for stone in pile.stones] for pile in changed]) / [stone.size for stone in PILE.stones]
+    sizes = sizes.reshape(len(changed), -1)
+    assert np.ptp(sizes, axis=1) == pytest.approx(0.0, abs=1e-12)
+    assert np.abs(sizes - 1.0).max() <= 0.05 + 1e-12 < np.abs(sizes - 1.0).max() + 0.01
+    assert [pile.stones[1].offset[0] for pile in changed] == pytest.approx(0.02 * sizes[:, 0])
+    rough = np.array([[stone.mu for stone in pile.stones] for pile in changed]) / [0.6, 0.5]
+    assert np.abs(rough - 1.0).max() <= 0.2 + 1e-12 < np.abs(rough - 1.0).max() + 0.02
+    assert abs(np.corrcoef(rough.T)[0, 1]) < 0.5
+    assert all(len(pile.joints()) == len(PILE.joints()) for pile in changed)
+
+
+def test_shaking_is_scaled_and_turned():
+    """A version of the shaking is the record's along an azimuth next to it, times a factor; one horizontal alone is never turned."""
+    record = read("synthetic_jma.csv")
+    draw = np.array([0.0, 0.5, 0.7, 0.0, 0.0])
+    turned = changed_motion(motion_of(record, "30"), PileVersions(), draw)
+    there = motion_of(record, "37")
+    assert np.abs(turned.acceleration - 1.05 * there.acceleration).max() < 1e-9
+    assert turned.name == "30"
+    alone = changed_motion(PULSE, PileVersions(), draw)
+    assert alone.horizontal == pytest.approx(1.05 * PULSE.horizontal, rel=1e-12) and not alone.transverse.any()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [({"runs": 0}, "number of runs"), ({"runs": 2, "moved_m": 0.0}, "counts as moved must be positive"), ({"runs": 2, "seed": -1}, "seed")],
+)
+def test_what_makes_no_sense_is_refused(wrong, says):
+    """No runs, no distance, no seed."""
+    with pytest.raises(ParameterError, match=says):
+        stack_probability(PILE, PULSE, **wrong)
+
+
+@pytest.mark.parametrize("width", [("size", 1.0), ("mu", -0.1), ("amplitude", 1.0), ("azimuth_deg", 200.0)])
+def test_impossible_widths_are_refused(width):
+    """Shares lie below 1, azimuths within half a turn."""
+    with pytest.raises(ParameterError, match="spread"):
+        PileVersions(**dict([width]))
