@@ -21,11 +21,13 @@ from seisblock.dynamics.arrays import INTEGER_TABLE, MATRIX, VECTOR
 _t = types()
 
 ARM_A, ARM_B, NORMAL, W, WI, SPIN_A, SPIN_B, IMPULSE, FLOOR, MU, SWERVE, HEADING, HELD = 0, 3, 6, 9, 18, 27, 36, 45, 48, 49, 50, 53, 59
-ROW = 60
+GAP, RATE, BOUNCE, GIVEN = 60, 61, 62, 63
+ROW = 66
 """A contact's row: its arms from the centres of both bodies, its normal, out of the second; the velocity that a unit impulse gives (9)
 and the inverse (9); the spins that it gives (9, 9); the impulse on the first body; the least normal velocity; friction; how its velocity
 changes by turning in half a step (3); the impulse before a sweep, and the way that the sweeps take it (3, 3); whether the floor holds from
-both sides, along the normal alone."""
+both sides, along the normal alone; the gap, m, and how fast it opens at the step, m/s; the restitution, negative where an impact is
+plastic; and the impulse that was given before the last one was looked for (3)."""
 
 SPEED, TURNING = 0, 3
 SPEEDS = 6
@@ -196,6 +198,16 @@ def _relax(a, b, ground, inert, row, speeds):
     return (abs(q0) + abs(q1) + abs(q2)) * max(row[W], max(row[W + 4], row[W + 8]))
 
 
+@kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
+def press(n, who, table, ground, inert, part, speeds):
+    """Let a part of the impulses of `n` contacts act on the bodies."""
+    for i in range(n):
+        row = table[i]
+        p0, p1, p2 = part * row[IMPULSE], part * row[IMPULSE + 1], part * row[IMPULSE + 2]
+        if p0 != 0.0 or p1 != 0.0 or p2 != 0.0:
+            _push(who[i, 0], who[i, 1], ground, inert, row, p0, p1, p2, speeds)
+
+
 @kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
 def settle(n, who, table, ground, inert, tolerance, speeds):
     """Find the impulses of `n` contacts; return how many sweeps it took.
@@ -204,16 +216,12 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
     ----------
     who : (k, 2) array of int
         The bodies of each contact.
-    table : (k, 60) array
+    table : (k, 66) array
         Contacts, with the impulses to start from.
     tolerance : float, m/s
     speeds : (m + 1, 6) array
-        Velocities and spins without contacts; on return, with them.
+        Velocities and spins with the impulses to start from; on return, with those that were found.
     """
-    for i in range(n):
-        row = table[i]
-        if row[IMPULSE] != 0.0 or row[IMPULSE + 1] != 0.0 or row[IMPULSE + 2] != 0.0:
-            _push(who[i, 0], who[i, 1], ground, inert, row, row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2], speeds)
     before = 0.0
     for sweep in range(SWEEPS):
         worst = 0.0

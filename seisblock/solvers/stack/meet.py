@@ -8,7 +8,8 @@ from seisblock.solvers.stack.apart import EDGES, FACE, KIND, MOST_POINTS, cross,
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import CLINGS, EARLIER, ENTERED, OUTSIDE, PLACE, PUSH, REBOUND, SLIDES, SLOT
 from seisblock.solvers.stack.frames import relative
-from seisblock.solvers.stack.row import enter, far_in, note, rebound_opposite
+from seisblock.solvers.stack.impulse import BOUNCE
+from seisblock.solvers.stack.row import enter, far_in, note
 from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
 
 _t = types()
@@ -149,8 +150,9 @@ def _meet(count, pair, bodies, dt, pile, memory):
     else:
         count = _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory)
     rebound = pile.pair_constants[pair, REBOUND]
-    if rebound >= 0.0 and rel[8] > COSINE:
-        rebound_opposite(first, count, rebound, memory)
+    if rel[8] > COSINE:
+        for i in range(first, count):
+            memory.table[i, BOUNCE] = rebound
     return count
 
 

@@ -13,14 +13,12 @@ from seisblock.dynamics.arrays import MATRIX
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, IMPULSE, NORMAL, PRECISION, parting, settle
+from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GIVEN, IMPULSE, NORMAL, PRECISION, parting, press, settle
 from seisblock.solvers.stack.meet import JOINTS, find
-from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, KICKED, SOONEST, SWEPT, WHOLE
+from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, KICKED, SWEPT, WHOLE
+from seisblock.solvers.stack.strike import at_impact, lay_floors, soonest, strikes, until_impact
 
 _t = types()
-
-BRIEF = 0.01
-"""Part of a step that is left to pass over an impact."""
 
 FORESIGHT = 0.9
 """Of a whole step: what points that share a load do against each other then fades."""
@@ -47,9 +45,10 @@ def _prepare(n, bodies, inert, memory):
             v[3 + p] = j[3 * p] * b[L] + j[3 * p + 1] * b[L + 1] + j[3 * p + 2] * b[L + 2]
 
 
-@kernel(_t.void(_t.int64, MATRIX, _t.float64, MEMORY))
-def _leave(count, bodies, dt, memory):
-    """Add the impulses to the bodies as forces over the step, and remember them where the next step finds them."""
+@kernel(_t.void(_t.int64, MATRIX, _t.boolean, _t.float64, MEMORY))
+def _leave(count, bodies, struck, pressed, memory):
+    """Add the impulses to the bodies as forces over the step, and remember where the next step finds them what pressed for a time."""
+    dt = memory.pace[KICKED]
     for i in range(count):
         a, b, row = memory.who[i, 0], memory.who[i, 1], memory.table[i]
         kind, j, k, m = memory.who[i, 2], memory.who[i, 3], memory.who[i, 4], memory.who[i, 5]
@@ -57,7 +56,9 @@ def _leave(count, bodies, dt, memory):
         p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
         for i in range(3):
             slot[EARLIER + i] = slot[PUSH + i]
-            slot[PUSH + i] = row[IMPULSE + i] / dt
+            slot[PUSH + i] = row[IMPULSE + i] / pressed
+        if struck:
+            p0, p1, p2 = p0 + row[GIVEN], p1 + row[GIVEN + 1], p2 + row[GIVEN + 2]
         if p0 == 0.0 and p1 == 0.0 and p2 == 0.0:
             continue
         u0, u1, u2 = parting(a, b, row, memory.speeds)
@@ -83,22 +84,37 @@ def _leave(count, bodies, dt, memory):
         second[T + 2] -= r * p1 - s * p0
 
 
-@kernel(_t.float64(_t.float64, _t.float64, _t.float64), inline=True)
-def _before_impact(soonest, before, brief):
-    """Return the length of the next step: up to an impact, a brief one before it, or a brief one that passes over it.
+@kernel(_t.void(_t.int64, _t.int64, _t.float64, _t.float64, _t.float64, _t.float64, LAYOUT, MEMORY), inline=True)
+def _go_on(count, n, time, a0, a1, a2, pile, memory):
+    """Let the velocities go on for a time in axes that accelerate, under the forces that stand in the rows."""
+    for i in range(n):
+        memory.speeds[i, 0] -= time * a0
+        memory.speeds[i, 1] -= time * a1
+        memory.speeds[i, 2] -= time * a2
+    press(count, memory.who, memory.table, n, pile.inert, time, memory.speeds)
 
-    A velocity is changed by the forces of half the step before and half the step after: both steps at an impact must be brief.
-    """
-    if soonest > 3.0 * brief:
-        return soonest - 2.0 * brief
-    return 0.5 * soonest if before > 2.0 * brief else 2.0 * brief
+
+@kernel(_t.void(_t.int64, _t.int64, _t.float64, LAYOUT, MEMORY))
+def _strike(count, n, before, pile, memory):
+    """Let points strike: what the forces gave until then and what the impact gives becomes the impulse given."""
+    table, tolerance = memory.table, PRECISION * memory.pace[FALL]
+    until_impact(count, before, memory)
+    settle(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+    at_impact(count, memory)
+    settle(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+    for i in range(count):
+        force = 1.0 / before if before > 0.0 else 0.0
+        for k in range(3):
+            given, hit = table[i, GIVEN + k], table[i, IMPULSE + k]
+            table[i, GIVEN + k] = given + hit
+            table[i, IMPULSE + k] = given * force
 
 
 @kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY))
 def hold(bodies, a0, a1, a2, whole, left, look, pile, memory):
     """Add the forces that rigid contacts exert over a step, in axes that accelerate by (a0, a1, a2), gravity among it; return its length.
 
-    The step ends just before an impact, and brief ones pass over it: what presses before and what presses after share no step.
+    The step ends where a point strikes. The next one then begins with the impact.
 
     Parameters
     ----------
@@ -107,28 +123,30 @@ def hold(bodies, a0, a1, a2, whole, left, look, pile, memory):
     look : bool
         Whether to find anew which boxes are near each other, with a margin for what they may move until the next time.
     """
-    n = bodies.shape[0] - 1
-    pace = memory.pace
+    n, pace, table = bodies.shape[0] - 1, memory.pace, memory.table
+    before = 0.5 * pace[BEFORE]
     pace[WHOLE] = whole
     pace[FALL] = whole * (a0 * a0 + a1 * a1 + a2 * a2) ** 0.5
-    step = left
-    pace[AHEAD] = FORESIGHT if pace[KICKED] == whole and 0.5 * (pace[BEFORE] + left) == whole else 0.0
+    pace[AHEAD] = FORESIGHT if pace[KICKED] == whole and before + 0.5 * left == whole else 0.0
     _prepare(n, bodies, pile.inert, memory)
-    for attempt in range(2):
-        pace[SOONEST] = 2.0 * left
-        count = find(bodies, step, look and attempt == 0, pile, memory)
-        if attempt == 1 or pace[SOONEST] >= left or pace[SOONEST] < 0.1 * BRIEF * whole:
-            break
-        step = min(left, _before_impact(pace[SOONEST], pace[BEFORE], BRIEF * whole))
-    kicked = 0.5 * (pace[BEFORE] + step)
-    pace[KICKED] = kicked
+    count = find(bodies, left, look, pile, memory)
+    _go_on(count, n, before, a0, a1, a2, pile, memory)
+    struck = strikes(count, memory)
+    if struck:
+        _strike(count, n, before, pile, memory)
+        strikes(count, memory)
+    _go_on(count, n, 0.5 * left, a0, a1, a2, pile, memory)
+    step = soonest(count, 0.5 * left, left, memory)
+    if step < left:
+        _go_on(count, n, 0.5 * (step - left), a0, a1, a2, pile, memory)
+    pace[KICKED] = before + 0.5 * step
+    pressed = 0.5 * step if struck else pace[KICKED]
     for i in range(count):
         for j in range(IMPULSE, IMPULSE + 3):
-            memory.table[i, j] *= kicked
-    for i in range(n):
-        memory.speeds[i, 0] -= kicked * a0
-        memory.speeds[i, 1] -= kicked * a1
-        memory.speeds[i, 2] -= kicked * a2
-    pace[SWEPT] = settle(count, memory.who, memory.table, n, pile.inert, PRECISION * pace[FALL], memory.speeds)
-    _leave(count, bodies, kicked, memory)
+            table[i, j] *= pressed
+    lay_floors(count, step, memory)
+    pace[SWEPT] = settle(count, memory.who, table, n, pile.inert, PRECISION * pace[FALL], memory.speeds)
+    _leave(count, bodies, struck, pressed, memory)
+    if struck:
+        pace[KICKED] = 0.0
     return step

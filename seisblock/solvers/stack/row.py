@@ -12,13 +12,12 @@ from seisblock.solvers.stack.contact import (
     KINETIC,
     PLACE,
     PUSH,
-    REBOUND,
     REL_V,
     REL_W,
     SLIDES,
 )
 from seisblock.solvers.stack.frames import AT, R, X
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, FLOOR, HELD, IMPULSE, MU, NORMAL, SWERVE, answers, parting
+from seisblock.solvers.stack.impulse import ARM_A, ARM_B, BOUNCE, GAP, IMPULSE, MU, NORMAL, answers
 
 _t = types()
 
@@ -26,27 +25,10 @@ SWIFT, SLOW = 2.0, 0.5
 """A point is left out while its gap is wider than what so many times the greatest speed of its stone, and this speed, m/s, more, close in a
 step: what a stone strikes may turn it the other way round."""
 
-MENDED, GENTLY = 0.2, 0.05
-"""Part of a gap closed too far that a step makes good, and the speed, m/s, that it may take for it."""
-
-SPLITS = 2.0
-"""Approach, over the speed of a free fall of a step, from which an impact splits the step."""
-
-BEFORE, SOONEST, FALL, WHOLE, KICKED, AHEAD, SWEPT = range(7)
-PACE = 7
-"""The length of the last step, s; the time to the soonest impact, s; the speed of a free fall of a whole step, m/s, and its length, s;
-the time over which velocities last changed, s; how far ahead of the last forces the next are looked for; how many sweeps that took."""
-
-
-@kernel(_t.void(VECTOR, VECTOR, _t.float64, VECTOR), inline=True)
-def _swerve(speeds, arm, half, swerve):
-    """Add how a body's point at `arm` changes its velocity by the body's turning in a time: w x (w x r)."""
-    x, y, z = speeds[3], speeds[4], speeds[5]
-    along = x * arm[0] + y * arm[1] + z * arm[2]
-    square = x * x + y * y + z * z
-    swerve[0] += half * (x * along - square * arm[0])
-    swerve[1] += half * (y * along - square * arm[1])
-    swerve[2] += half * (z * along - square * arm[2])
+BEFORE, FALL, WHOLE, KICKED, AHEAD, SWEPT = range(6)
+PACE = 6
+"""The length of the last step, s; the speed of a free fall of a whole step, m/s, and its length, s; the time over which velocities last
+changed, s; how far ahead of the last forces the next are looked for; how many sweeps that took."""
 
 
 @kernel(_t.int64(_t.int64, _t.int64, _t.int64, VECTOR, _t.float64, _t.float64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
@@ -62,26 +44,14 @@ def enter(count, c, p, slot, gap, far, k, bodies, dt, pile, memory):
         row[ARM_B + i] = second[r] * y0 + second[r + 1] * y1 + second[r + 2] * y2
         row[ARM_A + i] = row[ARM_B + i] + second[X + i] - first[X + i]
         row[NORMAL + i] = second[r] * slot[PLACE + 3] + second[r + 1] * slot[PLACE + 4] + second[r + 2] * slot[PLACE + 5]
-    u0, u1, u2 = parting(a, b, row, memory.speeds)
-    approach = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
-    if gap > 0.0 and approach < -SPLITS * memory.pace[FALL]:
-        memory.pace[SOONEST] = min(memory.pace[SOONEST], -gap / approach)
-    if gap > 0.0 and k[REBOUND] >= 0.0 and approach < -SPLITS * memory.pace[FALL]:
-        # what is to rebound strikes at once, not a part of it while its gap closes
-        return count
-    row[HELD] = 0.0
+    row[GAP] = gap
+    row[BOUNCE] = -1.0
     if slot[ENTERED] == 0.0:
         for i in range(3):
             slot[PUSH + i] = 0.0
             slot[EARLIER + i] = 0.0
         slot[SLIDES] = 0.0
     answers(a, b, ground, pile.inert, memory.inverses, row)
-    row[SWERVE] = 0.0
-    row[SWERVE + 1] = 0.0
-    row[SWERVE + 2] = 0.0
-    _swerve(memory.speeds[a], row[ARM_A:], 0.5 * dt, row[SWERVE:])
-    _swerve(memory.speeds[b], row[ARM_B:], -0.5 * dt, row[SWERVE:])
-    row[FLOOR] = -gap / dt if gap > 0.0 else min(-MENDED * gap / memory.pace[WHOLE], GENTLY)
     row[MU] = k[KINETIC] if slot[SLIDES] > 0.0 else k[FRICTION]
     for i in range(3):
         row[IMPULSE + i] = slot[PUSH + i] + memory.pace[AHEAD] * (slot[PUSH + i] - slot[EARLIER + i])
@@ -101,33 +71,6 @@ def note(before, now, kind, i, j, k, slot, who):
         who[before, 4] = j
         who[before, 5] = k
     return now
-
-
-@kernel(_t.int64(_t.int64, _t.int64, _t.int64, MEMORY), inline=True)
-def _opposite(i, first, last, memory):
-    """Return the row of the point that is farthest from one."""
-    found, most = i, 0.0
-    x, y, z = memory.table[i, ARM_B], memory.table[i, ARM_B + 1], memory.table[i, ARM_B + 2]
-    for j in range(first, last):
-        row = memory.table[j]
-        away = (row[ARM_B] - x) ** 2 + (row[ARM_B + 1] - y) ** 2 + (row[ARM_B + 2] - z) ** 2
-        if away > most:
-            found, most = j, away
-    return found
-
-
-@kernel(_t.void(_t.int64, _t.int64, _t.float64, MEMORY))
-def rebound_opposite(first, last, ratio, memory):
-    """Let the points of a joint that stand opposite those that strike leave with a part of their velocity."""
-    for i in range(first, last):
-        row, who = memory.table[i], memory.who[i]
-        u0, u1, u2 = parting(who[0], who[1], row, memory.speeds)
-        approach = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
-        if approach > -SPLITS * memory.pace[FALL]:
-            continue
-        j = _opposite(i, first, last, memory)
-        memory.table[j, FLOOR] = -ratio * approach
-        memory.table[j, HELD] = 1.0
 
 
 @kernel(_t.float64(VECTOR, VECTOR, _t.float64), inline=True)
