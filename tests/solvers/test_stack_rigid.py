@@ -53,46 +53,41 @@ def after_one_impact(response, alpha, start):
     return math.sqrt((math.cos(alpha - beyond) - math.cos(alpha)) / (math.cos(alpha - start) - math.cos(alpha)))
 
 
-@pytest.mark.parametrize("ratio", [3.0, 6.0])
-def test_free_rocking_is_housners(ratio):
-    """Six impacts at the default step: times within 0.5 %, amplitudes within 2 % of the closed form."""
+@pytest.mark.parametrize(("start", "step"), [(0.6, None), (0.1, None), (0.6, 5e-3), (0.1, 5e-4)])
+@pytest.mark.parametrize("ratio", [3.0, 4.0, 6.0])
+def test_free_rocking_is_housners(ratio, start, step):
+    """Six impacts, of large and of small rocking, at any step: times within 0.5 %, amplitudes within 0.2 % of the closed form.
+
+    A step that passes over an impact leaves the weight on the edge that strikes: -54 % after six impacts of the small rocking.
+    """
     alpha = math.atan(1.0 / ratio)
-    times, amplitudes = housner(ratio, WIDTH, 0.6, 6)
-    response = solve_stack(block(ratio, mu=5.0), still(times[-1] + 0.2), tilts={"block": 0.6 * alpha})
-    lean = lean_of(response) / alpha
+    times, amplitudes = housner(ratio, WIDTH, start, 6)
+    response = solve_stack(block(ratio, mu=5.0), still(times[-1] + 0.2, 0.005), tilts={"block": start * alpha}, step=step)
+    lean, time = lean_of(response) / alpha, response.time
     crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:6]
     part = lean[crossings] / (lean[crossings] - lean[crossings + 1])
-    np.testing.assert_allclose(response.time[crossings] + part * np.diff(response.time)[crossings], times, rtol=5e-3)
-    peaks = [np.abs(lean[a + 1 : b + 1]).max() for a, b in pairwise(crossings)]
-    np.testing.assert_allclose(peaks, amplitudes[1:], rtol=2e-2)
-
-
-def test_the_error_of_rocking_falls_with_the_step():
-    """A quarter of the step leaves less than half of the error of the sixth amplitude."""
-    alpha = math.atan(0.25)
-    times, amplitudes = housner(4.0, WIDTH, 0.6, 4)
-    errors = []
-    for step in (2e-3, 5e-4):
-        lean = lean_of(solve_stack(block(4.0, mu=5.0), still(times[-1] + 0.2), tilts={"block": 0.6 * alpha}, step=step)) / alpha
-        crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:4]
-        errors.append(abs(np.abs(lean[crossings[2] : crossings[3]]).max() / amplitudes[3] - 1.0))
-    assert errors[1] < 0.5 * errors[0] < 0.01
+    np.testing.assert_allclose(time[crossings] + part * np.diff(time)[crossings], times, rtol=5e-3)
+    for (a, b), amplitude in zip(pairwise(crossings), amplitudes[1:], strict=False):
+        top = a + 1 + int(np.argmax(np.abs(lean[a + 1 : b + 1])))
+        near = slice(top - 2, top + 3)
+        curve = np.polynomial.Polynomial.fit(time[near], lean[near], 2)
+        assert abs(curve(curve.deriv().roots()[0])) == pytest.approx(amplitude, rel=2e-3)
 
 
 @pytest.mark.parametrize("hertz", [1.0, 2.0])
 def test_a_stone_on_its_edges_topples_where_respond_topples(hertz):
-    """Threshold amplitudes under one cycle of a sine agree within 1 %: just below both stand, just above both fall."""
+    """Threshold amplitudes under one cycle of a sine agree within 0.3 %: just below both stand, just above both fall."""
     plane, pile = Block(WIDTH, 3.0 * WIDTH), block(mu=1.0)
 
     def falls(pga):
         return bool(solve_respond(plane, cycle(pga, hertz), mu=1.0).outcome.overturned)
 
     low, high = 3.0, 6.0
-    while high - low > 1e-3 * low:
+    while high - low > 5e-4 * low:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if falls(middle) else (middle, high)
-    assert not solve_stack(pile, cycle(0.99 * high, hertz), stop_at_fall=True).outcome.overturned_any
-    assert solve_stack(pile, cycle(1.01 * high, hertz), stop_at_fall=True).outcome.overturned_any
+    assert not solve_stack(pile, cycle(0.997 * high, hertz), stop_at_fall=True).outcome.overturned_any
+    assert solve_stack(pile, cycle(1.003 * high, hertz), stop_at_fall=True).outcome.overturned_any
 
 
 @pytest.mark.parametrize("given", [None, 0.7, 0.95])
@@ -198,7 +193,7 @@ def test_options_that_do_not_go_together_are_refused(more, said):
 def test_stones_that_are_shaken_down_create_no_energy(seed):
     """Piles that made up to 600 times their own energy while corners and edges pushed stones out of each other one by one."""
     outcome = solve_stack(*shaken(seed), law="rigid").outcome
-    assert outcome.overturned_any
+    assert max(outcome.max_tilt_rad.values()) > 0.1
     assert outcome.created_j < 5e-4 * outcome.lost_j
     assert outcome.momentum_error < 1e-12
 

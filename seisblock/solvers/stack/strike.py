@@ -3,7 +3,7 @@
 Velocities are changed by the forces of half the step before and half the step after. A step ends where a point strikes; there the forces
 of before act for their half step, then the impact, without time, then what presses from then on. What presses before and what presses
 after share no impulse: a block that rocks would else carry its weight on the edge that strikes for up to a whole step too long, and
-lose p^2 alpha dt of its turning at each impact.
+lose p^2 alpha dt of its turning at each impact (derived here).
 """
 
 from __future__ import annotations
@@ -111,7 +111,7 @@ def at_impact(count, memory):
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64), inline=True)
 def _closing(gap, rate, gain):
-    """Return when a gap will have closed, s: the first root of gap + rate t + gain t^2 / 2."""
+    """Return when a gap that opens at a rate, which grows by a gain, will have closed, s."""
     inside = rate * rate - 2.0 * gain * gap
     if inside < 0.0:
         return math.inf
