@@ -70,7 +70,7 @@ def criteria(
         for name in components(record, source):
             motion = motion_of(record, name)
             need_vertical(motion, vertical)
-            cards.append(criteria_card(record, name, chosen.along(motion), gravity=gravity, mu=mu, mu_kinetic=mu_kinetic, **options))
+            cards.append(criteria_card(record, motion, chosen.along(motion), gravity=gravity, mu=mu, mu_kinetic=mu_kinetic, **options))
     emit(
         document(cards, options, gravity=gravity),
         output,

@@ -21,8 +21,6 @@ class GroundHistory:
     ----------
     acceleration : (n,) array, m/s^2
         After the high-pass.
-    velocity : (n,) array, m/s
-        Its exact integral, less its mean over the record.
     dt : float, s
         Sampling interval.
     initial_velocity : float, m/s
@@ -30,9 +28,15 @@ class GroundHistory:
     """
 
     acceleration: FloatArray
-    velocity: FloatArray
     dt: float
     initial_velocity: float
+
+    @cached_property
+    def velocity(self) -> FloatArray:
+        """Its exact integral, less its mean over the record, (n,), m/s."""
+        velocity = integrate(self.acceleration, self.dt)
+        velocity += self.initial_velocity
+        return velocity
 
     @cached_property
     def displacement(self) -> FloatArray:
@@ -72,11 +76,9 @@ def ground_history(acceleration: FloatArray, dt: float, *, highpass_hz: float | 
 
 def ground_history_of(acceleration: FloatArray, dt: float) -> GroundHistory:
     """Return the history of samples that need no filter: :func:`ground_history` without its first step ([Furukawa2009]_ section 3(5)e)."""
-    velocity = integrate(acceleration, dt)
     # the trapezoidal mean of a quadratic velocity, plus its correction: the displacement then ends at zero exactly
     end = 0.0
     for _, piece in displacements(acceleration, dt):
         end = float(piece[-1])
     drift = end / ((acceleration.size - 1) * dt)
-    velocity -= drift
-    return GroundHistory(acceleration, velocity, dt, -drift)
+    return GroundHistory(acceleration, dt, -drift)

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.errors import ParameterError
+from seisblock.limits import AT_A_TIME
+from seisblock.measures.peaks import peak_acceleration
 from seisblock.measures.spectra import SMOOTHING_HZ, fourier_amplitude
 from seisblock.typing import FloatArray
 
@@ -143,17 +145,20 @@ def peak_pulse(acceleration: FloatArray, dt: float) -> Pulse | None:
     Pulse or None
         None for a record that is zero throughout.
     """
-    top = int(np.abs(acceleration).argmax())
-    if acceleration[top] == 0.0:
+    peak, top = peak_acceleration(acceleration)
+    if peak == 0.0:
         return None
-    upright = acceleration * np.sign(acceleration[top])
-    before = np.flatnonzero(upright[:top] <= 0)
-    after = np.flatnonzero(upright[top:] <= 0)
-    start, end = 0.0, float(acceleration.size - 1)
-    if before.size:
-        i = int(before[-1])
-        start = i + float(upright[i] / (upright[i] - upright[i + 1]))
-    if after.size:
-        i = top + int(after[0])
-        end = i - float(upright[i] / (upright[i] - upright[i - 1]))
-    return Pulse(1.0 / (2.0 * dt * (end - start)), dt * start, dt * end, not (before.size and after.size))
+    before, after = _until_zero(acceleration[top::-1]), _until_zero(acceleration[top:])
+    start = 0.0 if before is None else top - before
+    end = float(acceleration.size - 1) if after is None else top + after
+    return Pulse(1.0 / (2.0 * dt * (end - start)), dt * start, dt * end, before is None or after is None)
+
+
+def _until_zero(row: FloatArray) -> float | None:
+    """Return where a row that begins with its peak first comes to zero, in samples and on straight lines between; None: nowhere."""
+    for begin in range(0, row.size, AT_A_TIME):
+        reached = np.flatnonzero(row[begin : begin + AT_A_TIME] * np.sign(row[0]) <= 0)
+        if reached.size:
+            i = begin + int(reached[0])
+            return i - float(row[i] / (row[i] - row[i - 1]))
+    return None

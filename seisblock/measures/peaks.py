@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock.errors import ComponentError
-from seisblock.limits import AT_A_TIME
 from seisblock.measures.baseline import GroundHistory
-from seisblock.records.integrals import displacements
+from seisblock.records.integrals import displacements, velocities
 from seisblock.records.process import towards
 from seisblock.records.record import Record
 from seisblock.typing import FloatArray
@@ -50,7 +49,9 @@ def peak_acceleration(acceleration: FloatArray) -> tuple[float, int]:
     index : int
         First sample that has it.
     """
-    index = int(np.abs(acceleration).argmax())
+    highest, lowest = int(acceleration.argmax()), int(acceleration.argmin())
+    above, below = float(acceleration[highest]), -float(acceleration[lowest])
+    index = min(highest, lowest) if above == below else highest if above > below else lowest
     return abs(float(acceleration[index])), index
 
 
@@ -70,14 +71,13 @@ def peak_velocity(history: GroundHistory, dt: float) -> float:
     -------
     float, m/s
     """
-    acceleration, velocity = history.acceleration, history.velocity
-    largest = max(float(velocity.max()), -float(velocity.min()))
-    for begin in range(0, velocity.size - 1, AT_A_TIME):
-        a, v = (row[begin : begin + AT_A_TIME + 1] for row in (acceleration, velocity))
+    largest = 0.0
+    for begin, v in velocities(history.acceleration, dt, history.initial_velocity):
+        a = history.acceleration[begin : begin + v.size]
         crossing = np.flatnonzero(a[:-1] * a[1:] < 0)
         until_zero = dt * a[crossing] / (a[crossing] - a[crossing + 1])
         between = v[crossing] + 0.5 * a[crossing] * until_zero
-        largest = max(largest, float(np.abs(between).max(initial=0.0)))
+        largest = max(largest, float(np.abs(v).max()), float(np.abs(between).max(initial=0.0)))
     return largest
 
 

@@ -38,8 +38,8 @@ _ROUND_OFF = 1e-10
 
 
 @dataclass(frozen=True)
-class ComponentMeasures:
-    """The measures of one component; the fields are the keys of one result in the document of ``measure``.
+class ComponentPeaks:
+    """What criteria ask of one component: its peaks, and the frequencies that it is taken for.
 
     Parameters
     ----------
@@ -53,6 +53,23 @@ class ComponentMeasures:
         Three definitions.
     pulse_width_ambiguous : bool
         The record begins or ends inside the pulse that holds the PGA.
+    """
+
+    component: str
+    pga_m_s2: float
+    time_of_pga_s: float
+    pgv_m_s: float
+    pgd_m: float
+    equivalent_frequency_hz: EquivalentFrequency
+    pulse_width_ambiguous: bool
+
+
+@dataclass(frozen=True)
+class ComponentMeasures(ComponentPeaks):
+    """The measures of one component, its peaks first; the fields are the keys of one result in the document of ``measure``.
+
+    Parameters
+    ----------
     duration : Duration
         Above the threshold.
     arias_m_s, significant_duration_s : float, m/s and s
@@ -63,13 +80,6 @@ class ComponentMeasures:
         How far PGV and PGA/(2 pi PGV) move with the usual filters; None when by no more than 5 %.
     """
 
-    component: str
-    pga_m_s2: float
-    time_of_pga_s: float
-    pgv_m_s: float
-    pgd_m: float
-    equivalent_frequency_hz: EquivalentFrequency
-    pulse_width_ambiguous: bool
     duration: Duration
     arias_m_s: float
     significant_duration_s: float
@@ -204,17 +214,48 @@ def _measure_component(
 ) -> ComponentMeasures:
     """Return the measures of one component."""
     a, dt = component.acceleration, record.dt
+    peaks = component_peaks(component, dt, rules, record.offset_s)
+    return ComponentMeasures(
+        **vars(peaks),
+        duration=duration_above(a, dt, threshold, side=rules.threshold_side),
+        arias_m_s=arias_intensity(a, dt, gravity=rules.gravity_m_s2),
+        significant_duration_s=significant_duration(a, dt),
+        jma_intensity=intensity,
+        usual_highpass=filter_range(a, dt, peaks.pga_m_s2, peaks.pgv_m_s),
+    )
+
+
+def component_peaks(component: Component, dt: float, rules: Conventions, start_s: float = 0.0) -> ComponentPeaks:
+    """Return the peaks of one component and its equivalent frequencies ([Furukawa2009]_ section 3(5)e).
+
+    Parameters
+    ----------
+    component : Component
+    dt : float, s
+        Sampling interval.
+    rules : Conventions
+    start_s : float, s
+        Time of the first sample.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> record = read("synthetic_jma.csv")
+    >>> round(component_peaks(record.component("EW"), record.dt, Conventions()).equivalent_frequency_hz.pga_pgv, 2)
+    0.65
+    """
+    a = component.acceleration
     pga, index = peak_acceleration(a)
     history = ground_history(a, dt, highpass_hz=rules.velocity_highpass_hz)
     pgv = peak_velocity(history, dt)
-    pgv = pgv if pgv > _ROUND_OFF * pga * record.duration_s else 0.0
+    pgv = pgv if pgv > _ROUND_OFF * pga * (a.size - 1) * dt else 0.0
     pgd = peak_displacement(history)
     del history
     pulse = peak_pulse(a, dt)
-    return ComponentMeasures(
+    return ComponentPeaks(
         component=component.code,
         pga_m_s2=pga,
-        time_of_pga_s=record.offset_s + index * dt,
+        time_of_pga_s=start_s + index * dt,
         pgv_m_s=pgv,
         pgd_m=pgd,
         equivalent_frequency_hz=EquivalentFrequency(
@@ -223,11 +264,6 @@ def _measure_component(
             pulse_width=None if pulse is None else pulse.frequency_hz,
         ),
         pulse_width_ambiguous=pulse is not None and pulse.ambiguous,
-        duration=duration_above(a, dt, threshold, side=rules.threshold_side),
-        arias_m_s=arias_intensity(a, dt, gravity=rules.gravity_m_s2),
-        significant_duration_s=significant_duration(a, dt),
-        jma_intensity=intensity,
-        usual_highpass=filter_range(a, dt, pga, pgv),
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seisblock.errors import ParameterError
+from seisblock.limits import AT_A_TIME
 from seisblock.records.butterworth import SECTIONS, highpass_sections, run_sections
 from seisblock.typing import FloatArray
 
@@ -48,7 +49,7 @@ def highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> FloatArr
         If the corner lies outside that range, or is so low that the padding would exceed ``MOST_PADDING`` samples.
     """
     sections, pad = _design(dt, hz)
-    row = _extended(_levelled(acceleration, dt, hz), pad, pad)
+    row = _padded(acceleration, dt, hz, pad, pad)
     for backwards in (False, True):
         run_sections(sections, row, settled=True, backwards=backwards)
     return row[pad : pad + acceleration.size]
@@ -75,7 +76,7 @@ def causal_highpass_samples(acceleration: FloatArray, dt: float, hz: float) -> F
         As :func:`highpass_samples`.
     """
     sections, pad = _design(dt, hz)
-    row = _extended(_levelled(acceleration, dt, hz), pad, 0)
+    row = _padded(acceleration, dt, hz, pad, 0)
     run_sections(sections, row, settled=False)
     return row[pad:]
 
@@ -99,23 +100,38 @@ def end_line(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
     -------
     (n,) array, m/s^2
     """
+    level, slope = _level_and_slope(acceleration, dt, hz)
+    line: FloatArray = slope * _places(acceleration.size, 0, acceleration.size) + level
+    return line
+
+
+def _level_and_slope(acceleration: FloatArray, dt: float, hz: float) -> tuple[float, float]:
+    """Return the baseline in the middle of the samples, and how much higher it is at their end."""
     n = acceleration.size
     length = int(min(n, max(2.0, np.rint(BASELINE_PERIODS / (hz * dt)))))
     taper = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
-    place = np.linspace(-1.0, 1.0, n)
     # the weights are symmetric: about the middle, level and slope are independent
-    ends = ((place[:length], acceleration[:length]), (place[-length:], acceleration[-length:]))
+    ends = ((_places(n, 0, length), acceleration[:length]), (_places(n, n - length, n), acceleration[-length:]))
     level = sum(taper @ a for _, a in ends) / (2.0 * taper.sum())
     slope = sum((taper * x) @ a for x, a in ends) / sum(taper @ x**2 for x, _ in ends)
-    place *= slope
-    place += level
-    return place
+    return float(level), float(slope)
 
 
-def _levelled(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
-    """Return samples less their baseline."""
-    line = end_line(acceleration, dt, hz)
-    return np.subtract(acceleration, line, out=line)
+def _places(samples: int, begin: int, end: int) -> FloatArray:
+    """Return where some of the samples lie between the first of all, -1, and the last, 1."""
+    return np.arange(begin, end) * (2.0 / max(samples - 1, 1)) - 1.0
+
+
+def _padded(acceleration: FloatArray, dt: float, hz: float, before: int, after: int) -> FloatArray:
+    """Return samples less their baseline with their mirror images, made in the memory of what is returned."""
+    n = acceleration.size
+    level, slope = _level_and_slope(acceleration, dt, hz)
+    row = np.empty(before + n + after)
+    for begin in range(0, n, AT_A_TIME):
+        end = min(begin + AT_A_TIME, n)
+        row[before + begin : before + end] = acceleration[begin:end] - (slope * _places(n, begin, end) + level)
+    _mirror(row, before, n)
+    return row
 
 
 def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
@@ -139,14 +155,12 @@ def _design(dt: float, hz: float) -> tuple[FloatArray, int]:
     return highpass_sections(dt, hz), int(pad)
 
 
-def _extended(samples: FloatArray, before: int, after: int) -> FloatArray:
-    """Return samples with their mirror image, sign reversed, at either end, mirrored as often as needed."""
-    n = samples.size
-    if max(before, after) <= n:
-        return np.concatenate((-samples[:before][::-1], samples, -samples[n - after :][::-1]))
-    # position in a period of twice the record, of which the second half runs backwards with the sign reversed
-    place = np.arange(-before, n + after) % (2 * n)
-    mirrored = place >= n
-    extended = samples[np.where(mirrored, 2 * n - 1 - place, place)]
-    extended[mirrored] *= -1.0
-    return extended
+def _mirror(row: FloatArray, before: int, samples: int) -> None:
+    """Fill a row, at either end of the samples in it, with their mirror image, sign reversed, mirrored as often as needed."""
+    held = row[before : before + samples]
+    for end, place in ((row[:before], np.arange(-before, 0)), (row[before + samples :], np.arange(samples, row.size - before))):
+        # position in a period of twice the record, of which the second half runs backwards with the sign reversed
+        place %= 2 * samples
+        mirrored = place >= samples
+        end[:] = held[np.where(mirrored, 2 * samples - 1 - place, place)]
+        end[mirrored] *= -1.0

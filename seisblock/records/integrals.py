@@ -26,9 +26,27 @@ def integrate(acceleration: FloatArray, dt: float) -> FloatArray:
         Zero at the first sample; the trapezoidal sum.
     """
     velocity = np.zeros(acceleration.size)
-    for begin, end in _blocks(acceleration.size):
-        velocity[begin : end + 1] = _velocity(acceleration[begin : end + 1], dt, velocity[begin])
+    for begin, piece in velocities(acceleration, dt):
+        velocity[begin : begin + piece.size] = piece
     return velocity
+
+
+def velocities(acceleration: FloatArray, dt: float, initial_velocity: float = 0.0) -> Iterator[tuple[int, FloatArray]]:
+    """Yield :func:`integrate` piece by piece, two of which share a sample: the sample at which a piece begins, and the piece.
+
+    Parameters
+    ----------
+    acceleration, dt
+        As in :func:`integrate`.
+    initial_velocity : float, m/s
+        Added to each of them.
+    """
+    reached = 0.0
+    for begin, end in _blocks(acceleration.size):
+        from_rest = _velocity(acceleration[begin : end + 1], dt, reached)
+        reached = float(from_rest[-1])
+        from_rest += initial_velocity
+        yield begin, from_rest
 
 
 def integrate_twice(acceleration: FloatArray, dt: float, initial_velocity: float = 0.0) -> FloatArray:
@@ -62,12 +80,10 @@ def displacements(acceleration: FloatArray, dt: float, initial_velocity: float =
     acceleration, dt, initial_velocity
         As in :func:`integrate_twice`.
     """
-    velocity, reached = 0.0, 0.0
-    for begin, end in _blocks(acceleration.size):
-        a = acceleration[begin : end + 1]
-        from_rest = _velocity(a, dt, velocity)
-        velocity = float(from_rest[-1])
-        steps = dt * (initial_velocity + from_rest[:-1]) + dt**2 / 6.0 * (2.0 * a[:-1] + a[1:])
+    reached = 0.0
+    for begin, velocity in velocities(acceleration, dt, initial_velocity):
+        a = acceleration[begin : begin + velocity.size]
+        steps = dt * velocity[:-1] + dt**2 / 6.0 * (2.0 * a[:-1] + a[1:])
         steps[0] += reached
         np.cumsum(steps, out=steps)
         reached = float(steps[-1])

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
@@ -28,8 +27,8 @@ STRETCH = 2**18
 """Samples of a long motion that are looked at at a time."""
 
 
-Rows: TypeAlias = FloatArray | tuple[FloatArray, FloatArray | Callable[[], FloatArray], FloatArray]
-"""Along, across and up, in one array or each in its own."""
+Rows: TypeAlias = FloatArray | tuple[FloatArray, FloatArray | Callable[[slice], FloatArray], FloatArray]
+"""Along, across and up, in one array or each in its own; the one across may be what makes a part of it."""
 
 
 class Stretch(NamedTuple):
@@ -48,7 +47,7 @@ class Motion(Drawn):
     ----------
     rows : (3, n) array or three (n,) arrays, m/s^2
         Along +x, across (+y, 90 degrees counter-clockwise of x seen from above), up (+z). Kept read-only; arrays of their own are not
-        copied, and the one across may be a function that makes it when it is first asked for.
+        copied, and the one across may be a function that makes a part of it, a slice, each time that is asked for.
     dt : float, s
         Sampling interval.
     name : str
@@ -99,11 +98,10 @@ class Motion(Drawn):
         along: FloatArray = self.rows[ALONG]
         return along
 
-    @cached_property
+    @property
     def transverse(self) -> FloatArray:
-        """Ground acceleration across +x, (n,), m/s^2."""
-        across: FloatArray | Callable[[], FloatArray] = self.rows[ACROSS]
-        return across() if callable(across) else across
+        """Ground acceleration across +x, (n,), m/s^2; a long motion makes it anew each time."""
+        return _part(self.rows[ACROSS], slice(None))
 
     @property
     def vertical(self) -> FloatArray:
@@ -152,15 +150,20 @@ class Motion(Drawn):
         for begin in range(min(first, last - 1), last, STRETCH):
             end = min(begin + STRETCH, last)
             piece = np.zeros((3, end + 1 - begin))
-            for index, row in enumerate(("horizontal", "transverse", "vertical")):
+            for index, row in enumerate(self.rows):
                 if acting[index]:
-                    piece[index] = getattr(self, row)[begin : end + 1]
+                    piece[index] = _part(row, slice(begin, end + 1))
             yield Stretch(begin, sealed(piece), last - end)
 
     @property
     def time(self) -> FloatArray:
         """Times of the samples, (n,), s after the record's first sample."""
         return self.start_s + self.dt * np.arange(self.samples, dtype=np.float64)
+
+
+def _part(row: FloatArray | Callable[[slice], FloatArray], part: slice) -> FloatArray:
+    """Return some samples of a row, or of one that is made part by part."""
+    return row(part) if callable(row) else row[part]
 
 
 def motion_of(record: Record, component: str) -> Motion:
@@ -192,12 +195,12 @@ def motion_of(record: Record, component: str) -> Motion:
     up = nothing if record.vertical is None else record.vertical.acceleration
     if record.samples > LONG:
         return Motion((along, across or nothing, up), record.dt, name=component, start_s=record.offset_s, record=record)
-    rows = sealed(np.stack([along, nothing if across is None else across(), up]))
+    rows = sealed(np.stack([along, nothing if across is None else across(slice(None)), up]))
     return Motion(rows, record.dt, name=component, start_s=record.offset_s, record=record)
 
 
-def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Callable[[], FloatArray] | None]:
-    """Return the acceleration along a direction and, when known, what makes that 90 degrees counter-clockwise of it."""
+def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Callable[[slice], FloatArray] | None]:
+    """Return the acceleration along a direction and, when known, what makes parts of that 90 degrees counter-clockwise of it."""
     azimuth = _as_azimuth(component)
     if azimuth is None:
         chosen = record.component(component)
@@ -244,25 +247,25 @@ def _oriented_pair(record: Record) -> tuple[Component, Component]:
 
 def _resolve(pair: tuple[Component, Component], azimuth_deg: float) -> FloatArray:
     """Return the acceleration towards an azimuth from two horizontals, which need not be orthogonal."""
-    return _towards(pair, azimuth_deg)()
+    return _towards(pair, azimuth_deg)(slice(None))
 
 
-def _towards(pair: tuple[Component, Component], azimuth_deg: float) -> Callable[[], FloatArray]:
-    """Return what makes the acceleration towards an azimuth from two horizontals."""
+def _towards(pair: tuple[Component, Component], azimuth_deg: float) -> Callable[[slice], FloatArray]:
+    """Return what makes parts of the acceleration towards an azimuth from two horizontals."""
     first, second = pair
     # for exact axes keep the samples bit by bit: "numbers round-trip"
     for component in pair:
         if component.azimuth_deg == azimuth_deg % 360.0:
-            return lambda: component.acceleration
+            return component.acceleration.__getitem__
     a, b, t = (math.radians(angle or 0.0) for angle in (first.azimuth_deg, second.azimuth_deg, azimuth_deg))
     span = math.sin(b - a)
     if abs(span) < 1e-6:
         raise ComponentError("the two horizontal components are parallel: no other direction follows from them")
 
-    def mixed() -> FloatArray:
+    def mixed(part: slice) -> FloatArray:
         # north/east of the ground from its two projections, then projected on the azimuth
-        found = first.acceleration * (math.sin(b - t) / span)
-        found += second.acceleration * (math.sin(t - a) / span)
+        found = first.acceleration[part] * (math.sin(b - t) / span)
+        found += second.acceleration[part] * (math.sin(t - a) / span)
         return sealed(found)
 
     return mixed

@@ -10,8 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from seisblock.bodies.block import Block
 from seisblock.bodies.blocks import wear_within
 from seisblock.bodies.cemetery.cemetery import PAPER_WIDTH
@@ -23,7 +21,7 @@ from seisblock.criteria.overturning import ishiyama_acceleration, ishiyama_veloc
 from seisblock.criteria.pulses import half_sine_acceleration
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
-from seisblock.measures.peaks import peak_velocity
+from seisblock.measures.peaks import peak_acceleration, peak_velocity
 from seisblock.records import Motion
 from seisblock.results import Response
 from seisblock.solvers.rock.verdicts import rock_verdict
@@ -129,7 +127,7 @@ def agreement(
     >>> found.falls, found.models
     (3, 5)
     """
-    pga = float(np.abs(motion.horizontal).max())
+    pga = peak_acceleration(motion.horizontal)[0]
     if pga == 0.0:
         return Agreement(tuple(others), 0, len(others), None)
     worn = block if block.inset else block.worn(wear_within(block, WORN.share))

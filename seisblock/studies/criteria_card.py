@@ -7,8 +7,9 @@ from typing import Any
 
 from seisblock.bodies.block import Block
 from seisblock.criteria.card import Row, overturning_card
-from seisblock.measures import ComponentMeasures, Conventions, measure
-from seisblock.records import Record, motion_of
+from seisblock.measures import Conventions
+from seisblock.measures.summary import ComponentPeaks, component_peaks
+from seisblock.records import Component, Motion, Record
 from seisblock.solvers.rock.outcome import RockOutcome
 from seisblock.solvers.rock.solve import solve_rock
 from seisblock.studies.agreement import Agreement, agreement
@@ -25,8 +26,8 @@ class Card:
     record : Record
     component : str
     block : Block
-    measures : ComponentMeasures
-        Peaks and equivalent frequencies that the criteria were given.
+    measures : ComponentPeaks
+        What the criteria were given.
     rows : tuple of Row
     outcome : RockOutcome
     velocity_highpass_hz : float or None
@@ -41,7 +42,7 @@ class Card:
     record: Record
     component: str
     block: Block
-    measures: ComponentMeasures
+    measures: ComponentPeaks
     rows: tuple[Row, ...]
     outcome: RockOutcome
     velocity_highpass_hz: float | None
@@ -52,7 +53,7 @@ class Card:
 
 def criteria_card(
     record: Record,
-    component: str,
+    motion: Motion,
     block: Block,
     *,
     gravity: float,
@@ -65,8 +66,8 @@ def criteria_card(
     Parameters
     ----------
     record : Record
-    component : str
-        A horizontal code, or an azimuth.
+    motion : Motion
+        Of that record, towards a component or an azimuth.
     block : Block
     gravity : float, m/s^2
     mu, mu_kinetic : float or None, 1
@@ -75,10 +76,9 @@ def criteria_card(
         ``restitution``, ``linear``, ``vertical`` of :func:`~seisblock.solvers.rock.solve.solve_rock`.
     """
     rules = Conventions(gravity_m_s2=gravity)
-    measured = measure(record, (component,), conventions=rules).components[0]
-    motion = motion_of(record, component)
+    measured = component_peaks(Component(motion.name, motion.horizontal), motion.dt, rules, motion.start_s)
     response = flagged(solve_rock(block, motion, gravity=gravity, **options))
     rows = overturning_card(block, measured.pga_m_s2, measured.pgv_m_s, asdict(measured.equivalent_frequency_hz), gravity)
     said = agreement(block, motion, gravity=gravity, **options)
     whole = governing(block, motion, mu=mu, mu_kinetic=mu_kinetic, gravity=gravity)
-    return Card(record, component, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings, said, whole)
+    return Card(record, motion.name, block, measured, rows, response.outcome, rules.velocity_highpass_hz, response.warnings, said, whole)

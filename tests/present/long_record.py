@@ -135,7 +135,7 @@ def prepared():
 
 @functools.cache
 def cards():
-    return [criteria_card(record(), name, Block(0.3, 0.9), gravity=9.81) for name in BOTH]
+    return [criteria_card(record(), motion(name), Block(0.3, 0.9), gravity=9.81) for name in BOTH]
 
 
 @functools.cache

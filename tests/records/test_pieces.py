@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, sosfilt
 
-from seisblock.measures import peaks, spectra
+from seisblock.measures import frequency, peaks, spectra
 from seisblock.measures.baseline import ground_history
 from seisblock.records import butterworth, filters, integrals
 
@@ -17,7 +17,7 @@ ROW = np.random.default_rng(5).standard_normal(5000) + 0.2
 @pytest.fixture
 def small_pieces(monkeypatch):
     """Let a piece be some dozens of samples, which divide no length here."""
-    for module in (butterworth, integrals, peaks):
+    for module in (butterworth, filters, integrals, frequency):
         monkeypatch.setattr(module, "AT_A_TIME", 77)
 
 
@@ -36,6 +36,13 @@ SAME = 1e-12
 """Round-off of a filter, over the largest sample that goes in: one that contracts its products differs by so much."""
 
 
+def extended(row, before, after):
+    """Return a row with its mirror images."""
+    longer = np.concatenate((np.full(before, np.nan), row, np.full(after, np.nan)))
+    filters._mirror(longer, before, row.size)
+    return longer
+
+
 @pytest.mark.kernel
 @pytest.mark.parametrize("hz", [0.5, 0.02])
 def test_the_high_pass_is_scipys(small_pieces, hz):
@@ -43,13 +50,13 @@ def test_the_high_pass_is_scipys(small_pieces, hz):
     sections, pad = filters._design(DT, hz)
     theirs = np.array([[gain, -2.0 * gain, gain, 1.0, first, second] for gain, first, second in sections])
     np.testing.assert_allclose(theirs, butter(4, hz, "highpass", fs=1.0 / DT, output="sos"), rtol=0.0, atol=1e-15)
-    row = filters._extended(ROW - filters.end_line(ROW, DT, hz), pad, pad)
+    row = extended(ROW - filters.end_line(ROW, DT, hz), pad, pad)
     rest = theirs[0, 0] * np.array([[-1.0, 1.0], [0.0, 0.0]])  # of a constant nothing is left
     for _ in range(2):
         row = sosfilt(theirs, row, zi=rest * row[0])[0][::-1]
     expected = row[pad : pad + ROW.size]
     np.testing.assert_allclose(filters.highpass_samples(ROW, DT, hz), expected, rtol=0.0, atol=SAME * np.abs(ROW).max())
-    forwards = filters._extended(ROW - filters.end_line(ROW, DT, hz), pad, 0)
+    forwards = extended(ROW - filters.end_line(ROW, DT, hz), pad, 0)
     expected = sosfilt(theirs, forwards)[pad:]
     np.testing.assert_allclose(filters.causal_highpass_samples(ROW, DT, hz), expected, rtol=0.0, atol=SAME * np.abs(ROW).max())
 
@@ -64,19 +71,33 @@ def test_the_sections_are_scipys(dt, share):
 
 
 def test_mirror_images_are_those_of_their_places():
-    """The quick way for padding within the record, and the way for any."""
+    """Padding within the record, padding longer than it, and none."""
     row = np.arange(1.0, 6.0)
-    np.testing.assert_array_equal(filters._extended(row, 3, 2), [-3, -2, -1, 1, 2, 3, 4, 5, -5, -4])
-    np.testing.assert_array_equal(filters._extended(row, 7, 1)[:8], [4, 5, -5, -4, -3, -2, -1, 1])
-    np.testing.assert_array_equal(filters._extended(row, 0, 0), row)
+    np.testing.assert_array_equal(extended(row, 3, 2), [-3, -2, -1, 1, 2, 3, 4, 5, -5, -4])
+    np.testing.assert_array_equal(extended(row, 7, 1)[:8], [4, 5, -5, -4, -3, -2, -1, 1])
+    np.testing.assert_array_equal(extended(row, 0, 0), row)
 
 
 def test_the_peak_between_samples(small_pieces, monkeypatch):
-    """Zeros of the acceleration at the seams are met once."""
+    """Zeros of the acceleration at the seams are met once; the velocity in pieces is the one that is looked at whole."""
     history = ground_history(ROW, DT, highpass_hz=0.5)
     found = peaks.peak_velocity(history, DT)
-    monkeypatch.setattr(peaks, "AT_A_TIME", 10**6)
-    assert found == peaks.peak_velocity(history, DT)
+    monkeypatch.setattr(integrals, "AT_A_TIME", 10**6)
+    assert found == peaks.peak_velocity(history, DT) > np.abs(history.velocity).max()
+
+
+@pytest.mark.parametrize("top", [3, 2500, 4998], ids=str)
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_pulse_of_the_peak(top, sign, small_pieces, monkeypatch):
+    """Wider than a piece, and cut by an end of the record: its ends are those found at once."""
+    place = np.arange(ROW.size)
+    row = sign * (np.cos(np.pi * (place - top) / 400.0) * np.exp(-(((place - top) / 900.0) ** 2)))
+    found = frequency.peak_pulse(row, DT)
+    monkeypatch.setattr(frequency, "AT_A_TIME", 10**6)
+    assert found == frequency.peak_pulse(row, DT)
+    assert found.ambiguous == (top != 2500)
+    assert found.start_s == pytest.approx(DT * max(top - 200, 0), abs=1e-12)
+    assert found.end_s == pytest.approx(DT * min(top + 200, ROW.size - 1), abs=1e-12)
 
 
 def test_the_smoothed_spectrum_of_a_long_record(monkeypatch):

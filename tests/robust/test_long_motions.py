@@ -10,14 +10,17 @@ import numpy as np
 import pytest
 
 import seisblock
-from seisblock import Block, Motion, SpringBlock, motion_of, read, scale_to_pga
+from seisblock import Block, Component, Motion, Record, SpringBlock, motion_of, read, scale_to_pga
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.dynamics import follow_many
 from seisblock.errors import ParameterError
+from seisblock.results import Response
 from seisblock.solvers.rock import model as rocking
 from seisblock.solvers.rock.rocker import rocker
+from seisblock.studies.agreement import pile_agreement
+from seisblock.studies.criteria_card import criteria_card
 from tests.lengths import all_but_slow
 
 RECORD = scale_to_pga(read("synthetic_jma.csv"), 9.0)
@@ -166,14 +169,30 @@ SHORTER, LONGER, LEAST = 2**17, 2**18, 8.0
 """Samples of a burst in a quiet day, and the bytes of each that a single row would take."""
 
 
+def burst_of(samples):
+    """Return a row that shakes at its beginning alone, m/s^2."""
+    place = np.arange(samples)
+    return 6.0 * np.exp(-(((place - 2000.0) / 200.0) ** 2)) * np.sin(0.06 * place)
+
+
+def turned(samples):
+    """Return a record of two components, and its motion towards a direction between them."""
+    record = Record((Component("NS", burst_of(samples)), Component("EW", 0.8 * burst_of(samples))), 0.005)
+    return record, motion_of(record, "37")
+
+
 def peak_bytes(solve, samples):
     """Return what a solve holds at its peak, bytes, of a motion that shakes at its beginning alone."""
-    place = np.arange(samples)
-    burst = 6.0 * np.exp(-(((place - 2000.0) / 200.0) ** 2)) * np.sin(0.06 * place)
+    burst = burst_of(samples)
     motion = Motion((burst, np.zeros(samples), 0.3 * burst), 0.005)
+    return bytes_held(solve, motion)
+
+
+def bytes_held(use, *given):
+    """Return what is held at the peak while something is made use of, bytes."""
     tracemalloc.start()
     try:
-        assert solve(motion).outcome is not None
+        assert use(*given) is not None
         return tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
@@ -186,3 +205,38 @@ def test_a_verdict_holds_no_row_of_the_length_of_the_motion(named, monkeypatch):
     monkeypatch.setattr("seisblock.records.motion.STRETCH", 2**15)
     peak_bytes(SOLVES[named], 2**16 + 2)
     assert (peak_bytes(SOLVES[named], LONGER) - peak_bytes(SOLVES[named], SHORTER)) / (LONGER - SHORTER) < LEAST
+
+
+def beside_a_pile(record, motion):
+    """Look at each sample of the three rows, as a pile does, and ask the other models."""
+    assert all(np.isfinite(stretch.acceleration).all() for stretch in motion.stretches((True, True, True)))
+    answer = Response("stack", SimpleNamespace(overturned=()), motion, PILE, options={"gravity_m_s2": 9.81})
+    return pile_agreement(answer)
+
+
+STUDIES = {
+    "criteria": lambda record, motion: criteria_card(record, motion, BLOCK, gravity=9.81).agreement,
+    "stack": beside_a_pile,
+}
+
+ONE_ROW = 10.0
+"""Bytes of each sample, that of one row and a share: a high-pass looks at all of it."""
+
+
+@pytest.mark.parametrize("named", STUDIES)
+def test_models_beside_each_other_hold_one_row(named, monkeypatch):
+    """The slope between two lengths of a turned motion: the row across, the filtered row and its velocity were held at once."""
+    for size, samples in {
+        "records.motion.LONG": 2**16,
+        "records.motion.STRETCH": 2**15,
+        "records.filters.AT_A_TIME": 2**14,
+        "records.integrals.AT_A_TIME": 2**14,
+        "measures.frequency.AT_A_TIME": 2**14,
+        "measures.spectra.LONG": 2**13,
+    }.items():
+        monkeypatch.setattr(f"seisblock.{size}", samples)
+    fallen = SimpleNamespace(overturned=True)  # dozens of factors are tried, and what a verdict holds is looked at above
+    monkeypatch.setattr("seisblock.studies.agreement.rock_verdict", lambda *args, **options: fallen)
+    study = STUDIES[named]
+    study(*turned(2**16 + 2))  # compiles
+    assert (bytes_held(study, *turned(LONGER)) - bytes_held(study, *turned(SHORTER))) / (LONGER - SHORTER) < ONE_ROW
