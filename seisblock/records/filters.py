@@ -101,8 +101,7 @@ def end_line(acceleration: FloatArray, dt: float, hz: float) -> FloatArray:
     (n,) array, m/s^2
     """
     level, slope = _level_and_slope(acceleration, dt, hz)
-    line: FloatArray = slope * _places(acceleration.size, 0, acceleration.size) + level
-    return line
+    return slope * _places(acceleration.size, 0, acceleration.size) + level
 
 
 def _level_and_slope(acceleration: FloatArray, dt: float, hz: float) -> tuple[float, float]:
@@ -119,7 +118,8 @@ def _level_and_slope(acceleration: FloatArray, dt: float, hz: float) -> tuple[fl
 
 def _places(samples: int, begin: int, end: int) -> FloatArray:
     """Return where some of the samples lie between the first of all, -1, and the last, 1."""
-    return np.arange(begin, end) * (2.0 / max(samples - 1, 1)) - 1.0
+    place = np.arange(begin, end, dtype=np.float64)
+    return place * (2.0 / max(samples - 1, 1)) - 1.0
 
 
 def _padded(acceleration: FloatArray, dt: float, hz: float, before: int, after: int) -> FloatArray:
