@@ -96,7 +96,7 @@ def scale(record: Record, factor: float) -> Record:
     ----------
     record : Record
     factor : float
-        Finite.
+        Finite; by 1 nothing is done, and nothing is said to be.
 
     Raises
     ------
@@ -111,6 +111,8 @@ def scale(record: Record, factor: float) -> Record:
     """
     checks.instance(record, Record)
     checks.finite("the scale factor", factor)
+    if factor == 1.0:
+        return record
     return _apply(record, lambda c: c.acceleration * factor, said("scaled by {factor:.10g}", factor=factor))
 
 

@@ -169,6 +169,66 @@ def test_the_enlarged_window_tells_places_in_the_unit_asked_for(gal, unit, size)
     assert data_of(film_page(shown, Filming(gal=gal)))["si"] is not gal
 
 
+@pytest.mark.parametrize("model", FILMS)
+def test_the_cursor_is_whole_in_the_first_and_in_the_last_picture(model):
+    """It stands on the edge of its strips there: every row of them has it, and it has a head."""
+    shown = film(model, 3)
+    first, middle, last = (np.asarray(picture, dtype=int) for picture in film_frames(shown, 1.0, Filming()))
+    stage = set_up(shown)
+    stage.sheet.canvas.draw()
+    for axis in stage.panels:
+        box = axis.get_window_extent()
+        rows = slice(round(first.shape[0] - box.y1) + 2, round(first.shape[0] - box.y0) - 2)
+        begins, ends = (
+            np.abs(one[rows, round(x) - 4 : round(x) + 5] - middle[rows, round(x) - 4 : round(x) + 5]).max(axis=2) > 60
+            for one, x in ((first, box.x0), (last, box.x1))
+        )
+        assert ends.any(axis=1).all()
+        assert begins.any()
+
+
+@pytest.mark.parametrize("gal", [True, False])
+@pytest.mark.parametrize("model", FILMS)
+def test_a_bar_tells_the_scale_of_the_scene(model, gal):
+    """As in the page: a round length, drawn as long as its text says, in each picture, within the scene."""
+    shown = film(model, 3, gal=gal)
+    stage = set_up(shown, gal=gal)
+    stage.sheet.canvas.draw()
+    line, text = stage.actors[0].bar
+    number, unit = text.get_text().split()
+    left, right = line.get_xdata()
+    assert right - left == pytest.approx(float(number) * {"mm": 0.001, "cm": 0.01, "m": 1.0}[unit])
+    assert gal or unit == "m"
+    assert {line, text} <= set(stage.moving)
+    view = sorted(line.axes.get_xlim())
+    assert 0.1 < (right - left) / (view[1] - view[0]) < 0.34 and view[0] < left and right < view[1]
+
+
+@pytest.mark.parametrize("model", FILMS)
+def test_a_key_names_the_bands_of_the_strips(model):
+    """Whatever is shaded in a picture is named in it, once."""
+    shown = film(model, 2)
+    wanted = {shown.called(phase.name) for phase in shown.seen if phase.name in shown.colours}
+    key = set_up(shown).panels[0].get_legend()
+    named = [text.get_text() for text in key.get_texts()] if key else []
+    assert sorted(named) == sorted(wanted)
+
+
+@pytest.mark.parametrize("model", ["respond", "slide", "jump"])
+def test_the_path_on_a_page_keeps_its_furthest_points(model, monkeypatch):
+    """F1: however many points a path has, what is left of them reaches as far to all sides."""
+    shown = film(model, 40)
+    (path, *_) = shown.scene.trails
+    inside = (path.time >= shown.time[0]) & (path.time <= shown.time[-1])
+    monkeypatch.setattr("seisblock.present.films.page.MOST_ON_PATH", 60)
+    drawn = data_of(film_page(shown, Filming()))["scene"]["trails"][0]
+    assert len(drawn["time"]) < 0.1 * np.count_nonzero(inside)
+    assert drawn["time"] == sorted(drawn["time"])
+    for axis in "xz":
+        whole = getattr(path, axis)[inside]
+        assert (min(drawn[axis]), max(drawn[axis])) == pytest.approx((whole.min(), whole.max()), abs=5.1e-6)
+
+
 def test_a_film_of_five_minutes_has_no_more_pictures_than_the_most():
     """It plays faster and says so."""
     times, speed = frame_times(0.0, 300.0)

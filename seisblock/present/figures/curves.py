@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from seisblock.typing import BoolArray, FloatArray
+from seisblock.typing import BoolArray, FloatArray, IntArray
 
 MOST_POINTS = 4000
 """What is shown of a curve, if it is more than this, is reduced to the extrema of its bins, so that no peak is lost."""
@@ -123,9 +123,26 @@ def thin(time: FloatArray, values: FloatArray, most: int = MOST_POINTS) -> tuple
         Where `values` is not a number the curve is broken, and stays so.
     most : int
     """
-    n = time.size
+    keep = extremes(values, most)
+    return time[keep], values[keep]
+
+
+def extremes(values: FloatArray, most: int = MOST_POINTS) -> IntArray:
+    """Return which of some values stand for all of them: each bin's minimum and maximum, about so many in all, in their order.
+
+    Parameters
+    ----------
+    values : (n,) array
+    most : int
+
+    Examples
+    --------
+    >>> extremes(np.array([0.0, 1.0, 5.0, 2.0, -3.0, 0.0, 0.0, 1.0]), most=4).tolist()
+    [0, 2, 4, 7]
+    """
+    n = values.size
     if n <= most:
-        return time, values
+        return np.arange(n)
     wide = -(-n // (most // 2))
     bins = -(-n // wide)
     padded = np.full(bins * wide, np.nan)
@@ -135,5 +152,4 @@ def thin(time: FloatArray, values: FloatArray, most: int = MOST_POINTS) -> tuple
     lowest = rows + np.where(broken, np.inf, padded).reshape(bins, wide).argmin(axis=1)
     highest = rows + np.where(broken, -np.inf, padded).reshape(bins, wide).argmax(axis=1)
     gaps = np.flatnonzero(broken[1:n] & ~broken[: n - 1]) + 1
-    keep = np.unique(np.concatenate([[0], lowest, highest, gaps, [n - 1]]))
-    return time[keep], values[keep]
+    return np.unique(np.concatenate([[0], lowest, highest, gaps, [n - 1]]))

@@ -22,6 +22,9 @@ from seisblock.words import tell
 MOST_COLUMNS = 12
 """Of a label as high as its strip; a longer one has two lines."""
 
+CURSOR: dict[str, Any] = {"color": "0.1", "linewidth": 1.2, "clip_on": False, "marker": "v", "markersize": 5, "markevery": [1]}
+"""Whole, and with a head, where the film begins and ends, too: there it stands on the edge of its strip."""
+
 
 @dataclass(frozen=True, eq=False)
 class Stage:
@@ -82,7 +85,7 @@ def set_up(film: Film, *, gal: bool = True) -> Stage:
     beside = isinstance(scene, Plane) and scene.close is not None
     above = sheet.add_subplot(grid[0, 0] if beside else grid[0, :])
     above.set_title(film.title, fontsize=9, loc="left", pad=20, parse_math=False)
-    actors: list[Actor] = [PlaneActor(above, scene, moving=True) if isinstance(scene, Plane) else SpaceActor(above, scene)]
+    actors: list[Actor] = [PlaneActor(above, scene, moving=True, gal=gal) if isinstance(scene, Plane) else SpaceActor(above, scene, gal=gal)]
     if isinstance(scene, Plane) and beside:
         actors.append(PlaneActor(sheet.add_subplot(grid[0, 1]), scene, moving=False, gal=gal))
     panels: list[Axes] = []
@@ -92,7 +95,7 @@ def set_up(film: Film, *, gal: bool = True) -> Stage:
     if film.note:
         above.annotate(film.note, (0.0, 0.0), (0.0, -4.0), "axes fraction", "offset points", va="top", fontsize=8, color="0.35")
     clock = above.annotate(" ", (0.0, 1.0), (0.0, 5.0), "axes fraction", "offset points", va="bottom", fontsize=9)
-    cursors = [panel.axvline(film.time[0], color="0.1", linewidth=1.0) for panel in panels]
+    cursors = [panel.axvline(film.time[0], **CURSOR) for panel in panels]
     return Stage(film, sheet, actors, panels, clock, cursors)
 
 
@@ -107,7 +110,7 @@ def _strip(axis: Axes, film: Film, index: int) -> None:
     """Draw one strip with its thresholds and the phases; the last has the clock's axis."""
     strip, last = film.panels[index], index + 1 == len(film.panels)
     canvas.dress(axis)
-    canvas.shade(axis, film.seen, dict(film.colours))
+    canvas.shade(axis, film.seen, dict(film.colours), names=index == 0, direction=film.direction)
     for line in strip.lines:
         style: dict[str, Any] = {"linestyle": (0, line.dashes)} if line.dashes else {}
         curve(axis, line.time, line.values, color=line.colour, label=line.name or None, **style)
@@ -118,5 +121,4 @@ def _strip(axis: Axes, film: Film, index: int) -> None:
     axis.set_ylim(low - margin, high + margin)
     axis.tick_params(labelbottom=last)
     canvas.label(axis, tell("t (s)") if last else "", strip.label if columns(strip.label) <= MOST_COLUMNS else canvas.in_two(strip.label))
-    if len(strip.lines) > 1:
-        canvas.legend(axis, ncols=len(strip.lines))
+    canvas.legend(axis)

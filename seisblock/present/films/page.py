@@ -9,7 +9,7 @@ import numpy as np
 
 from seisblock.present.directions import side
 from seisblock.present.figures.canvas import BETWEEN
-from seisblock.present.figures.curves import in_view, thin
+from seisblock.present.figures.curves import extremes, in_view, thin
 from seisblock.present.films.animation import Filming
 from seisblock.present.films.film import Film, Strip
 from seisblock.present.films.plane import Plane, Trail
@@ -109,9 +109,10 @@ def _plane(scene: Plane, first: float, last: float) -> dict[str, Any]:
 
 
 def _trail(trail: Trail, first: float, last: float) -> dict[str, Any]:
-    """Return the path of a point between two times; of too many points every so manieth."""
-    inside = np.flatnonzero((trail.time >= first) & (trail.time <= last))
-    kept = inside[:: -(-inside.size // MOST_ON_PATH) or 1]
+    """Return the path of a point between two times; of too many points those furthest to either side, up and down."""
+    kept = np.flatnonzero((trail.time >= first) & (trail.time <= last))
+    if kept.size > MOST_ON_PATH:
+        kept = kept[np.union1d(*(extremes(values[kept], MOST_ON_PATH // 2) for values in (trail.x, trail.z)))]
     time, x, z = (_numbers(values[kept], digits) for values, digits in ((trail.time, SECONDS), (trail.x, METRES), (trail.z, METRES)))
     return {"time": time, "x": x, "z": z, "colour": trail.colour}
 

@@ -12,13 +12,16 @@ from matplotlib.patches import Polygon
 from matplotlib.ticker import FuncFormatter
 
 from seisblock.present.figures import canvas
-from seisblock.present.films.plane import Plane
+from seisblock.present.films.plane import Box, Plane
 from seisblock.present.films.space import Space, on_picture, view_axes
 from seisblock.present.scales import Unit, length_unit
 from seisblock.typing import FloatArray
 from seisblock.words import tell
 
 FLOOR, EDGE = "#c9ccd0", "0.2"
+
+BARS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
+"""Lengths of a bar of scale, m."""
 
 COILS, WIDE = 5, 0.35
 """Turns of a spring, and how wide it is drawn, of its free height."""
@@ -46,7 +49,9 @@ class PlaneActor:
         axis.set_ylim(bottom, top)
         if moving:
             _bare(axis)
+            self.bar = _bar(axis, (left, right, bottom, top), gal=gal)
         else:
+            self.bar = []
             canvas.dress(axis)
             _measured(axis, length_unit([right - left], gal=gal))
             axis.set_title(tell("enlarged, seen from the ground"), fontsize=8, loc="left")
@@ -73,7 +78,7 @@ class PlaneActor:
     def artists(self) -> Sequence[Any]:
         """What is drawn anew in each picture."""
         ticks = [self.ticks] if self.ticks is not None else []
-        return [*self.floors, *ticks, *(patch for _, _, patch in self.pieces), *(line for _, line in self.trails), *self.key]
+        return [*self.floors, *ticks, *(patch for _, _, patch in self.pieces), *(line for _, line in self.trails), *self.key, *self.bar]
 
     def place(self, index: int, time: float) -> None:
         """Put everything where it is in a picture."""
@@ -92,13 +97,14 @@ class PlaneActor:
 class SpaceActor:
     """Cuboids on their patch of ground in three dimensions."""
 
-    def __init__(self, axis: Axes, scene: Space) -> None:
+    def __init__(self, axis: Axes, scene: Space, *, gal: bool = True) -> None:
         self.scene = scene
         left, right, bottom, top = scene.extent()
         axis.set_aspect("equal")
         _bare(axis)
         axis.set_xlim(left, right)
         axis.set_ylim(bottom, top)
+        self.bar = _bar(axis, (left, right, bottom, top), gal=gal)
         self.floor = PolyCollection([], facecolors="0.90", edgecolors="0.75", linewidths=0.8)
         self.springs = LineCollection([], colors="0.35", linewidths=1.0)
         self.faces = PolyCollection([], linewidths=0.8)
@@ -109,7 +115,7 @@ class SpaceActor:
     @property
     def artists(self) -> Sequence[Any]:
         """What is drawn anew in each picture."""
-        return [self.floor, self.springs, self.hidden, self.faces, self.corners]
+        return [self.floor, self.springs, self.hidden, self.faces, self.corners, *self.bar]
 
     def place(self, index: int, time: float) -> None:
         """Put everything where it is in a picture."""
@@ -134,6 +140,16 @@ def _measured(axis: Axes, unit: Unit) -> None:
     told = FuncFormatter(lambda metres, _: f"{metres / unit.size:.6g}".replace("-", "\N{MINUS SIGN}"))
     axis.xaxis.set_major_formatter(told)
     axis.yaxis.set_major_formatter(told)
+
+
+def _bar(axis: Axes, box: Box, *, gal: bool) -> list[Any]:
+    """Put a bar of a round length, and how long it is, into the lower right corner of a scene true to scale."""
+    left, right, bottom, top = box
+    length = max((each for each in BARS if each < (right - left) / 3), default=BARS[0])
+    size, name = length_unit([length], gal=gal and length < 1.0)
+    end, low = right - 0.02 * (right - left), bottom + 0.03 * (top - bottom)
+    (line,) = axis.plot([end - length, end], [low, low], color="0.1", linewidth=1.6, solid_capstyle="butt")
+    return [line, axis.annotate(f"{length / size:g} {name}", (end, low), (0.0, 2.0), "data", "offset points", ha="right", va="bottom", fontsize=8)]
 
 
 def _bare(axis: Axes) -> None:

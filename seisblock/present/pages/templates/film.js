@@ -73,9 +73,10 @@ function strip(index, height) {
     });
     pen.stroke();
   });
-  pen.setLineDash([]);
-  pen.strokeStyle = INK; pen.lineWidth = 1.2; pen.beginPath(); pen.moveTo(x(now), top); pen.lineTo(x(now), bottom); pen.stroke();
   pen.restore();
+  // whole where the film begins and ends, too: on the edge of its strip
+  pen.strokeStyle = pen.fillStyle = INK; pen.lineWidth = 1.2; pen.beginPath(); pen.moveTo(x(now), top); pen.lineTo(x(now), bottom); pen.stroke();
+  polygon(pen, [[x(now) - 4, top - 4], [x(now) + 4, top - 4], [x(now), top + 3]], INK, null);
   pen.fillStyle = SOFT; pen.fillText(data.label, left, 11);
   pen.textAlign = "right";
   [data.inner[1], 0, data.inner[0]].filter((v, i, all) => all.indexOf(v) === i).forEach(v => {
