@@ -111,9 +111,8 @@ def scale(record: Record, factor: float) -> Record:
     """
     checks.instance(record, Record)
     checks.finite("the scale factor", factor)
-    if factor == 1.0:
-        return record
-    return _apply(record, lambda c: c.acceleration * factor, said("scaled by {factor:.10g}", factor=factor))
+    did = said("scaled by {factor:.10g}", factor=factor)
+    return record if factor == 1.0 else _apply(record, lambda c: c.acceleration * factor, did)
 
 
 def scale_to_pga(record: Record, target: float, component: str | Sequence[str] | None = None) -> Record:

@@ -3,6 +3,7 @@
 import functools
 import inspect
 import pkgutil
+from dataclasses import replace
 from datetime import UTC, datetime
 from importlib import import_module
 
@@ -146,7 +147,7 @@ def spectra():
 @functools.cache
 def around():
     found = rocking_spectrum_around(default_sizes(8), default_slendernesses(8), record(), step_deg=45.0)
-    return [(motion("NS"), found)]
+    return [(replace(motion("NS"), name="all-azimuths"), found)]
 
 
 @functools.cache

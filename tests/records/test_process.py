@@ -71,6 +71,12 @@ def test_crop_refuses_a_window_it_cannot_cut(start, end):
         crop(RECORD, start, end)
 
 
+def test_what_is_scaled_by_one_is_not_said_to_be_scaled():
+    """No title says "scaled by 1"; by another factor it is said."""
+    assert scale(RECORD, 1.0) is RECORD
+    assert scale(RECORD, 1.5).history == ("scaled by 1.5",)
+
+
 def test_scale_to_pga_takes_the_largest_horizontal_not_the_vertical():
     """EW (2 m/s^2) reaches the target although UD is larger; ratios are kept."""
     done = scale_to_pga(RECORD, 4.0)

@@ -92,6 +92,8 @@ def _frequencies(panel: Axes, regions: Sequence[UpliftRegion], against: str) -> 
             panel.plot(values, curve, color=groups[group], linewidth=1.1, linestyle=STYLES[index % len(STYLES)])
     for group, colour in groups.items():
         panel.plot([], [], color=colour, label=tell(group))
+    for _ in range(len(groups), len(chosen)):
+        panel.plot([], [], " ", label=" ")  # so that each column of the key holds one kind
     for index, fixed in enumerate(chosen):
         panel.plot([], [], color="0.85", linestyle=STYLES[index % len(STYLES)], label=f"{SYMBOLS[other]} = {fixed:.4g}")
     panel.set_xlim(0.0, 3.0)

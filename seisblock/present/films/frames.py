@@ -85,7 +85,9 @@ def set_up(film: Film, *, gal: bool = True) -> Stage:
     beside = isinstance(scene, Plane) and scene.close is not None
     above = sheet.add_subplot(grid[0, 0] if beside else grid[0, :])
     above.set_title(film.title, fontsize=9, loc="left", pad=20, parse_math=False)
-    actors: list[Actor] = [PlaneActor(above, scene, moving=True, gal=gal) if isinstance(scene, Plane) else SpaceActor(above, scene, gal=gal)]
+    actors: list[Actor] = [
+        PlaneActor(above, scene, moving=True, gal=gal) if isinstance(scene, Plane) else SpaceActor(above, scene, gal=gal)
+    ]
     if isinstance(scene, Plane) and beside:
         actors.append(PlaneActor(sheet.add_subplot(grid[0, 1]), scene, moving=False, gal=gal))
     panels: list[Axes] = []

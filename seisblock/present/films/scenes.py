@@ -149,7 +149,8 @@ def _bar(axis: Axes, box: Box, *, gal: bool) -> list[Any]:
     size, name = length_unit([length], gal=gal and length < 1.0)
     end, low = right - 0.02 * (right - left), bottom + 0.03 * (top - bottom)
     (line,) = axis.plot([end - length, end], [low, low], color="0.1", linewidth=1.6, solid_capstyle="butt")
-    return [line, axis.annotate(f"{length / size:g} {name}", (end, low), (0.0, 2.0), "data", "offset points", ha="right", va="bottom", fontsize=8)]
+    place: dict[str, Any] = {"xytext": (0.0, 2.0), "textcoords": "offset points", "ha": "right", "va": "bottom"}
+    return [line, axis.annotate(f"{length / size:g} {name}", (end, low), fontsize=8, **place)]
 
 
 def _bare(axis: Axes) -> None:
