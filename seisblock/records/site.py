@@ -113,6 +113,19 @@ def is_of_station(record: Record, station: str) -> bool:
     return station.strip().lower() in (record.station.lower(), site_of(record).name.lower())
 
 
+def file_of(record: Record) -> str:
+    """Return the name of a record's file without its folder, as it stands in what is printed for others; empty where there is none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from seisblock.records import Component
+    >>> file_of(Record((Component("NS", np.zeros(3), 0.0),), 0.01, source="records/kobe.csv"))
+    'kobe.csv'
+    """
+    return record.source.rsplit("/", 1)[-1]
+
+
 def earthquake_of(record: Record) -> Earthquake | None:
     """Return what shook, or None where the file does not say, or has zeros for all it might."""
     origin = record.metadata.get("origin_time")

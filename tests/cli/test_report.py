@@ -14,6 +14,7 @@ from seisblock.bodies.subjects import subject
 from seisblock.cli import main
 from seisblock.measures import measure
 from seisblock.present.figures.embed import MOST_POINTS, picture
+from seisblock.present.figures.heading import heading
 from seisblock.present.figures.measure import measure_figure
 from seisblock.present.pages.report import report
 from seisblock.present.pages.report_words import verdict
@@ -77,6 +78,17 @@ def square(tmp_path_factory):
 def page_of_square(square):
     """The page of that, in English, of no command."""
     return report(square)
+
+
+def test_a_file_is_named_without_its_folder(tmp_path):
+    """A record of no station is called by its file in the title of the page and of its figures; where that lies is nobody's business."""
+    path = tmp_path / "somewhere" / "shaken.csv"
+    path.parent.mkdir()
+    path.write_text("time (s),NS (gal)\n0.00,0\n0.01,1\n0.02,-1\n0.03,0\n", encoding="utf-8")
+    shaken = read(path)
+    page = report(assess(shaken, []))
+    assert "<h1>What shaken.csv does to what stands there</h1>" in page and "somewhere" not in page
+    assert heading(shaken) == "shaken.csv"
 
 
 @pytest.mark.slow
@@ -146,7 +158,7 @@ def test_it_is_readable_on_a_phone_and_on_paper(pages):
 
 def test_it_holds_every_section(pages):
     """Record, measures, rocking, criteria, sliding, jump, uplift, provenance."""
-    for heading in (
+    for named in (
         "The record",
         "gravestone",
         "Chozu-sha, short side",
@@ -159,8 +171,8 @@ def test_it_holds_every_section(pages):
         "Uplift from corner springs",
         "Where this comes from",
     ):
-        assert re.search(rf"<h[23][^>]*>{re.escape(heading)}</h[23]>", pages["en"]), heading
-        assert re.search(rf"<h[23][^>]*>{re.escape(heading)}</h[23]>", pages["ja"]) is None
+        assert re.search(rf"<h[23][^>]*>{re.escape(named)}</h[23]>", pages["en"]), named
+        assert re.search(rf"<h[23][^>]*>{re.escape(named)}</h[23]>", pages["ja"]) is None
 
 
 def test_it_tells_where_it_comes_from(pages):

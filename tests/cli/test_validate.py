@@ -61,6 +61,8 @@ def test_every_case_reads_as_claimed_and_what_differs_comes_first(some_papers):
 def test_what_differs_is_listed_and_what_holds_is_counted():
     """By default what differs with its reason, and four counts; --all lists the rest, labelled with what each is worth."""
     short, whole = run("--paper", "Sugimoto2017").stdout, run("--paper", "Sugimoto2017", "--all").stdout
+    count = len(cases("sugimoto"))
+    assert short.startswith(f"{count} cases: ") and whole.startswith(f"{count} cases: ")
     assert "What holds" not in short and "--all lists those that hold" in " ".join(short.split())
     assert "case 9: impact" not in " ".join(short.split())
     assert len(short.splitlines()) < 0.4 * len(whole.splitlines())
@@ -159,6 +161,9 @@ def test_the_gallery_can_be_linked_to(some_papers, tmp_path):
     places = re.findall(r' id="([^"]+)"', text)
     assert len(places) == len(set(places)) and set(re.findall(r'href="#([^"]+)"', text)) == set(places)
     assert len(places) == 1 + len(papers) + len({(case.paper, case.place) for case in some_papers})
+    for paper in papers:
+        (told,) = re.findall(rf'<a href="#{paper}">(.*?)</a>', text)
+        assert "".join(told.split("<wbr>")) == paper and max(map(len, told.split("<wbr>"))) <= 11
     figures = re.findall(r"<figure>.*?</figure>", text, re.DOTALL)
     assert figures and all(re.search(r"<figcaption>[^<]{20,}</figcaption>", figure) for figure in figures)
 

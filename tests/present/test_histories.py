@@ -17,6 +17,9 @@ from seisblock.records.process import crop
 from seisblock.solvers.jump.chain import FLIGHT, ROCKING
 from tests.present.long_record import DT, PAVILION, SAMPLES, SOLVED, motion, record, response
 
+VERTICES = 5
+"""Of a bar, whose last is its first."""
+
 DRAWN = {
     "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ/α": r["rotation"] / min(r.body.slendernesses)},
     "rock": lambda r: {"θ/α": r["rotation"] / r.outcome.slenderness_rad, "a (gal)": 100.0 * r["ground_acceleration"]},
@@ -187,7 +190,10 @@ def test_each_phase_that_can_be_seen_is_shaded():
     (axis,) = [axis for axis in figure_of([found]).axes if axis.get_ylabel() == "θ/α" and axis.patches]
     first, last = axis.get_xlim()
     shaded = [phase for phase in found.phases if phase.name != "rest" and phase.duration_s > (last - first) / 2000]
-    assert len(axis.patches) == len(shaded) > len([phase for phase in shaded if phase.duration_s > found.time[-1] / 2000]) > 3
+    bands = [band for patch in axis.patches for band in patch.get_path().vertices[:, 0].reshape(-1, VERTICES)]
+    assert sorted((band.min(), band.max()) for band in bands) == sorted((phase.start_s, phase.end_s) for phase in shaded)
+    assert len(axis.patches) == len({phase.name for phase in shaded})
+    assert len(shaded) > len([phase for phase in shaded if phase.duration_s > found.time[-1] / 2000]) > 3
 
 
 def test_what_did_not_happen_has_no_panel():

@@ -16,6 +16,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation
 
 from seisblock.present.directions import phase as called
+from seisblock.present.figures.bars import bars
 from seisblock.present.figures.fonts import set_letters
 from seisblock.present.files import check_figure, replacing
 from seisblock.present.wrap import columns
@@ -204,12 +205,13 @@ def panel_title(axis: Axes, text: str) -> None:
 
 def shade(axis: Axes, phases: Iterable[Phase], colours: dict[str, str], *, names: bool = False, direction: str = "") -> None:
     """Shade the phases that have a colour, and name each kind once when asked to, in the direction of the motion."""
-    named: set[str] = set()
+    stretches: dict[str, list[tuple[float, float]]] = {}
     for phase in phases:
         if phase.name in colours:
-            text = called(phase.name, direction) if names and phase.name not in named else None
-            named.add(phase.name)
-            axis.axvspan(phase.start_s, phase.end_s, color=colours[phase.name], linewidth=0, alpha=0.8, label=text)
+            stretches.setdefault(phase.name, []).append((phase.start_s, phase.end_s))
+    for name, spans in stretches.items():
+        text = called(name, direction) if names else None
+        axis.add_patch(bars(spans, transform=axis.get_xaxis_transform(), color=colours[name], linewidth=0, alpha=0.8, label=text))
 
 
 def threshold(axis: Axes, levels: Sequence[float], text: str = "") -> None:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from seisblock.present.figures.canvas import BETWEEN
 from seisblock.present.figures.fonts import has_letters
 from seisblock.records import Motion, Record
-from seisblock.records.site import earthquake_of, epicentral_distance_km, site_of, told_time
+from seisblock.records.site import earthquake_of, epicentral_distance_km, file_of, site_of, told_time
 from seisblock.words import listed, plain_text, tell
 
 LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
@@ -37,7 +37,7 @@ def heading_over(records: Sequence[Record | None], directions: Sequence[str] = (
     along = listed(map(direction, dict.fromkeys(name for name in directions if name)))
     if len(there) == 1:
         (record,) = there
-        parts = [name_of(record), told_time(record, record.start), _shook(record), along, "; ".join(_brief(record.history))]
+        parts = [_named(record), told_time(record, record.start), _shook(record), along, "; ".join(_brief(record.history))]
     else:
         parts = [listed(map(name_of, there)), along]
     return BETWEEN.join(plain_text(part) for part in parts if part)
@@ -58,6 +58,12 @@ def name_of(record: Record) -> str:
     """Return code and name of the station as far as they can be written, else the file's name."""
     site = site_of(record)
     return next((name for name in (site.label, site.code, record.source) if name and has_letters(name)), tell("record"))
+
+
+def _named(record: Record) -> str:
+    """Return what the only record of a figure is called: of a file its name without the folder."""
+    name = name_of(record)
+    return file_of(record) if name == record.source else name
 
 
 def _shook(record: Record) -> str:

@@ -198,13 +198,15 @@ def _share(answer: StationAnswer) -> float:
     return float(effect.happened or False) if effect.probability is None else effect.probability
 
 
-def title(found: Stations, subject: WhatStands | None) -> str:
+def title(found: Stations, subject: WhatStands | None, *, between: str = canvas.BETWEEN) -> str:
     """Return the line above: magnitude, name and time of the earthquake, and what stands there.
 
     Parameters
     ----------
     found : Stations
     subject : StandingBody, StandingStones or None
+    between : str
+        What stands between its parts.
     """
     earthquake = found.earthquake
     parts = []
@@ -212,7 +214,7 @@ def title(found: Stations, subject: WhatStands | None) -> str:
         parts += [f"M {earthquake.magnitude:.2g}"] if earthquake.magnitude else []
         parts += [earthquake.name, found.origin_told]
     parts += [tell(subject.name)] if subject is not None else []
-    return canvas.BETWEEN.join(part for part in parts if part)
+    return between.join(part for part in parts if part)
 
 
 def _epicentre(axis: Axes, found: Stations) -> None:

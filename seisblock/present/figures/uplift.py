@@ -12,6 +12,7 @@ from matplotlib.patches import Rectangle
 
 from seisblock.bodies.spring_block import CORNERS
 from seisblock.present.figures import canvas
+from seisblock.present.figures.bars import bars
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
@@ -74,7 +75,7 @@ def _motion(panel: Axes, called: str, response: Response[UpliftOutcome], *, gal:
 def _size(response: Response[UpliftOutcome]) -> str:
     """Return the block in words."""
     body = response.body
-    size = f"{body.width:g} × {body.depth:g} × {body.height:g} m"
+    size = f"{body.width:.3g} × {body.depth:.3g} × {body.height:.3g} m"
     return tell("{size}, {f:.3g} Hz vertical", size=size, f=body.omega[2] / 2 / np.pi)
 
 
@@ -137,17 +138,10 @@ def _plan(panel: Axes, response: Response[UpliftOutcome], start: float, end: flo
         panel.annotate(f"{i + 1}", (x - sx * 0.13 * body.width, y - sy * 0.13 * body.depth), ha="center", va="center", fontsize=9)
         left = x + 0.1 * body.width if sx > 0 else x - 0.1 * body.width - length
         panel.add_patch(_rectangle((left, y - tall / 2), length, tall, facecolor="white", edgecolor="0.6", linewidth=0.6))
-        for stretch in _in_air(response, i):
-            wide = max((stretch.end_s - stretch.start_s) / (end - start) * length, 0.002 * length)
-            panel.add_patch(
-                _rectangle(
-                    (left + (stretch.start_s - start) / (end - start) * length, y - tall / 2),
-                    wide,
-                    tall,
-                    facecolor=canvas.ACCENT,
-                    linewidth=0,
-                )
-            )
+        scale, least = length / (end - start), 0.002 * length
+        begins = [(left + (each.start_s - start) * scale, each.duration_s * scale) for each in _in_air(response, i)]
+        spans = [(begin, begin + max(wide, least)) for begin, wide in begins]
+        panel.add_patch(bars(spans, y - tall / 2, y + tall / 2, facecolor=canvas.ACCENT, linewidth=0))
         told = tell("{time:.2f} s in the air", time=corner.uplift_duration_s) if corner.uplifts else tell("never lifts")
         panel.annotate(told + (tell(", the first") if first else ""), (left, y + tall), fontsize=7, va="bottom")
     reach = half_a + 1.3 * body.width
@@ -156,7 +150,7 @@ def _plan(panel: Axes, response: Response[UpliftOutcome], start: float, end: flo
     lines = [tell("plan: when each corner was in the air, {start:.1f} to {end:.1f} s", start=start, end=end)]
     if not outcome.within_model:
         lines.append(tell("leans beyond what the model holds for: heights are not to be believed"))
-    panel.set_title("\n".join(lines), fontsize=8, loc="left")
+    panel.set_title("\n".join(lines), fontsize=8, loc="left", linespacing=1.4)
     canvas.label(panel, x="x (m)", y="y (m)")
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from seisblock.present.figures.embed import Picture
 from seisblock.present.page import page
-from seisblock.present.text.validate import KINDS, explanation, quantity, short
+from seisblock.present.text.validate import KINDS, explanation, quantity, short, unit
 from seisblock.references import REFERENCES
 from seisblock.validation.case import VERDICTS, WORTHS, CaseResult, counts, counts_by_kind, ranked
 from seisblock.words import noted, tell
@@ -20,6 +20,9 @@ FIELD_TEST = "furukawa-field-worn"
 
 WORDS = {"holds": noted("holds"), "differs": noted("differs"), "fails": noted("FAILS")}
 COLUMNS = (noted("expected"), noted("computed"), noted("error"), noted("tolerance"))
+WORD = re.compile(r"\d+|[A-Z]?[^A-Z\d]+|[A-Z]+")
+"""A name or the year of a paper's key, between which a line may end."""
+
 SIDE, MARGIN = 240.0, 34.0
 """Size of the overlay figure and the room for its labels, in its own units."""
 
@@ -100,11 +103,17 @@ def _by_paper(results: Sequence[CaseResult]) -> Iterator[tuple[str, list[CaseRes
         yield paper, [result for result in results if result.case.paper == paper]
 
 
-def _tile(paper: str, results: Sequence[CaseResult]) -> dict[str, str]:
+def _tile(paper: str, results: Sequence[CaseResult]) -> dict[str, Any]:
     """Return the summary of one paper."""
     counted = counts(results)
     level = "bad" if counted["fails"] else "mild" if counted["differs"] else ""
-    return {"paper": paper, "level": level, "text": tell("{holds} hold, {differs} differ as explained, {fails} fail", **counted)}
+    parts = WORD.findall(paper)
+    return {
+        "paper": paper,
+        "parts": parts,
+        "level": level,
+        "text": tell("{holds} hold, {differs} differ as explained, {fails} fail", **counted),
+    }
 
 
 def _kinds(results: Sequence[CaseResult]) -> dict[str, Any]:
@@ -129,7 +138,7 @@ def _paper(paper: str, results: Sequence[CaseResult]) -> dict[str, Any]:
 
 def _place(place: str, results: Sequence[CaseResult]) -> dict[str, Any]:
     """Return one equation, table or figure: its statements, its overlays, its largest difference."""
-    overlays = [_overlay(unit, results) for unit in dict.fromkeys(result.case.unit for result in results)]
+    overlays = [_overlay(each, results) for each in dict.fromkeys(unit(result.case) for result in results)]
     return {
         "name": place,
         "anchor": anchor(results[0].case.paper, place),
@@ -157,7 +166,7 @@ def _largest(results: Sequence[CaseResult]) -> str:
         return ""
     if not worst.error:
         return tell("Largest difference: none.")
-    size = f"{short(worst.error, 3)} {worst.case.unit if worst.case.unit != '1' else ''}".strip()
+    size = f"{short(worst.error, 3)} {unit(worst.case)}".strip()
     if math.isfinite(_tolerances(worst)):
         size = tell("{size}, {share:.2g} of its tolerance", size=size, share=_tolerances(worst))
     return tell("Largest difference: {size}.", size=f"{size} ({tell(worst.case.quantity)})")
@@ -194,15 +203,15 @@ def _mark(result: CaseResult) -> Mark:
     return Mark(max(60.0 * result.case.tolerance / reach, 1.0), at)
 
 
-def _overlay(unit: str, results: Sequence[CaseResult]) -> Overlay | None:
+def _overlay(named: str, results: Sequence[CaseResult]) -> Overlay | None:
     """Return computed against expected for the cases of one unit, None for fewer than four."""
-    points = [(r.expected, r.computed, r.verdict) for r in results if r.case.unit == unit and math.isfinite(r.computed)]
+    points = [(r.expected, r.computed, r.verdict) for r in results if unit(r.case) == named and math.isfinite(r.computed)]
     values = [value for x, y, _ in points for value in (x, y)]
     if len(points) < 4 or max(values) == min(values):
         return None
     margin = 0.06 * (max(values) - min(values))
     low, high = min(values) - margin, max(values) + margin
-    named = "" if unit in ("", "1") else f" ({unit})"
+    inside = f" ({named})" if named else ""
 
     def at(value: float) -> float:
         return (value - low) / (high - low) * Overlay.span
@@ -211,7 +220,7 @@ def _overlay(unit: str, results: Sequence[CaseResult]) -> Overlay | None:
         tuple((MARGIN + at(x), 8 + Overlay.span - at(y), verdict != "differs") for x, y, verdict in points),
         short(min(values), 3),
         short(max(values), 3),
-        tell("expected{unit}", unit=named),
-        tell("computed{unit}", unit=named),
+        tell("expected{unit}", unit=inside),
+        tell("computed{unit}", unit=inside),
         tell("{count} values of one kind: on the line computed and expected are the same; hollow ones differ.", count=len(points)),
     )

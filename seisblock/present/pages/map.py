@@ -72,7 +72,7 @@ def map_page(found: Stations, subject: WhatStands | None, *, gal: bool = True, s
     star = None if epicentre is None else _place(epicentre, centre)
     return page(
         "map.html",
-        title(found, subject) or tell("Stations"),
+        title(found, subject, between=" · ") or tell("Stations"),
         subtitles=[earthquake_told(earthquake, found.origin_told)] if earthquake else [],
         lead=verdict(found, subject),
         data={

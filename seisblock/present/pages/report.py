@@ -17,11 +17,14 @@ from seisblock.present.scales import acceleration_unit, length_unit, velocity_un
 from seisblock.present.text.tables import NOTHING, acceleration, history, number, seconds, told_acceleration
 from seisblock.present.text.whereabouts import whereabouts
 from seisblock.records.doubtful import sentences as doubts
-from seisblock.records.site import site_of, told_time
+from seisblock.records.site import file_of, site_of, told_time
 from seisblock.references import REFERENCES
 from seisblock.studies.assessment import Assessment, BodyAssessment, Effect
 from seisblock.studies.criteria_card import Card
 from seisblock.words import listed, noted, strung, tell
+
+UNBROKEN = "\u2011"
+"""A hyphen at which no line ends."""
 
 GOVERNING = "respond"
 ORDER = (GOVERNING, "rock", "slide", "jump", "uplift")
@@ -41,10 +44,11 @@ def report(found: Assessment, *, command: str = "") -> str:
         The command line that made it, for the provenance.
     """
     record = found.record
-    about = " · ".join(part for part in (told_time(record, record.start), f"{record.samples} × {record.dt:g} s", record.format) if part)
+    read_as = record.format.replace("-", UNBROKEN)
+    about = " · ".join(part for part in (told_time(record, record.start), f"{record.samples} × {record.dt:g} s", read_as) if part)
     return page(
         "report.html",
-        tell("What {name} does to what stands there", name=site_of(record).label or record.source or tell("record")),
+        tell("What {name} does to what stands there", name=site_of(record).label or file_of(record) or tell("record")),
         subtitles=[about, *whereabouts(record)],
         processed=history(record) if record.history else "",
         foot=", ".join(found.citations),
@@ -125,7 +129,7 @@ def _body(found: Assessment, body: BodyAssessment) -> dict[str, Any]:
         f"α {math.degrees(block.slenderness):.2f}°",
     ]
     about += [tell(edges(block))] if block.inset else []
-    about += [f"μ {friction:g} / {body.subject.mu_kinetic:g}"] if friction is not None else []
+    about += [f"μ {friction:g}\u00a0/\u00a0{body.subject.mu_kinetic:g}"] if friction is not None else []
     sections = [_section(found, body, kind) for kind in ORDER if _of(body, kind)]
     return {"name": tell(body.subject.name), "about": listed(about), "models": _models(body), "sections": sections}
 
@@ -146,9 +150,8 @@ def _section(found: Assessment, body: BodyAssessment, kind: str) -> dict[str, An
     worst = max(effects, key=words.severity)
     return {
         "name": tell(words.SECTIONS[kind]),
-        "effects": [
-            {"told": strung(words.sentences(effect)), "warnings": [tell(text) for text in effect.response.warnings]} for effect in effects
-        ],
+        "effects": [strung(words.sentences(effect)) for effect in effects],
+        "warnings": list(dict.fromkeys(tell(text) for effect in effects for text in effect.response.warnings)),
         "picture": _picture(worst, of=len(effects) if words.severity(worst) else 1) if kind in DRAWN else None,
         "criteria": _criteria(found, body, effects) if kind == "rock" else None,
     }
@@ -184,7 +187,7 @@ def _provenance(found: Assessment, command: str) -> list[tuple[str, str]]:
     """Return where everything comes from."""
     record, corner = found.record, found.measures.conventions.velocity_highpass_hz
     return [
-        (tell("file"), record.source.rsplit("/", 1)[-1] if record.source else NOTHING),
+        (tell("file"), file_of(record) or NOTHING),
         ("sha256", record.sha256),
         (tell("format"), record.format),
         (tell("processing"), history(record)),

@@ -23,7 +23,7 @@ SECTIONS = {
     "uplift": noted("Uplift from corner springs"),
 }
 LIMITS = noted(
-    "Each model is rigid and planar but for uplift. What it does is followed with all of its motions together; the idealised models below "
+    "Each model is rigid and planar but for uplift. What it does is followed with all of its motions together; the idealised models "
     "follow one motion each, by itself. Rocking is sensitive: read shares and margins before the verdict."
 )
 

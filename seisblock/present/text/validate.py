@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from seisblock.present.text.tables import line, table
-from seisblock.validation.case import VERDICTS, WORTHS, CaseResult, Verdict, Worth, counts, counts_by_kind
+from seisblock.validation.case import VERDICTS, WORTHS, Case, CaseResult, Verdict, Worth, counts, counts_by_kind
 from seisblock.words import noted, tell
 
 WIDTH = 110
@@ -35,7 +35,7 @@ KINDS: dict[Worth, str] = {
 
 
 def tables(results: Sequence[CaseResult], *, every: bool = True) -> Iterator[Any]:
-    """Yield what is printed: what fails, what differs and why, paper by paper; what holds, if all is asked for; the counts.
+    """Yield what is printed: how many hold; what fails, what differs and why, paper by paper; what holds, if all is asked for; counts.
 
     Parameters
     ----------
@@ -43,6 +43,7 @@ def tables(results: Sequence[CaseResult], *, every: bool = True) -> Iterator[Any
     every : bool
         Whether the cases that hold are listed, too.
     """
+    yield _count(results, every=every)
     for verdict in VERDICTS:
         chosen = [result for result in results if result.verdict == verdict]
         if chosen and (every or verdict != "holds"):
@@ -54,7 +55,6 @@ def tables(results: Sequence[CaseResult], *, every: bool = True) -> Iterator[Any
                 yield from [_grid(part)] if verdict == "holds" else _explained(part)
             yield line()
     yield _kinds(results)
-    yield _count(results, every=every)
 
 
 def _explained(results: Sequence[CaseResult]) -> Iterator[Any]:
@@ -94,7 +94,13 @@ def _grid(results: Sequence[CaseResult] = (), *, heading: bool = False) -> Any:
 
 def quantity(result: CaseResult) -> str:
     """Return what is compared, with its unit."""
-    return tell(result.case.quantity) + (f" ({result.case.unit})" if result.case.unit not in ("", "1") else "")
+    named = unit(result.case)
+    return tell(result.case.quantity) + (f" ({named})" if named else "")
+
+
+def unit(case: Case) -> str:
+    """Return the unit of a case as it is printed, nothing where it has none."""
+    return "" if case.unit == "1" else case.unit.replace("^2", "²")
 
 
 def labelled(result: CaseResult) -> str:
@@ -106,11 +112,22 @@ def labelled(result: CaseResult) -> str:
 LONGEST = 10
 """Most characters of a number in a column."""
 
+WHOLE, WHOLE_DIGITS = 1e5, 5
+"""Below this a number is told without a power of ten."""
+
 
 def short(value: float, digits: int = 5) -> str:
-    """Return a number with so many significant digits, in as few characters as that takes."""
+    """Return a number with so many significant digits, in as few characters as that takes.
+
+    Examples
+    --------
+    >>> short(909.6, 2), short(0.0123456), short(1e-12), short(12345678.0)
+    ('910', '0.012346', '1e-12', '1.2346e7')
+    """
     if not math.isfinite(value):
         return "-" if math.isnan(value) else str(value)
+    if 10.0**digits <= abs(value) < WHOLE:
+        value, digits = float(f"{value:.{digits}g}"), WHOLE_DIGITS
     text = f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e")
     return text if len(text) <= LONGEST or digits <= 2 else short(value, digits - 1)
 
@@ -126,7 +143,7 @@ def _kinds(results: Sequence[CaseResult]) -> Any:
 
 
 def _count(results: Sequence[CaseResult], *, every: bool) -> Text:
-    """Return the last line."""
+    """Return the first line."""
     counted = counts(results)
     counts_told = tell("{all} cases: {hold} hold, {differ} differ as explained, {fail} fail.", all=len(results), **_named(counted))
     told = line(counts_told, "bold red" if counted["fails"] else "")
