@@ -96,9 +96,7 @@ def _frequencies(panel: Axes, regions: Sequence[UpliftRegion], against: str) -> 
         panel.plot([], [], " ", label=" ")  # so that each column of the key holds one kind
     for index, fixed in enumerate(chosen):
         panel.plot([], [], color="0.85", linestyle=STYLES[index % len(STYLES)], label=f"{SYMBOLS[other]} = {fixed:.4g}")
-    for _ in range(len(chosen), len(groups)):
-        panel.plot([], [], " ", label=" ")
     panel.set_xlim(0.0, 3.0)
     panel.set_ylim(0.0, 5.0)
     canvas.label(panel, x=SYMBOLS[against], y="ωᵢ/ωᵥ")
-    canvas.legend(panel, ncols=2, loc="upper left", bbox_to_anchor=None, borderaxespad=0.5)
+    canvas.legend(panel, ncols=2 if len(chosen) >= len(groups) else 1, loc="upper left", bbox_to_anchor=None, borderaxespad=0.5)
