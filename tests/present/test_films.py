@@ -15,7 +15,7 @@ from PIL import Image
 from seisblock import Block, solve_respond, solve_rock
 from seisblock.bodies.spring_block import CORNERS
 from seisblock.measures import ground_history
-from seisblock.present.faces import FACES
+from seisblock.present.faces import FACES, figure_of
 from seisblock.present.films import jump, respond, rock, slide, stack, uplift
 from seisblock.present.films.animation import MOST_FRAMES, Filming, frame_times
 from seisblock.present.films.frames import film_frames, set_up
@@ -301,6 +301,21 @@ def test_a_fallen_stone_is_marked_from_its_fall_on():
     assert any(time is not None for time in fell.values())
     for name, solid in zip(found.body.names, film("stack", 20).scene.solids, strict=True):
         assert solid.fell_s == (math.inf if fell[name] is None else fell[name])
+
+
+def test_a_fallen_stone_has_no_slip_from_where_it_turns_away():
+    """Film and figure draw its slip until 0.2 s before the fall of the answer, and the figure says when it falls and to which side."""
+    found = response("stack")
+    (fell,) = (stone for stone in found.outcome.stones if stone.state == "fallen")
+    film_lines = next(strip for strip in film("stack", 20).strips if strip.label.startswith("slip")).lines
+    panels = figure_of([found]).axes
+    told = [text.get_text() for panel in panels for text in panel.texts]
+    assert any(text.startswith(f"{fell.name} falls at {fell.fell_at_s:.2f} s to ") for text in told), told
+    slips = next(panel for panel in panels if panel.get_ylabel().startswith("slip"))
+    figure_line = next(line for line in slips.get_lines() if line.get_label() == fell.name)
+    for time, slip in ((film_lines[0].time, film_lines[0].values), figure_line.get_data()):
+        drawn = np.asarray(time)[np.isfinite(slip)]
+        assert fell.fell_at_s - 0.25 < drawn.max() < fell.fell_at_s - 0.2
 
 
 def test_a_corner_is_drawn_in_the_air_when_it_is():

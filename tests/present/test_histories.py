@@ -26,7 +26,7 @@ DRAWN = {
     "slide": lambda r: {"x − z (cm)": 100.0 * r["displacement"], "velocity (kine)": 100.0 * (r["ground_velocity"] + r["velocity"])},
     "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "x of G (cm)": 100.0 * r["displacement"]},
     "uplift": lambda r: {f"u{'₁₂₃₄'[i]} (cm)": 100.0 * r[f"uplift_{i + 1}"] for i in range(4)},
-    "stack": lambda r: {"tilt θ (deg)": np.degrees(r["sao_tilt"]), "slip s (cm)": 100.0 * r["sao_slip"]},
+    "stack": lambda r: {"tilt θ (deg)": np.degrees(r["sao_tilt"]), "slip s (cm)": 100.0 * r["base_slip"]},
 }
 """What each model's figure shows of its response, by the label of the panel's axis."""
 

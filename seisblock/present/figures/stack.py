@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from seisblock.present.directions import towards
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
@@ -17,11 +18,15 @@ from seisblock.present.scales import Unit, acceleration_unit, length_unit
 from seisblock.present.text.stack import NOTICEABLE_SLIP, NOTICEABLE_TILT, Stacks
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome
+from seisblock.typing import FloatArray
 from seisblock.words import tell
 
 SHADES = ("#c0392b", "#1f5a8c", "#7d7d7d", "#b8860b", "#4f7f4f", "#7a4f8c", "#111111")
 DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1, 2)), (0, (1, 1)), (0, (8, 2, 2, 2)), "-")
 """Colours and dashes of the stones from above downwards; the dashes tell them apart in grey."""
+
+FALLING = 0.2
+"""How long before its fall a stone no longer slides but turns away, s."""
 
 
 def figure(responses: Stacks, *, gal: bool = True) -> Figure:
@@ -47,15 +52,15 @@ def _column(panels: Sequence[Any], called: str, response: Response[StackOutcome]
     for index, name in enumerate(reversed(response.body.names)):
         style: dict[str, Any] = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": tell(name)}
         curve(panels[1], response.time, np.degrees(response[f"{name}_tilt"]), **style)
-        curve(panels[2], response.time, response[f"{name}_slip"] / far.size, **style)
+        curve(panels[2], response.time, slip_of(response, name) / far.size, **style)
     for panel, quantity, factor in ((panels[1], "tilt", math.degrees(1.0)), (panels[2], "slip", 1.0 / far.size)):
         top = factor * largest(response, quantity)
         panel.set_ylim(-0.05 * top, 1.1 * top)
         for event in response.events:
             panel.axvline(event.time_s, color="0.3", linewidth=0.8, linestyle=(0, (2, 2)))
     if response.events:
-        falls = [f"{tell(event.name.removesuffix(' falls'))} {event.time_s:.2f} s" for event in response.events]
-        panels[1].text(0.01, 0.95, tell("falls: {stones}", stones=falls), transform=panels[1].transAxes, fontsize=7, va="top")
+        told = panels[1].text(0.01, 0.95, "\n".join(falls(response)), transform=panels[1].transAxes, fontsize=7, va="top", linespacing=1.4)
+        told.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0})
     canvas.legend(panels[0])
     canvas.legend(panels[1])
     canvas.panel_title(panels[0], f"+x = {called}: {tell(response.body.name)}")
@@ -64,11 +69,26 @@ def _column(panels: Sequence[Any], called: str, response: Response[StackOutcome]
         canvas.label(panel, y=text)
 
 
+def falls(response: Response[StackOutcome]) -> Iterator[str]:
+    """Yield which stone falls, when and to which side, in the order of time."""
+    fallen = [(stone.fell_at_s, stone) for stone in response.outcome.stones if stone.fell_at_s is not None]
+    for at, stone in sorted(fallen, key=lambda each: each[0]):
+        side = towards(stone.fell_towards_deg or 0.0, response.motion)
+        yield tell("{stone} falls at {time:.2f} s to {side}", stone=tell(stone.name), time=at, side=side)
+
+
+def slip_of(response: Response[StackOutcome], name: str) -> FloatArray:
+    """Return the slip of a stone against time, (n,), m; nothing from where it turns away to fall."""
+    fell = next(stone.fell_at_s for stone in response.outcome.stones if stone.name == name)
+    values = response[f"{name}_slip"]
+    return values if fell is None else np.where(response.time < fell - FALLING, values, np.nan)
+
+
 def largest(response: Response[StackOutcome], quantity: str) -> float:
     """Return the largest tilt or slip of the stones that stand, and of the others until they fell."""
     top = 1e-3
     for stone in response.outcome.stones:
-        before = response.time <= (np.inf if stone.fell_at_s is None else stone.fell_at_s - (0.2 if quantity == "slip" else 0.0))
+        before = response.time <= (np.inf if stone.fell_at_s is None else stone.fell_at_s - (FALLING if quantity == "slip" else 0.0))
         top = max(top, float(response[f"{stone.name}_{quantity}"][before].max(initial=0.0)))
     return top
 

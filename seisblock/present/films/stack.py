@@ -9,7 +9,7 @@ import numpy as np
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.present.figures.heading import heading_of
-from seisblock.present.figures.stack import DASHES, SHADES, largest, stretch
+from seisblock.present.figures.stack import DASHES, SHADES, largest, slip_of, stretch
 from seisblock.present.films.animation import REAL_TIME, Filming
 from seisblock.present.films.film import Film, Line, Strip, ground_strip, titled
 from seisblock.present.films.projector import animate_film
@@ -19,9 +19,6 @@ from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.typing import FloatArray
 from seisblock.words import listed, tell
-
-FALLING = 0.2
-"""How long before its fall a stone no longer slides but turns away, s."""
 
 
 def animate_stack(response: Response[StackOutcome], path: Path | str, filming: Filming = REAL_TIME) -> None:
@@ -64,9 +61,7 @@ def _lines(response: Response[StackOutcome], quantity: str, factor: float) -> tu
     """Return one curve per stone, in the colours and dashes of the figure; a slip ends where its stone falls."""
     lines = []
     for index, stone in enumerate(reversed(response.outcome.stones)):
-        values = response[f"{stone.name}_{quantity}"] * factor
-        if quantity == "slip" and stone.fell_at_s is not None:
-            values = np.where(response.time < stone.fell_at_s - FALLING, values, np.nan)
+        values = (slip_of(response, stone.name) if quantity == "slip" else response[f"{stone.name}_{quantity}"]) * factor
         dashes = DASHES[index % len(DASHES)]
         style = () if isinstance(dashes, str) else dashes[1]
         lines.append(Line(response.time, values, SHADES[index % len(SHADES)], tell(stone.name), style))
