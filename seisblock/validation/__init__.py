@@ -18,6 +18,8 @@ PAPERS: tuple[str, ...] = (
     "furukawa",
     "furukawa_field",
     "furukawa_pile",
+    "furukawa_dowel",
+    "stack_steps",
     "fema_p58",
 )
 """Modules of this package that export CASES."""

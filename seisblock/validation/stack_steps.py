@@ -1,0 +1,95 @@
+"""The stepping of `stack`: an impact leaves what Housner's block keeps at any step, and a pile that is shaken down creates no energy."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+import numpy as np
+
+from seisblock.bodies.pile.contact import PileContact
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.bodies.pile.toml import load_pile
+from seisblock.records.motion import Motion
+from seisblock.solvers.stack.solve import RIGID, SPRINGS, solve_stack
+from seisblock.units import STANDARD_GRAVITY
+from seisblock.validation.case import Case
+from seisblock.validation.furukawa_pile import kobe_like
+
+ALPHA = math.atan(0.25)
+START = 0.6
+"""Lean from which the block is let go, over its critical angle."""
+
+STIFF = PileContact(stiffness=1e10)
+BLOCK = Pile("block", (PileStone("block", 0.24, 0.24, 0.96),), mu=5.0)
+
+
+def kept() -> float:
+    """Return the lean after one impact over the critical angle, in closed form ([Housner1963]_)."""
+    left = (1.0 - 1.5 * math.sin(ALPHA) ** 2) ** 2
+    raised = math.cos(ALPHA * (1.0 - START)) - math.cos(ALPHA)
+    return 1.0 - math.acos(math.cos(ALPHA) + left * raised) / ALPHA
+
+
+def lean_after(law: str, step: float) -> float:
+    """Return the lean after one impact over the critical angle, stepped."""
+    still = Motion.from_arrays(np.zeros(161), 0.005)
+    contact = STIFF if law == SPRINGS else None
+    response = solve_stack(BLOCK, still, law=law, contact=contact, step=step, tilts={"block": START * ALPHA})
+    lean = 2.0 * np.arctan2(response["block_qy"], response["block_qw"]) / ALPHA
+    return float(-lean.min())
+
+
+def energy_created(law: str, points: int) -> float:
+    """Return the energy that a pile of five stones creates as it is shaken down, over its weight times its height."""
+    pile = load_pile("wagata")
+    outcome = solve_stack(pile, kobe_like("7", 0), law=law, points=points).outcome
+    weight = STANDARD_GRAVITY * sum(stone.mass for stone in pile.stones)
+    return outcome.created_j / (weight * pile.as_block().height)
+
+
+def _impact(law: str, step: float, tolerance: float) -> Case:
+    """Return the case of one impact at one step."""
+    laws = "rigid stones" if law == RIGID else "springs of 1e10 N/m^3"
+    return Case(
+        f"stack-steps-{law}-{step * 1e3:g}-ms",
+        "[Housner1963]_ rocking",
+        f"lean after one impact over alpha, H/B 4 let go at 0.6 alpha; {laws}, steps of {step * 1e3:g} ms",
+        "1",
+        kept,
+        tolerance,
+        partial(lean_after, law, step),
+        note="expected: closed form of the rigid block",
+        kind="derived",
+        quick=False,
+    )
+
+
+def _energy(law: str, points: int) -> Case:
+    """Return the case of the energy that one law creates."""
+    laws = "rigid stones on their edges" if law == RIGID else "springs at 5 x 5 points"
+    return Case(
+        f"stack-energy-{law}",
+        "[Jean1999]_ section 3" if law == RIGID else "[Furukawa2009]_ section 3(1)",
+        f"energy created over weight times height, a gravestone shaken down at JMA 7; {laws}",
+        "1",
+        0.0,
+        1e-4,
+        partial(energy_created, law, points),
+        note="whatever the shaking does, friction, dashpots and impacts take energy and never give any",
+        kind="derived",
+        quick=False,
+    )
+
+
+CASES = (
+    _impact(RIGID, 5e-3, 1e-4),
+    _impact(RIGID, 1e-3, 5e-5),
+    _impact(RIGID, 2e-4, 2e-5),
+    _impact(SPRINGS, 2e-4, 3e-3),
+    _impact(SPRINGS, 1e-4, 3e-3),
+    _energy(RIGID, 2),
+    _energy(SPRINGS, 5),
+)
+"""Every case on the stepping of piles."""
