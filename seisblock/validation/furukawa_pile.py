@@ -102,7 +102,7 @@ TABLE_5_DIFFERS = {
         "one motion on the table; of such noise a third to a half of the motions fell it, and the paper's own criterion has this cell on "
         "the line (table 5(b))",
     ),
-    ("7", True): (0.0, FRICTION + "With 0.7 for 0.438 half of the motions fell it"),
+    ("7", True): (0.0, FRICTION + "With 0.7 for 0.438 nine of the twelve motions fell it"),
 }
 """Cells of table 5 that differ: the share that falls today, and why."""
 
