@@ -60,12 +60,14 @@ class PileMemory(NamedTuple):
         Centres of the boxes and how far they reach.
     work : (23, 18) array
         Scratch.
-    who, table : (k, 6), (k, 60) arrays
+    who, table : (k, 8), (k, 66) arrays
         Rigid contacts of a step: their bodies and the slots they are remembered in, and what they are solved with.
     inverses, speeds : (m + 1, 9), (m + 1, 6) arrays
         Inverse inertia of the bodies as they lie, velocities and spins.
-    pace : (7,) array
+    pace : (9,) array
         Of the steps.
+    lying, beds : (m + 1, 3), (m + 1, 17, 14) arrays
+        Stones that lie still, and the points on which they do.
     """
 
     stretches: FloatArray
@@ -81,6 +83,8 @@ class PileMemory(NamedTuple):
     inverses: FloatArray
     speeds: FloatArray
     pace: FloatArray
+    lying: IntArray
+    beds: FloatArray
 
 
 class PileSettings(NamedTuple):
@@ -165,7 +169,13 @@ LAYOUT = _t.NamedTuple(
     PileLayout,
 )
 MEMORY = _t.NamedTuple(
-    (FOURFOLD, FOURFOLD, FOURFOLD, FOURFOLD, INTEGERS, MATRIX, MATRIX, MATRIX, INTEGER_TABLE, MATRIX, MATRIX, MATRIX, VECTOR), PileMemory
+    (
+        *(FOURFOLD, FOURFOLD, FOURFOLD, FOURFOLD),
+        *(INTEGERS, MATRIX, MATRIX, MATRIX),
+        *(INTEGER_TABLE, MATRIX, MATRIX, MATRIX, VECTOR),
+        *(INTEGER_TABLE, BLOCK),
+    ),
+    PileMemory,
 )
 SETTINGS = _t.NamedTuple((_t.float64, _t.float64, _t.int64, _t.boolean, _t.float64, _t.int64, _t.int64, _t.int64), PileSettings)
 CURSOR = _t.NamedTuple((INTEGERS, MATRIX), PileCursor)

@@ -15,7 +15,8 @@ from seisblock.solvers.stack.arguments import PileLayout, PileMemory
 from seisblock.solvers.stack.contact import FRICTION, KINETIC, SLOT
 from seisblock.solvers.stack.frames import AT, BODY, BOX, INERT, INERTIA, INVERSE, MASS, Q, R, X
 from seisblock.solvers.stack.impulse import ROW, SPEEDS
-from seisblock.solvers.stack.row import PACE
+from seisblock.solvers.stack.lying import BED
+from seisblock.solvers.stack.row import PACE, WHO
 from seisblock.solvers.stack.step import ALL_EDGES, CARRIER, JOINT, LEVEL, ORBITS, PAIR, PARTNER, POINT, SCRATCH, SIGMA
 from seisblock.typing import FloatArray, IntArray
 from seisblock.words import noted
@@ -93,11 +94,14 @@ class PileArrays:
             np.zeros((bodies, bodies)),
             np.zeros((self.boxes.shape[0], BOX)),
             np.zeros((SCRATCH, 18)),
-            np.zeros((most, 6), dtype=np.int64),
+            np.zeros((most, WHO), dtype=np.int64),
             np.zeros((most, ROW)),
             np.zeros((bodies, 9)),
             np.zeros((bodies, SPEEDS)),
             np.zeros(PACE),
+            # the ground lies
+            np.repeat([[0, 0, 0], [1, 0, 0]], [bodies - 1, 1], axis=0),
+            np.zeros((bodies, 1 + MOST_CORNERS, BED)),
         )
 
 

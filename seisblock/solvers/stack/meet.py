@@ -9,13 +9,10 @@ from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import CLINGS, EARLIER, ENTERED, OUTSIDE, PLACE, PUSH, REBOUND, SLIDES, SLOT
 from seisblock.solvers.stack.frames import relative
 from seisblock.solvers.stack.impulse import BOUNCE
-from seisblock.solvers.stack.row import enter, far_in, note
+from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
 from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
 
 _t = types()
-
-JOINTS, MEETINGS = range(2)
-"""What a contact belongs to."""
 
 NEARBY = 0.02
 """How far, m, a point of a meeting is sought of which it remembers the force."""
@@ -171,6 +168,13 @@ def _meet_joint(count, j, bodies, dt, pile, memory):
     return count
 
 
+@kernel(_t.boolean(_t.int64, LAYOUT, MEMORY), inline=True)
+def _both_lie(pair, pile, memory):
+    """Whether both stones of a pair lie still, and need not be solved for."""
+    a, b = pile.owner[pile.pairs[pair, 0]], pile.owner[pile.pairs[pair, 1]]
+    return memory.lying[a, POINTS] > 0 and memory.lying[b, POINTS] > 0
+
+
 @kernel(_t.int64(MATRIX, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def find(bodies, dt, look, pile, memory):
     """Make rows of every contact; return how many there are.
@@ -179,12 +183,13 @@ def find(bodies, dt, look, pile, memory):
     """
     count = 0
     for j in range(pile.joints.shape[0]):
-        if pile.constants[j, POINT + CLINGS] == 0.0:
+        pair = pile.joints[j, PAIR]
+        if pile.constants[j, POINT + CLINGS] == 0.0 and not _both_lie(pair, pile, memory):
             count = _meet_joint(count, j, bodies, dt, pile, memory)
     if look:
         bound(bodies, pile.boxes, pile.owner, memory.bounds)
     for pair in range(pile.pairs.shape[0]):
-        if memory.handled[pair] > 0:
+        if memory.handled[pair] > 0 or _both_lie(pair, pile, memory):
             continue
         if near(pile.pairs[pair, 0], pile.pairs[pair, 1], memory.bounds):
             count = _meet(count, pair, bodies, dt, pile, memory)

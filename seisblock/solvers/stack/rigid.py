@@ -14,8 +14,9 @@ from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
 from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GIVEN, IMPULSE, NORMAL, PRECISION, parting, press, settle
-from seisblock.solvers.stack.meet import JOINTS, find
-from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, KICKED, SWEPT, WHOLE
+from seisblock.solvers.stack.lying import carried, lie_down, rouse
+from seisblock.solvers.stack.meet import find
+from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
 from seisblock.solvers.stack.strike import at_impact, lay_floors, soonest, strikes, until_impact
 
 _t = types()
@@ -45,27 +46,35 @@ def _prepare(n, bodies, inert, memory):
             v[3 + p] = j[3 * p] * b[L] + j[3 * p + 1] * b[L + 1] + j[3 * p + 2] * b[L + 2]
 
 
-@kernel(_t.void(_t.int64, MATRIX, _t.boolean, _t.float64, MEMORY))
-def _leave(count, bodies, struck, pressed, memory):
-    """Add the impulses to the bodies as forces over the step, and remember where the next step finds them what pressed for a time."""
-    dt = memory.pace[KICKED]
-    for i in range(count):
-        a, b, row = memory.who[i, 0], memory.who[i, 1], memory.table[i]
-        kind, j, k, m = memory.who[i, 2], memory.who[i, 3], memory.who[i, 4], memory.who[i, 5]
-        slot = memory.joint_slots[j, k, m] if kind == JOINTS else memory.corner_slots[j, k, m]
-        p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
-        for i in range(3):
-            slot[EARLIER + i] = slot[PUSH + i]
-            slot[PUSH + i] = row[IMPULSE + i] / pressed
-        if struck:
-            p0, p1, p2 = p0 + row[GIVEN], p1 + row[GIVEN + 1], p2 + row[GIVEN + 2]
-        if p0 == 0.0 and p1 == 0.0 and p2 == 0.0:
+@kernel(_t.void(MEMORY))
+def _remember(memory):
+    """Keep where the next step finds them the forces that pressed, and what slid."""
+    pressed = memory.pace[PRESSED]
+    for i in range(int(memory.pace[ROWS])):
+        who, row = memory.who[i], memory.table[i]
+        a, b = who[FIRST], who[FIRST + 1]
+        slot = memory.joint_slots[who[3], who[4], who[5]] if who[2] == JOINTS else memory.corner_slots[who[3], who[4], who[5]]
+        for k in range(3):
+            slot[EARLIER + k] = slot[PUSH + k]
+            slot[PUSH + k] = row[IMPULSE + k] / pressed
+        if row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0:
             continue
-        u0, u1, u2 = parting(a, b, row, memory.speeds)
+        u0, u1, u2 = parting(who[0], who[1], row, memory.speeds)
         along = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
         slot[SLIDES] = 1.0 if u0 * u0 + u1 * u1 + u2 * u2 - along * along > SLIPS**2 else 0.0
         memory.touched[a, b] = 1.0
         memory.touched[b, a] = 1.0
+
+
+@kernel(_t.void(_t.int64, MATRIX, _t.boolean, MEMORY))
+def _leave(count, bodies, struck, memory):
+    """Add the impulses to the bodies as forces over the step."""
+    dt = memory.pace[KICKED]
+    for i in range(count):
+        row, a, b = memory.table[i], memory.who[i, FIRST], memory.who[i, FIRST + 1]
+        p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
+        if struck:
+            p0, p1, p2 = p0 + row[GIVEN], p1 + row[GIVEN + 1], p2 + row[GIVEN + 2]
         first, second = bodies[a], bodies[b]
         p0, p1, p2 = p0 / dt, p1 / dt, p2 / dt
         x, y, z = row[ARM_A], row[ARM_A + 1], row[ARM_A + 2]
@@ -110,24 +119,11 @@ def _strike(count, n, before, pile, memory):
             table[i, IMPULSE + k] = given * force
 
 
-@kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY))
-def hold(bodies, a0, a1, a2, whole, left, look, pile, memory):
-    """Add the forces that rigid contacts exert over a step, in axes that accelerate by (a0, a1, a2), gravity among it; return its length.
-
-    The step ends where a point strikes. The next one then begins with the impact.
-
-    Parameters
-    ----------
-    whole, left : float, s
-        A whole step, and what is left of it.
-    look : bool
-        Whether to find anew which boxes are near each other, with a margin for what they may move until the next time.
-    """
+@kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY))
+def _try(bodies, a0, a1, a2, left, look, pile, memory):
+    """Add the forces at the points of what does not lie still; return the length of the step."""
     n, pace, table = bodies.shape[0] - 1, memory.pace, memory.table
     before = 0.5 * pace[BEFORE]
-    pace[WHOLE] = whole
-    pace[FALL] = whole * (a0 * a0 + a1 * a1 + a2 * a2) ** 0.5
-    pace[AHEAD] = FORESIGHT if pace[KICKED] == whole and before + 0.5 * left == whole else 0.0
     _prepare(n, bodies, pile.inert, memory)
     count = find(bodies, left, look, pile, memory)
     _go_on(count, n, before, a0, a1, a2, pile, memory)
@@ -146,7 +142,35 @@ def hold(bodies, a0, a1, a2, whole, left, look, pile, memory):
             table[i, j] *= pressed
     lay_floors(count, step, memory)
     pace[SWEPT] = settle(count, memory.who, table, n, pile.inert, PRECISION * pace[FALL], memory.speeds)
-    _leave(count, bodies, struck, pressed, memory)
-    if struck:
-        pace[KICKED] = 0.0
+    _leave(count, bodies, struck, memory)
+    pace[STRUCK] = 1.0 if struck else 0.0
+    pace[ROWS] = count
+    pace[PRESSED] = pressed
+    return step
+
+
+@kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY))
+def hold(bodies, a0, a1, a2, whole, left, look, pile, memory):
+    """Add the forces that rigid contacts exert over a step, in axes that accelerate by (a0, a1, a2), gravity among it; return its length.
+
+    The step ends where a point strikes. The next one then begins with the impact.
+
+    Parameters
+    ----------
+    whole, left : float, s
+        A whole step, and what is left of it.
+    look : bool
+        Whether to find anew which boxes are near each other, with a margin for what they may move until the next time.
+    """
+    n, pace = bodies.shape[0] - 1, memory.pace
+    pace[WHOLE] = whole
+    pace[FALL] = whole * (a0 * a0 + a1 * a1 + a2 * a2) ** 0.5
+    pace[AHEAD] = FORESIGHT if pace[STRUCK] == 0.0 and pace[KICKED] == whole and 0.5 * (pace[BEFORE] + left) == whole else 0.0
+    step = _try(bodies, a0, a1, a2, left, look, pile, memory)
+    if not carried(n, bodies, a0, a1, a2, pile, memory):
+        rouse(n, bodies, memory)
+        pace[AHEAD] = 0.0
+        step = _try(bodies, a0, a1, a2, left, False, pile, memory)
+    _remember(memory)
+    lie_down(int(pace[ROWS]), n, pile, memory)
     return step

@@ -25,10 +25,24 @@ SWIFT, SLOW = 2.0, 0.5
 """A point is left out while its gap is wider than what so many times the greatest speed of its stone, and this speed, m/s, more, close in a
 step: what a stone strikes may turn it the other way round."""
 
-BEFORE, FALL, WHOLE, KICKED, AHEAD, SWEPT = range(6)
-PACE = 6
+BEFORE, FALL, WHOLE, KICKED, AHEAD, SWEPT, STRUCK, ROWS, PRESSED = range(9)
+PACE = 9
 """The length of the last step, s; the speed of a free fall of a whole step, m/s, and its length, s; the time over which velocities last
-changed, s; how far ahead of the last forces the next are looked for; how many sweeps that took."""
+changed, s; how far ahead of the last forces the next are looked for; how many sweeps that took; whether something struck; how many contacts
+there were; and the time over which they pressed, s."""
+
+
+POINTS, SUPPORT, WAIT = range(3)
+LYING = 3
+"""Of a stone that lies: on how many points, none where it is solved for; on which body. Of others: for how many steps they were still."""
+
+FIRST = 6
+WHO = 8
+"""Where a contact's integers keep its two bodies as they are; before them stand the two as they are solved for, what lies being ground,
+and the slot that remembers it (4)."""
+
+JOINTS, MEETINGS = range(2)
+"""What a contact belongs to."""
 
 
 @kernel(_t.int64(_t.int64, _t.int64, _t.int64, VECTOR, _t.float64, _t.float64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
@@ -51,12 +65,15 @@ def enter(count, c, p, slot, gap, far, k, bodies, dt, pile, memory):
             slot[PUSH + i] = 0.0
             slot[EARLIER + i] = 0.0
         slot[SLIDES] = 0.0
-    answers(a, b, ground, pile.inert, memory.inverses, row)
+    who = memory.who[count]
+    who[FIRST] = a
+    who[FIRST + 1] = b
+    who[0] = a if memory.lying[a, POINTS] == 0 else ground
+    who[1] = b if memory.lying[b, POINTS] == 0 else ground
+    answers(who[0], who[1], ground, pile.inert, memory.inverses, row)
     row[MU] = k[KINETIC] if slot[SLIDES] > 0.0 else k[FRICTION]
     for i in range(3):
         row[IMPULSE + i] = slot[PUSH + i] + memory.pace[AHEAD] * (slot[PUSH + i] - slot[EARLIER + i])
-    memory.who[count, 0] = a
-    memory.who[count, 1] = b
     return count + 1
 
 

@@ -28,7 +28,7 @@ from seisblock.solvers.stack.impulse import (
     SWERVE,
     parting,
 )
-from seisblock.solvers.stack.row import FALL, WHOLE
+from seisblock.solvers.stack.row import FALL, FIRST, WHOLE
 
 _t = types()
 
@@ -70,7 +70,7 @@ def _opposite(i, count, memory):
     found, most = i, 0.0
     x, y, z = memory.table[i, ARM_B], memory.table[i, ARM_B + 1], memory.table[i, ARM_B + 2]
     for j in range(count):
-        if memory.who[j, 0] != memory.who[i, 0] or memory.who[j, 1] != memory.who[i, 1]:
+        if memory.who[j, FIRST] != memory.who[i, FIRST] or memory.who[j, FIRST + 1] != memory.who[i, FIRST + 1]:
             continue
         row = memory.table[j]
         away = (row[ARM_B] - x) ** 2 + (row[ARM_B + 1] - y) ** 2 + (row[ARM_B + 2] - z) ** 2
