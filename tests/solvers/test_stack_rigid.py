@@ -1,6 +1,7 @@
 """A pile of rigid stones obeys the mechanics that are known without it."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -150,6 +151,22 @@ def test_a_pile_at_rest_stays():
     response = solve_stack(load_pile("wagata"), Motion.from_arrays(1.5 * np.sin(12.0 * time), 0.01))
     assert max(float(np.ptp(response[f"{name}_{axis}"])) for name in response.body.names for axis in "xyz") < 1e-5
     assert all(stone.state == "standing" for stone in response.outcome.stones)
+
+
+def test_what_lies_still_carries_what_is_asked_of_it_or_moves():
+    """A stone that rocks on two that lie rocks as on the ground; a joint that has to slide or to open under it does."""
+    stones = (PileStone("foot", 0.5, 0.5, 0.25), PileStone("middle", 0.36, 0.36, 0.25, on="foot"))
+    head = PileStone("block", WIDTH, WIDTH, 3.0 * WIDTH)
+    motion = cycle(3.9, 2.0)
+    alone = solve_stack(Pile("alone", (head,), mu=0.8), motion).outcome
+    above = solve_stack(Pile("above", (*stones, replace(head, on="middle")), mu=0.8), motion).outcome
+    assert alone.max_tilt_rad["block"] > 0.01
+    assert above.max_tilt_rad["block"] == pytest.approx(alone.max_tilt_rad["block"], rel=0.01)
+    assert above.max_tilt_rad["middle"] < 1e-5
+    narrow = PileStone("middle", 0.1, 0.36, 0.25, on="foot")
+    assert (
+        solve_stack(Pile("narrow", (stones[0], narrow, replace(head, on="middle")), mu=0.8), motion).outcome.max_tilt_rad["middle"] > 0.01
+    )
 
 
 def test_turning_pile_and_shaking_by_a_right_angle_changes_little():
