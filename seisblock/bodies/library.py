@@ -8,12 +8,11 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.bodies.ranges import ranges_of
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.scan.toml import scanned_body
-from seisblock.bodies.toml import length, mass, number, read_table, refuse_unknown, shown, source_of, text
+from seisblock.bodies.toml import inset_of, length, mass, number, read_table, refuse_unknown, shown, source_of, text
 from seisblock.bodies.two_layer import contact, two_layer_block
 from seisblock.errors import BodyError
 from seisblock.records import Motion
@@ -70,7 +69,7 @@ def block_of(table: Mapping[str, Any], *, side: str = "short") -> Block:
     if "mass" in table:
         given["mass"] = mass(table, "mass")
     block = Block(**given, name=text(table, "name", where))
-    worn = block.worn(_inset(table)) if "inset" in table else block
+    worn = block.worn(inset_of(table)) if "inset" in table else block
     known = ranges_of(table, {"width": worn.width, "height": worn.height, "inset": worn.inset, "mu": number(table, "mu")})
     return worn if known is None else replace(worn, ranges=known)
 
@@ -96,12 +95,6 @@ def along(body: AnyBody, motion: Motion) -> AnyBody | Block:
     True
     """
     return body.along(motion) if isinstance(body, ScannedBody) else body
-
-
-def _inset(table: Mapping[str, Any]) -> Inset:
-    """Return the inset of a table: a text with a length or a share, or a share of the width per side."""
-    value = table["inset"]
-    return parse_inset(value) if isinstance(value, str) else Inset(share=number(table, "inset") or 0.0)
 
 
 def restitution_of(table: Mapping[str, Any], name: str) -> float | None:

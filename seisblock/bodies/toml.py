@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from seisblock import checks
+from seisblock.bodies.inset import Inset, parse_inset
 from seisblock.contents import contents
 from seisblock.errors import BodyError
 from seisblock.samples import sample_directory
@@ -126,6 +127,18 @@ def lengths(table: Mapping[str, Any], key: str, count: int) -> tuple[float, ...]
     """Return a required list of lengths in metres."""
     what = said("{source}: {key}", source=source_of(table), key=key)
     return tuple(parse_length(entry, what=what) for entry in _of_length(table, key, count))
+
+
+def inset_of(table: Mapping[str, Any]) -> Inset:
+    """Return the inset of a table: a text with a length or a share, or a share of the width per side; sharp where there is none.
+
+    Examples
+    --------
+    >>> inset_of({"inset": "1cm"}), inset_of({"inset": 0.1}).share, inset_of({}).share
+    (Inset(length_m=0.01, share=0.0), 0.1, 0.0)
+    """
+    value = table.get("inset")
+    return parse_inset(value) if isinstance(value, str) else Inset(share=number(table, "inset") or 0.0)
 
 
 def mass(table: Mapping[str, Any], key: str) -> float:

@@ -14,11 +14,12 @@ from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
-from seisblock.cli.types import Touching
+from seisblock.cli.types import INSET, Touching
 from seisblock.cli.versions import version_options, widths_of
 from seisblock.words import said
 
 if TYPE_CHECKING:
+    from seisblock.bodies.inset import Inset
     from seisblock.bodies.pile.pile import Pile
 
 DEFAULT_PILE = "wagata"
@@ -51,7 +52,7 @@ COARSEST = 29
     default=DEFAULT_PILE,
     show_default=True,
     section="Body",
-    help="TOML file of the pile, or a bundled one: wagata, lantern.",
+    help="TOML file of the pile, or a bundled one: wagata, lantern, column.",
 )
 @option("--reinforced", is_flag=True, section="Body", help="Put in the dowels that the file names.")
 @option(
@@ -64,6 +65,14 @@ COARSEST = 29
     shell_complete=offered.stones,
     section="Body",
     help="Let a stone move with the ground; may be repeated.",
+)
+@option(
+    "--inset",
+    type=INSET,
+    metavar="SHARE|M",
+    section="Body",
+    help="How far in from each side of its base every stone's worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm); "
+    "--contact edges. [default: the file's own, or 0]",
 )
 @option("--mu", type=float, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
 @option("--mu-kinetic", type=float, help="Friction of every joint that slides, 1; at most --mu; --law rigid. [default: as --mu]")
@@ -135,6 +144,7 @@ def stack(
     reinforced: bool,
     without: tuple[str, ...],
     fix: tuple[str, ...],
+    inset: Inset | None,
     mu: float | None,
     criterion: bool,
     grid: int,
@@ -159,6 +169,7 @@ def stack(
         raise ParameterError("rigid stones have no springs: leave --young and --joint-stiffness out, or choose --law springs")
     contact = PileContact(young=young, stiffness=stiffness, damping_ratio=damping) if springs else None
     body = _pile(stones, reinforced, mu, without, fix)
+    body = body if inset is None else body.worn(inset)
     say(
         "pile: {name}, {count} stones, mu {mu:g}{dowels}",
         name=said(body.name),

@@ -56,7 +56,7 @@ FITTING: dict[str, Sequence[str]] = {
     "slow": ("1", "2"),
     "grid": ("13", "29"),
     "block": ("gravestone", "chozusha", "wagata", "body.toml", "wide.toml", "small.csv", "nobody"),
-    "stones": ("wagata", "lantern", "body.toml", "pile.toml"),
+    "stones": ("wagata", "lantern", "column", "body.toml", "pile.toml"),
     "body": ("gravestone", "chozusha", "24cm x 72cm", "24x72", "body.toml", "wide.toml"),
     "cemetery": ("aoyama.csv", "stones.csv", "small.csv"),
     "mu": ("0.2", "0.18", "0.5", "0.1:0.4:0.1"),

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Protocol
 
-from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone
+from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, lies_over
 from seisblock.errors import BodyError
 from seisblock.words import noted, said
 
@@ -93,7 +93,7 @@ def _check_overlaps(pile: Standing) -> None:
         for j in range(i):
             other = pile.stones[j]
             inside = min(0.5 * (stone.size[k] + other.size[k]) - abs(a[k] - centres[j][k]) for k in range(3))
-            if inside > TOUCHING:
+            if inside > TOUCHING and lies_over(a, stone, centres[j], other):
                 raise BodyError(
                     "the stones {one} and {other} overlap by {inside:.4g} m: move one of them",
                     one=other.name,

@@ -1,4 +1,4 @@
-"""A pile of rectangular stones: gravestones, lanterns, pagodas, columns of drums, stacked crates."""
+"""A pile of rectangular and round stones: gravestones, lanterns, pagodas, columns of drums, stacked crates."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.inset import Inset
 from seisblock.bodies.pile.checks import check_pile
-from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, overlap, span
+from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, lies_over, overlap, span
 from seisblock.bodies.ranges import Ranges
 
 
@@ -74,7 +75,7 @@ class Pile:
             for lower, below in enumerate(self.stones):
                 if lower != upper and abs(centres[lower][2] + 0.5 * below.height - floor) <= TOUCHING:
                     shared = [overlap(centres[upper][k], stone.size[k], centres[lower][k], below.size[k]) for k in (0, 1)]
-                    if all(high - low > TOUCHING for low, high in shared):
+                    if lies_over(centres[upper], stone, centres[lower], below):
                         made.append(Joint(upper, lower, shared[0], shared[1], floor))
         return made
 
@@ -109,8 +110,7 @@ class Pile:
         mass = sum(self.stones[i].mass for i in loose)
         x, z = (sum(self.stones[i].mass * centres[i][axis] for i in loose) / mass for axis in (0, 2))
         inertia = sum(
-            self.stones[i].mass
-            * ((self.stones[i].width ** 2 + self.stones[i].height ** 2) / 12 + (centres[i][0] - x) ** 2 + (centres[i][2] - z) ** 2)
+            self.stones[i].mass * (float(self.stones[i].gyration_squared[1]) + (centres[i][0] - x) ** 2 + (centres[i][2] - z) ** 2)
             for i in loose
         )
         top = max(centres[i][2] + 0.5 * self.stones[i].height for i in loose)
@@ -123,8 +123,21 @@ class Pile:
             centroid_offset=x - 0.5 * (low + high),
             centroid_inertia=inertia,
             name=self.name,
+            inset=max(self.stones[i].insets()[0] for i in feet),
             ranges=self.ranges,
         )
+
+    def worn(self, inset: Inset | float) -> Pile:
+        """Return the pile with worn edges: every stone with the same share of its width per side, or the same inset.
+
+        Examples
+        --------
+        >>> from seisblock.bodies.pile.toml import load_pile
+        >>> [round(stone.insets()[0], 4) for stone in load_pile("lantern").worn(0.1).stones]
+        [0.06, 0.026, 0.048, 0.034, 0.064, 0.02]
+        """
+        same = inset if isinstance(inset, Inset) else Inset(share=inset)
+        return replace(self, stones=tuple(replace(stone, inset=same) for stone in self.stones))
 
     def dowelled(self, *names: str) -> Pile:
         """Return the pile with these stones held together."""

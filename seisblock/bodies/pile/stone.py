@@ -1,12 +1,16 @@
-"""One rectangular stone of a pile, and the joint between two."""
+"""One stone of a pile, rectangular or round, and the joint between two."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from seisblock import checks
-from seisblock.errors import BodyError
+from seisblock.bodies.inset import SHARP, Inset
+from seisblock.errors import BodyError, ParameterError
+from seisblock.typing import FloatArray
 
 GROUND = "ground"
 """What the lowest stones stand on."""
@@ -14,17 +18,19 @@ GRANITE = 2650.0
 """Density of granite, kg/m^3; the motion of a pile of one stone does not depend on it."""
 TOUCHING = 1e-6
 """Faces this close, m, touch."""
+RECTANGULAR, ROUND = "rectangular", "round"
+"""Shapes in plan."""
 
 
 @dataclass(frozen=True)
 class PileStone:
-    """One rectangular stone of a pile.
+    """One stone of a pile: a cuboid, or an upright cylinder.
 
     Parameters
     ----------
     name : str
     width, depth, height : float, m
-        Sizes along x, y and z.
+        Sizes along x, y and z; of a round stone the first two are its diameter.
     offset : (float, float), m
         Where its centre is seen from the centre of the stone (or the point of the ground) it stands on, along x and y.
     on : str
@@ -34,11 +40,22 @@ class PileStone:
         Friction of the joint under it; None: that of the pile.
     bottom : float or None, m
         Height of its lower face above the ground; None: the upper face of the stone it stands on.
+    shape : str
+        ``rectangular`` or ``round`` in plan.
+    inset : Inset
+        How far in from the sides of its base it turns, at worn edges; its mass and inertia stay as they are.
 
     Raises
     ------
     BodyError
-        If a size or the density is not positive, or the friction negative.
+        If a size or the density is not positive, or the friction negative; if a round stone is not as deep as it is wide, the shape is
+        unknown, or the inset leaves nothing of the base.
+
+    Examples
+    --------
+    >>> drum = PileStone("drum", 1.0, 1.0, 0.5, shape="round")
+    >>> round(drum.mass / (drum.density * 0.5), 4), drum.gyration_squared.round(4).tolist()
+    (0.7854, [0.0833, 0.0833, 0.125])
     """
 
     name: str
@@ -50,6 +67,8 @@ class PileStone:
     density: float = GRANITE
     mu: float | None = None
     bottom: float | None = None
+    shape: str = RECTANGULAR
+    inset: Inset = SHARP
 
     def __post_init__(self) -> None:
         checks.positive("width of the stone {name}", self.width, "m", error=BodyError, name=self.name)
@@ -62,6 +81,25 @@ class PileStone:
             raise BodyError(
                 "offset of the stone {name} takes two lengths, along x and y; found {found}", name=self.name, found=str(self.offset)
             )
+        if self.shape not in (RECTANGULAR, ROUND):
+            raise BodyError(
+                "the shape of the stone {name} must be {one!r} or {other!r}, found {found!r}",
+                name=self.name,
+                one=RECTANGULAR,
+                other=ROUND,
+                found=self.shape,
+            )
+        if self.is_round and self.width != self.depth:
+            raise BodyError(
+                "the stone {name} is round, so that it is as deep as it is wide: found {width:g} m and {depth:g} m",
+                name=self.name,
+                width=self.width,
+                depth=self.depth,
+            )
+        try:
+            self.insets()
+        except ParameterError as error:
+            raise BodyError("the stone {name}: {why}", name=self.name, why=error.said) from None
 
     @property
     def size(self) -> tuple[float, float, float]:
@@ -69,9 +107,24 @@ class PileStone:
         return self.width, self.depth, self.height
 
     @property
+    def is_round(self) -> bool:
+        """Whether it is a cylinder."""
+        return self.shape == ROUND
+
+    @property
     def mass(self) -> float:
         """Mass, kg."""
-        return self.density * self.width * self.depth * self.height
+        return self.density * self.width * self.depth * self.height * (0.25 * math.pi if self.is_round else 1.0)
+
+    @property
+    def gyration_squared(self) -> FloatArray:
+        """Squared radii of gyration about x, y and z through its centre, (3,), m^2, homogeneous as it is."""
+        w, d, h = (side * side for side in self.size)
+        return np.array([d / 16 + h / 12, w / 16 + h / 12, w / 8]) if self.is_round else np.array([d + h, w + h, w + d]) / 12.0
+
+    def insets(self) -> tuple[float, float]:
+        """Return how far in from the sides of its base it turns, along x and along y, m."""
+        return self.inset.of(self.width), self.inset.of(self.depth)
 
 
 @dataclass(frozen=True)
@@ -93,6 +146,25 @@ class Joint:
     x: tuple[float, float]
     y: tuple[float, float]
     height: float
+
+
+def lies_over(centre: tuple[float, float, float], stone: PileStone, other_centre: tuple[float, float, float], other: PileStone) -> bool:
+    """Return whether two stones share more than a touch in plan, m.
+
+    Examples
+    --------
+    >>> drum, slab = PileStone("drum", 1.0, 1.0, 0.5, shape="round"), PileStone("slab", 1.0, 1.0, 0.5)
+    >>> lies_over((0.0, 0.0, 0.0), slab, (0.9, 0.9, 0.0), slab), lies_over((0.0, 0.0, 0.0), drum, (0.9, 0.9, 0.0), slab)
+    (True, False)
+    """
+    away = [abs(centre[k] - other_centre[k]) for k in (0, 1)]
+    if stone.is_round and other.is_round:
+        return 0.5 * (stone.width + other.width) - math.hypot(*away) > TOUCHING
+    apart = [away[k] - sum(0.5 * each.size[k] for each in (stone, other) if not each.is_round) for k in (0, 1)]
+    reach = sum(0.5 * each.width for each in (stone, other) if each.is_round)
+    if reach == 0.0:
+        return max(apart) < -TOUCHING
+    return reach - math.hypot(*(max(0.0, gap) for gap in apart)) > TOUCHING
 
 
 def span(centre: float, size: float) -> tuple[float, float]:

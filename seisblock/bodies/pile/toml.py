@@ -8,27 +8,40 @@ from pathlib import Path
 from typing import Any
 
 from seisblock.bodies.pile.pile import Pile
-from seisblock.bodies.pile.stone import GRANITE, GROUND, PileStone
+from seisblock.bodies.pile.stone import GRANITE, GROUND, RECTANGULAR, ROUND, PileStone
 from seisblock.bodies.ranges import ranges_of
-from seisblock.bodies.toml import length, lengths, number, of_kind, read_table, refuse_unknown, source_of, text, text_groups, texts
+from seisblock.bodies.toml import (
+    inset_of,
+    length,
+    lengths,
+    number,
+    of_kind,
+    read_table,
+    refuse_unknown,
+    source_of,
+    text,
+    text_groups,
+    texts,
+)
 from seisblock.errors import BodyError
 from seisblock.limits import check_budget
 from seisblock.words import noted, said
 
-_PILE_KEYS = {"name", "kind", "mu", "density", "reinforced", "fixed", "stone", "note", "ranges"}
-_STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "bottom"}
+_PILE_KEYS = {"name", "kind", "mu", "density", "inset", "reinforced", "fixed", "stone", "note", "ranges"}
+_STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "bottom", "shape", "inset"}
 
 
 def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = None) -> Pile:
-    """Return a pile of stones from a TOML file, or a bundled one by its name (``wagata``, ``lantern``).
+    """Return a pile of stones from a TOML file, or a bundled one by its name (``wagata``, ``lantern``, ``column``).
 
     Parameters
     ----------
     name : str or Path
         ``kind = "pile"``, and one ``[[stone]]`` table per stone, from below upwards: ``name``, ``width``, ``depth``, ``height``
-        (numbers in m or texts such as ``"8sun"``); optional ``offset`` (two lengths), ``on``, ``density``, ``mu``, ``bottom``.
-        On top: ``name``, ``mu``, ``density``, ``fixed`` (list of names), ``reinforced`` (list of lists of names that dowels hold);
-        ``[ranges]`` of its kind, as of a block.
+        (numbers in m or texts such as ``"8sun"``); optional ``offset`` (two lengths), ``on``, ``density``, ``mu``, ``bottom``,
+        ``shape = "round"`` (``width`` is then its diameter, and ``depth`` may be left out), ``inset`` as of a block.
+        On top: ``name``, ``mu``, ``density``, ``inset``, ``fixed`` (list of names), ``reinforced`` (list of lists of names that dowels
+        hold); ``[ranges]`` of its kind, as of a block.
     reinforced : bool
         Whether the dowels of the file are in place.
     mu : float or None, 1
@@ -75,14 +88,17 @@ def _stone(entry: Mapping[str, Any], below: str, table: Mapping[str, Any]) -> Pi
         raise BodyError("{source}: name is missing", source=entry["source"])
     x, y = lengths(entry, "offset", 2) if "offset" in entry else (0.0, 0.0)
     own, common = number(entry, "density"), number(table, "density")
+    shape = text(entry, "shape", RECTANGULAR)
     return PileStone(
         entry["name"],
         length(entry, "width"),
-        length(entry, "depth"),
+        length(entry, "width" if shape == ROUND and "depth" not in entry else "depth"),
         length(entry, "height"),
         (x, y),
         text(entry, "on", below),
         own if own is not None else GRANITE if common is None else common,
         number(entry, "mu"),
         length(entry, "bottom") if "bottom" in entry else None,
+        shape,
+        inset_of(entry if "inset" in entry else table),
     )

@@ -24,7 +24,7 @@ def rigid_top(body: Pile, points: int) -> Block:
     floor = float(centres[0, 2]) - 0.5 * stones[0].height
     x, _, z = masses @ centres / masses.sum()
     inertia = sum(
-        m * ((s.width**2 + s.height**2) / 12.0 + (c[0] - x) ** 2 + (c[2] - z) ** 2) for m, s, c in zip(masses, stones, centres, strict=True)
+        m * (float(s.gyration_squared[1]) + (c[0] - x) ** 2 + (c[2] - z) ** 2) for m, s, c in zip(masses, stones, centres, strict=True)
     )
     return Block(
         stones[0].width,
@@ -35,5 +35,5 @@ def rigid_top(body: Pile, points: int) -> Block:
         centroid_offset=float(x - centres[0, 0]),
         centroid_inertia=float(inertia),
         name=stones[-1].name,
-        inset=0.0 if points == 2 else stones[0].width / (2.0 * points),
+        inset=stones[0].insets()[0] if points == 2 else stones[0].width / (2.0 * points),
     )

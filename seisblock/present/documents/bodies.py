@@ -160,6 +160,10 @@ class StoneEntry(Struct, frozen=True, kw_only=True):
         Friction of the joint under it; null: that of the pile.
     bottom_m : float or None
         Height of its lower face above the ground; null: the upper face of what it stands on.
+    shape : str
+        In plan: rectangular or round.
+    inset_m : two floats
+        How far in from the sides of its base it turns, along x and y.
     """
 
     name: str
@@ -171,6 +175,8 @@ class StoneEntry(Struct, frozen=True, kw_only=True):
     density_kg_m3: float
     mu: float | None
     bottom_m: float | None
+    shape: str
+    inset_m: tuple[float, float]
 
 
 class PileEntry(Struct, frozen=True, kw_only=True):
@@ -209,6 +215,8 @@ def pile_entry(pile: Pile) -> PileEntry:
             density_kg_m3=stone.density,
             mu=stone.mu,
             bottom_m=stone.bottom,
+            shape=stone.shape,
+            inset_m=stone.insets(),
         )
         for stone in pile.stones
     )

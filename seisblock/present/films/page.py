@@ -132,9 +132,15 @@ def _space(scene: Space) -> dict[str, Any]:
 
 
 def _solid(solid: Solid) -> dict[str, Any]:
-    """Return a cuboid."""
+    """Return a cuboid or a cylinder."""
     fell = solid.fell_s if math.isfinite(solid.fell_s) else None
-    return {"size": solid.size, "centre": _columns(solid.centre), "turn": _columns(solid.turn), "fell": fell}
+    return {
+        "size": solid.size,
+        "centre": _columns(solid.centre),
+        "turn": _columns(solid.turn),
+        "fell": fell,
+        "round": solid.is_round,
+    }
 
 
 def _spring(spring: Spring) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""A scene in three dimensions, seen without perspective: cuboids on a patch of ground, some on springs at their corners."""
+"""A scene in three dimensions, seen without perspective: cuboids and cylinders on a patch of ground, some on springs at their corners."""
 
 from __future__ import annotations
 
@@ -25,30 +25,47 @@ MOMENTS = 100.0
 FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 
+SIDES = 20
+"""Of the prism that a cylinder is drawn as."""
+
+_AROUND = 2.0 * math.pi * np.arange(SIDES) / SIDES
+RIMS = np.array([(0.5 * math.cos(a), 0.5 * math.sin(a), z) for z in (-0.5, 0.5) for a in _AROUND])
+MANTLE = tuple((i, (i + 1) % SIDES, SIDES + (i + 1) % SIDES, SIDES + i) for i in range(SIDES))
+CAPS = (tuple(reversed(range(SIDES))), tuple(range(SIDES, 2 * SIDES)))
+
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """A cuboid.
+    """A cuboid, or an upright cylinder.
 
     Parameters
     ----------
     size : (float, float, float), m
+        Of a cylinder the first two are its diameter.
     centre : (n, 3) array, m
         Relative to the ground.
     turn : (n, 4) array
         Quaternions w, x, y, z.
     fell_s : float, s
         From when its edges are marked; infinite where it never falls.
+    is_round : bool
+        Whether it is a cylinder.
     """
 
     size: tuple[float, float, float]
     centre: FloatArray
     turn: FloatArray
     fell_s: float = math.inf
+    is_round: bool = False
 
     def placed(self, index: int) -> FloatArray:
-        """Return its corners in picture `index`, (8, 3), m relative to the ground."""
-        return self.centre[index] + rotated(self.turn[index], CORNERS * np.array(self.size))
+        """Return its corners in picture `index`, (8, 3), m relative to the ground; (40, 3) on the rims of a cylinder."""
+        return self.centre[index] + rotated(self.turn[index], (RIMS if self.is_round else CORNERS) * np.array(self.size))
+
+    @property
+    def sides(self) -> tuple[tuple[int, ...], ...]:
+        """Its faces: which corners they have, counter-clockwise seen from outside."""
+        return (*MANTLE, *CAPS) if self.is_round else FACES
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,12 +129,12 @@ class Space:
         return np.array([(x * self.half, y * self.half, 0.0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]) + self.moved[index]
 
     def faces(self, index: int, time: float) -> Iterator[tuple[FloatArray, FloatArray, bool]]:
-        """Yield the faces that the viewer sees, the farthest first: corners (4, 3), m, shade (3,), and whether the solid has fallen."""
+        """Yield the faces that the viewer sees, the farthest first: corners (k, 3), m, shade (3,), and whether the solid has fallen."""
         ahead = view_axes()[2]
         seen = []
         for solid in self.solids:
             corners = solid.placed(index) + self.moved[index]
-            for face in FACES:
+            for face in solid.sides:
                 points = corners[list(face)]
                 normal = np.cross(points[1] - points[0], points[2] - points[1])
                 normal = normal / np.linalg.norm(normal)

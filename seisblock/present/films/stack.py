@@ -32,7 +32,7 @@ def stack_film(response: Response[StackOutcome], times: FloatArray, *, gal: bool
     body: Pile = response.body
     motion, options = response.motion, response.options
     fell = {stone.name: math.inf if stone.fell_at_s is None else stone.fell_at_s for stone in response.outcome.stones}
-    solids = tuple(Solid(stone.size, *_followed(response, stone.name, times), fell[stone.name]) for stone in body.stones)
+    solids = tuple(Solid(stone.size, *_followed(response, stone.name, times), fell[stone.name], stone.is_round) for stone in body.stones)
     size = max(max(stone.width, stone.depth) for stone in body.stones)
     far = length_unit([largest(response, "slip")], gal=gal)
     return Film(

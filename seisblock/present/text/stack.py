@@ -161,6 +161,14 @@ def standing(response: Response[StackOutcome]) -> str:
     found, points = base_of(response), response.options["points"]
     told = {"stone": tell(found.stone), "kept": found.restitution, "sharp": found.housner_ratio}
     law = tell("Rigid stones") if response.options["law"] == RIGID else tell("Stones that press on springs")
+    if points == EDGES and found.width_ratio < 1.0:
+        return tell(
+            "{law} on worn edges: {stone} turns about lines at {share:.2f} of its half width, and an impact leaves, on firm ground, "
+            "{kept:.2f} of its angular velocity; on sharp edges {sharp:.2f}.",
+            law=law,
+            share=found.width_ratio,
+            **told,
+        )
     if points == EDGES:
         return tell("{law} on their edges; an impact leaves {stone}, on firm ground, {kept:.2f} of its angular velocity.", law=law, **told)
     return tell(

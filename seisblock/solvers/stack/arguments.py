@@ -24,6 +24,9 @@ class PileLayout(NamedTuple):
         Corners of each box, how many, and the pairs of corners that make its edges.
     boxes, owner : (b, 6), (b,) arrays
         Half sizes and places of the boxes, and the bodies they belong to; the ground last.
+    cores, rims : (b, 3), (b, 4, 2) arrays, m
+        Half sizes of what other stones meet of a box that has tilted off its joint; radius and height of the circles that bound a round
+        one: of its lower face, of its upper face, and of its sides where these faces are worn; zero where there is none.
     inert : (m, 19) array
         Masses, inertia matrices and their inverses.
     """
@@ -38,6 +41,8 @@ class PileLayout(NamedTuple):
     edges: IntArray
     boxes: FloatArray
     owner: IntArray
+    cores: FloatArray
+    rims: FloatArray
     inert: FloatArray
 
 
@@ -58,12 +63,12 @@ class PileMemory(NamedTuple):
         Which bodies have touched since it was last cleared.
     bounds : (b, 6) array, m
         Centres of the boxes and how far they reach.
-    work : (23, 18) array
+    work : (36, 18) array
         Scratch.
-    who, table : (k, 8), (k, 66) arrays
+    who, table : (k, 8), (k, 69) arrays
         Rigid contacts of a step: their bodies and the slots they are remembered in, and what they are solved with.
-    inverses, speeds : (m + 1, 9), (m + 1, 6) arrays
-        Inverse inertia of the bodies as they lie, velocities and spins.
+    inverses, speeds : (m + 1, 9), (m + 1, 9) arrays
+        Inverse inertia of the bodies as they lie; velocities, spins, and how these change by turning.
     pace : (9,) array
         Of the steps.
     lying, beds : (m + 1, 3), (m + 1, 17, 14) arrays
@@ -164,6 +169,8 @@ LAYOUT = _t.NamedTuple(
         INTEGER_BLOCK,
         MATRIX,
         INTEGERS,
+        MATRIX,
+        BLOCK,
         MATRIX,
     ),
     PileLayout,

@@ -7,13 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from seisblock import checks
+from seisblock.bodies.inset import SHARP
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import Joint
+from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.solvers.stack.arguments import PileLayout, PileMemory
 from seisblock.solvers.stack.contact import FRICTION, KINETIC, SLOT
 from seisblock.solvers.stack.frames import AT, BODY, BOX, INERT, INERTIA, INVERSE, MASS, Q, R, X
+from seisblock.solvers.stack.hulls import MOST_CORNERS, Worn, hulls_of
 from seisblock.solvers.stack.impulse import ROW, SPEEDS
 from seisblock.solvers.stack.lying import BED
 from seisblock.solvers.stack.row import PACE, WHO
@@ -27,13 +30,12 @@ GROUND_HALF = 50.0
 PLASTIC = -1.0
 """The rebound of joints that are given none."""
 
+SHARP_POINTS = 2
+"""Points along each side of a joint that stand at its corners."""
+
 NO_SPRINGS = (0.0, 0.0, 0.0, 0.0)
-MOST_CORNERS = 16
 MOST_MET = 80
 """Rigid contacts beyond those of joints for which there is room, a body."""
-
-_SIGNS = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], dtype=np.float64)
-_RINGS = [(i, (i + 1) % 4) for i in range(4)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +53,8 @@ class PileArrays:
         Masses, inertia matrices and their inverses.
     boxes, owner : (b + 1, 6), (b + 1,) arrays
         Half sizes and places of the boxes, and the bodies they belong to; the ground last.
+    cores, rims : (b + 1, 3), (b + 1, 4, 2) arrays
+        What other stones meet of a box that has tilted off its joint, and the circles that bound a round one.
     joints, constants, grids : arrays
         See ``stack_step``.
     pairs, pair_constants : (p, 2), (p, 7) arrays
@@ -66,6 +70,8 @@ class PileArrays:
     inert: FloatArray
     boxes: FloatArray
     owner: IntArray
+    cores: FloatArray
+    rims: FloatArray
     joints: IntArray
     constants: FloatArray
     grids: FloatArray
@@ -124,10 +130,12 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: f
     Raises
     ------
     ParameterError
-        If `points` is no whole number, less than 2, or more than may be looked at.
+        If `points` is no whole number, less than 2, or more than may be looked at; if round stones are to stand on springs or on a grid,
+        or stones with an inset on a grid.
     """
     checks.whole("the number of points along each side of a joint", points, least=2)
     check_budget(noted("points along each side of a joint"), points, "SEISBLOCK_PILE_POINTS")
+    _check_bases(body, contact, points)
     members = tuple(body.bodies())
     centres = np.array(body.centres())
     bodies, inert, owner = _bodies(body, members, centres)
@@ -140,7 +148,7 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: f
     boxes[-1] = (GROUND_HALF, GROUND_HALF, GROUND_HALF, 0.0, 0.0, -GROUND_HALF)
     pairs = np.array([(i, j) for i in range(len(boxes)) for j in range(i + 1, len(boxes)) if owner[i] != owner[j]], dtype=np.int64)
     integers, constants, grids, worn = _joint_arrays(body, contact, points, kinetic, rebound, joints, boxes, owner, inert, pairs)
-    corners, counts, edges = _hulls(boxes, worn)
+    corners, counts, edges, cores, rims = hulls_of(body, boxes, worn)
     return PileArrays(
         body,
         points,
@@ -148,6 +156,8 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: f
         inert,
         boxes,
         owner,
+        cores,
+        rims,
         integers,
         constants,
         grids,
@@ -158,6 +168,20 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: f
         edges,
         members,
     )
+
+
+def _check_bases(body: Pile, contact: PileContact | None, points: int) -> None:
+    """Refuse bases of which the contacts know nothing."""
+    for stone in body.stones:
+        if stone.is_round and (contact is not None or points != SHARP_POINTS):
+            raise ParameterError(
+                "the stone {name} is round: it stands rigid on its rim, and neither on springs nor on a grid of points", name=stone.name
+            )
+        if points != SHARP_POINTS and stone.inset != SHARP:
+            raise ParameterError(
+                "an inset is one of stones that stand on their edges: leave out {points} points a side, which stand inside by themselves",
+                points=points,
+            )
 
 
 def _bodies(body: Pile, members: tuple[tuple[int, ...], ...], centres: FloatArray) -> tuple[FloatArray, FloatArray, IntArray]:
@@ -172,9 +196,10 @@ def _bodies(body: Pile, members: tuple[tuple[int, ...], ...], centres: FloatArra
         middle = masses @ centres[list(group)] / masses.sum()
         tensor = np.zeros((3, 3))
         for i, mass in zip(group, masses, strict=True):
-            size = np.array(body.stones[i].size)
-            arm = centres[i] - middle
-            tensor += mass * (np.diag((size @ size - size**2) / 12.0) + (arm @ arm) * np.eye(3) - np.outer(arm, arm))
+            stone, arm = body.stones[i], centres[i] - middle
+            size = np.array(stone.size)
+            about = stone.gyration_squared if stone.is_round else (size @ size - size**2) / 12.0
+            tensor += mass * (np.diag(about) + (arm @ arm) * np.eye(3) - np.outer(arm, arm))
             owner[i] = b
         bodies[b, X : X + 3] = middle
         inert[b, MASS] = masses.sum()
@@ -194,13 +219,13 @@ def _joint_arrays(
     owner: IntArray,
     inert: FloatArray,
     pairs: IntArray,
-) -> tuple[IntArray, FloatArray, FloatArray, dict[tuple[int, int], float]]:
-    """Return integers, constants and points of the joints, and how far the faces that carry points are worn."""
+) -> tuple[IntArray, FloatArray, FloatArray, Worn]:
+    """Return integers, constants and points of the joints, and how far the faces that carry points are worn, along x and y, m."""
     half_orbits = (points + 1) // 2
     integers = np.zeros((len(joints), 4), dtype=np.int64)
     constants = np.zeros((len(joints), JOINT))
     grids = np.zeros((len(joints), half_orbits**2, 4, 3))
-    worn: dict[tuple[int, int], float] = {}
+    worn: Worn = {}
     number = {tuple(pair): p for p, pair in enumerate(pairs.tolist())}
     for j, joint in enumerate(joints):
         upper, lower = joint.upper, joint.lower if joint.lower >= 0 else len(boxes) - 1
@@ -216,20 +241,24 @@ def _joint_arrays(
         law = NO_SPRINGS if contact is None else contact.of_joint(float(mass), sides[0] * sides[1], 0.5 * above, points**2)
         constants[j, [SIGMA, LEVEL]] = sigma, sigma * boxes[carrier, 2]
         mu = body.mu if stone.mu is None else stone.mu
-        constants[j, POINT:] = (*law, mu, float(points == 2), kinetic * mu, rebound)
+        constants[j, POINT:] = (*law, mu, float(points == SHARP_POINTS), kinetic * mu, rebound)
         place = np.array(body.centres()[carrier])
-        grids[j] = _orbits(points, joint.x, joint.y, place)
         if points > 2:
-            worn[carrier, 1 if sigma > 0.0 else 0] = 1.0 / points
+            inset = float(boxes[carrier, 0] / points), float(boxes[carrier, 1] / points)
+        else:
+            inset = stone.inset.of(float(2.0 * boxes[carrier, 0])), stone.inset.of(float(2.0 * boxes[carrier, 1]))
+        grids[j] = _orbits(points, joint.x, joint.y, place, inset if points == SHARP_POINTS else (0.0, 0.0))
+        if max(inset) > 0.0:
+            worn[carrier, 1 if sigma > 0.0 else 0] = inset
     return integers, constants, grids, worn
 
 
-def _orbits(points: int, x: tuple[float, float], y: tuple[float, float], place: FloatArray) -> FloatArray:
+def _orbits(points: int, x: tuple[float, float], y: tuple[float, float], place: FloatArray, inset: tuple[float, float]) -> FloatArray:
     """Return the points of a joint on the carrier's face, (orbits, 4, 3): x, y, and 1 where there is a point, mirror images together."""
-    ends = 1.0 if points == 2 else 1.0 - 1.0 / points
+    ends = 1.0 if points == SHARP_POINTS else 1.0 - 1.0 / points
     ticks = np.linspace(-ends, ends, points)[(points // 2) :] if points > 1 else np.zeros(1)
     middle = (0.5 * (x[0] + x[1]) - place[0], 0.5 * (y[0] + y[1]) - place[1])
-    half = (0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0]))
+    half = (0.5 * (x[1] - x[0]) - inset[0], 0.5 * (y[1] - y[0]) - inset[1])
     grid = np.zeros((ticks.size**2, 4, 3))
     for o, (u, v) in enumerate((u, v) for u in ticks for v in ticks):
         u, v = (0.0 if abs(w) < 1e-12 else w for w in (u, v))
@@ -269,29 +298,3 @@ def _pair_constants(
         made[joints[j, PAIR]] = constants[j, POINT:]
         made[joints[j, PAIR], :FRICTION] *= points**2 / 12.0
     return made
-
-
-def _hulls(boxes: FloatArray, worn: dict[tuple[int, int], float]) -> tuple[FloatArray, IntArray, IntArray]:
-    """Return corners and edges of the boxes.
-
-    A face whose points stand inside its border is worn: its corners are the outermost points, and a bevel of 45 degrees leads to the sides.
-    """
-    corners = np.zeros((len(boxes), MOST_CORNERS, 3))
-    counts = np.zeros(len(boxes), dtype=np.int64)
-    edges = np.zeros((len(boxes), ALL_EDGES, 2), dtype=np.int64)
-    for i, (hx, hy, hz) in enumerate(boxes[:-1, :3].tolist()):
-        found: list[tuple[float, float, float]] = []
-        posts = []
-        for side, up in enumerate((-1.0, 1.0)):
-            inset = worn.get((i, side), 0.0)
-            found += [(sx * hx * (1.0 - inset), sy * hy * (1.0 - inset), up * hz) for sx, sy in _SIGNS]
-            posts.append([4 * side + c for c in range(4)])
-        for side, up in enumerate((-1.0, 1.0)):
-            if (i, side) in worn:
-                bevel = min(worn[i, side] * min(hx, hy), 0.5 * hz)
-                posts[side] = [len(found) + c for c in range(4)]
-                found += [(sx * hx, sy * hy, up * (hz - bevel)) for sx, sy in _SIGNS]
-        corners[i, : len(found)] = found
-        counts[i] = len(found)
-        edges[i] = [*_RINGS, *[(4 + a, 4 + b) for a, b in _RINGS], *zip(*posts, strict=True)]
-    return corners, counts, edges

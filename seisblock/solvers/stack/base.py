@@ -19,7 +19,7 @@ from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import GROUND, PileStone
 from seisblock.records.motion import Motion
 from seisblock.results import Response
-from seisblock.solvers.stack.arrays import pile_arrays
+from seisblock.solvers.stack.arrays import SHARP_POINTS, pile_arrays
 from seisblock.solvers.stack.course import Course
 from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.solvers.stack.rest import steps_per_sample
@@ -76,7 +76,7 @@ def base_of(response: Response[StackOutcome]) -> Base:
 
 def base(stone: PileStone, points: int, contact: PileContact | None, restitution: float | None, gravity: float) -> Base:
     """Return what `points` along each side make of a stone's base; a contact of None is rigid."""
-    share = 1.0 if points == 2 else 1.0 - 1.0 / points
+    share = 1.0 - 2.0 * stone.insets()[0] / stone.width if points == SHARP_POINTS else 1.0 - 1.0 / points
     sharp = housner(stone, 1.0)
     if restitution is not None:
         kept = restitution
@@ -86,9 +86,12 @@ def base(stone: PileStone, points: int, contact: PileContact | None, restitution
 
 
 def housner(stone: PileStone, share: float) -> float:
-    """Return what an impact leaves of the turning of a block about lines at a share of its half width ([Housner1963]_)."""
+    """Return what an impact leaves of the turning of a block about lines at a share of its half width ([Housner1963]_).
+
+    A round one turns in the plane of its lean, about points of its rim; k^2 + h^2 - R^2 over k^2 + h^2 + R^2 is left (derived here).
+    """
     b, h = 0.5 * stone.width * share, 0.5 * stone.height
-    return 1.0 - 2.0 * b * b / ((stone.width**2 + stone.height**2) / 12.0 + b * b + h * h)
+    return 1.0 - 2.0 * b * b / (float(stone.gyration_squared[1]) + b * b + h * h)
 
 
 def _after_an_impact(stone: PileStone, points: int, share: float, contact: PileContact, gravity: float) -> float:

@@ -20,6 +20,7 @@ from seisblock.solvers.stack.frames import Q, X, orient
 from seisblock.solvers.stack.outcome import End, Track, stone_track
 from seisblock.solvers.stack.rest import sink
 from seisblock.solvers.stack.rigid_run import run_rigid
+from seisblock.solvers.stack.round import RADIUS
 from seisblock.solvers.stack.run import run_springs
 from seisblock.typing import FloatArray
 
@@ -184,9 +185,10 @@ def _lean(pile: PileArrays, bodies: FloatArray, name: str, angle: float) -> None
     if name not in pile.body.names or pile.owner[pile.body.names.index(name)] == len(pile.members):
         raise ParameterError("no free stone is called {name!r}; there are {names}", name=name, names=list(pile.body.names))
     b = int(pile.owner[pile.body.names.index(name)])
-    box = pile.boxes[pile.members[b][0]]
-    inset = 0.0 if pile.points == 2 else 1.0 / pile.points
-    pivot = np.array([math.copysign(box[0] * (1.0 - inset), angle), 0.0, -box[2]]) + box[3:]
+    first = pile.members[b][0]
+    box = pile.boxes[first]
+    far = pile.rims[first, 0, RADIUS] if pile.body.stones[first].is_round else pile.corners[first, 1, 0]
+    pivot = np.array([math.copysign(far, angle), 0.0, -box[2]]) + box[3:]
     turned = np.array([math.cos(angle), math.sin(angle)])
     moved = np.array([turned[0] * pivot[0] + turned[1] * pivot[2], 0.0, -turned[1] * pivot[0] + turned[0] * pivot[2]])
     bodies[b, X : X + 3] += pivot - moved

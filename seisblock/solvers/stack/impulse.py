@@ -21,16 +21,17 @@ from seisblock.dynamics.arrays import INTEGER_TABLE, MATRIX, VECTOR
 _t = types()
 
 ARM_A, ARM_B, NORMAL, W, WI, SPIN_A, SPIN_B, IMPULSE, FLOOR, MU, SWERVE, HEADING, HELD = 0, 3, 6, 9, 18, 27, 36, 45, 48, 49, 50, 53, 59
-GAP, RATE, BOUNCE, GIVEN = 60, 61, 62, 63
-ROW = 66
+GAP, RATE, BOUNCE, GIVEN, ROLL = 60, 61, 62, 63, 66
+ROW = 69
 """A contact's row: its arms from the centres of both bodies, its normal, out of the second; the velocity that a unit impulse gives (9)
 and the inverse (9); the spins that it gives (9, 9); the impulse on the first body; the least normal velocity; friction; how its velocity
 changes by turning in half a step (3); the impulse before a sweep, and the way that the sweeps take it (3, 3); whether the floor holds from
 both sides, along the normal alone; the gap, m, and how fast it opens at the step, m/s; the restitution, negative where an impact is
-plastic; and the impulse that was given before the last one was looked for (3)."""
+plastic; the impulse that was given before the last one was looked for (3); and the acceleration of a point that wanders round a rim (3)."""
 
-SPEED, TURNING = 0, 3
-SPEEDS = 6
+SPEED, TURNING, VEERING = 0, 3, 6
+SPEEDS = 9
+"""A body's velocity, its spin, and how that changes as the body turns on with the same angular momentum, rad/s^2."""
 
 SWEEPS = 200
 PRECISION = 1e-3
@@ -216,10 +217,10 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
     ----------
     who : (k, 2) array of int
         The bodies of each contact.
-    table : (k, 66) array
+    table : (k, 69) array
         Contacts, with the impulses to start from.
     tolerance : float, m/s
-    speeds : (m + 1, 6) array
+    speeds : (m + 1, 9) array
         Velocities and spins with the impulses to start from; on return, with those that were found.
     """
     before = 0.0

@@ -6,13 +6,21 @@ from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.apart import EDGES, FACE, KIND, MOST_POINTS, cross, furthest, overlap
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
-from seisblock.solvers.stack.contact import CLINGS, EARLIER, ENTERED, OUTSIDE, PLACE, PUSH, REBOUND, SLIDES, SLOT
+from seisblock.solvers.stack.contact import CLINGS, EARLIER, ENTERED, OUTSIDE, PLACE, PUSH, REBOUND, REL_D, REL_W, SLIDES, SLOT
 from seisblock.solvers.stack.frames import relative
 from seisblock.solvers.stack.impulse import BOUNCE
+from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
+from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, pressed_side, roll
 from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
 from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
 
 _t = types()
+
+FACES, BOXES = -2, -1
+"""How a pair was met last: face on face where one of them is round, else as boxes."""
+
+DEEP = 1e-4
+"""How deep, m, faces may lie in each other where a pair that was met as boxes is to be met face on face."""
 
 NEARBY = 0.02
 """How far, m, a point of a meeting is sought of which it remembers the force."""
@@ -60,11 +68,11 @@ def _put(slot, y0, y1, y2, axis):
         slot[PLACE + 3 + i] = axis[i]
 
 
-@kernel(_t.void(VECTOR, MATRIX), inline=True)
-def _recall(slot, before):
+@kernel(_t.void(VECTOR, MATRIX, _t.int64), inline=True)
+def _recall(slot, before, most):
     """Let a point remember the force of the one that was nearest to it."""
     found, least = -1, NEARBY**2
-    for i in range(MOST_POINTS):
+    for i in range(most):
         old = before[i]
         if old[ENTERED] > 0.0:
             away = (old[PLACE] - slot[PLACE]) ** 2 + (old[PLACE + 1] - slot[PLACE + 1]) ** 2 + (old[PLACE + 2] - slot[PLACE + 2]) ** 2
@@ -103,49 +111,122 @@ def _meet_ground(count, pair, rel, far, bodies, dt, pile, memory):
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory):
     """Make rows of the points where two boxes may touch; return how many rows there are then."""
-    boxes, corners, counts, edges, work = pile.boxes, pile.corners, pile.counts, pile.edges, memory.work
+    cores, corners, counts, edges, work = pile.cores, pile.corners, pile.counts, pile.edges, memory.work
     c, p, k = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair]
     slots, before, axis, found = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], work[22], work[4:13]
     for i in range(MOST_POINTS):
         for j in range(SLOT):
             before[i, j] = slots[i, j]
         slots[i, ENTERED] = 0.0
-    gap = furthest(rel, boxes[c], corners[c], counts[c], boxes[p], corners[p], counts[p], far, axis)
+    gap = furthest(rel, cores[c], corners[c], counts[c], cores[p], corners[p], counts[p], far, axis)
     if gap > far:
         return count
     at = 0
     if axis[KIND] >= EDGES:
-        if cross(rel, boxes[c], boxes[p], axis, found[0]):
+        if cross(rel, cores[c], cores[p], axis, found[0]):
             _put(slots[0], found[0, 0], found[0, 1], found[0, 2], axis)
-            _recall(slots[0], before)
+            _recall(slots[0], before, MOST_POINTS)
             entered = enter(count, c, p, slots[0], gap, far, k, bodies, dt, pile, memory)
             count = note(count, entered, MEETINGS, pair, 0, 0, slots[0], memory.who)
         at = 1
-    points = overlap(rel, boxes[c], corners[c], edges[c], boxes[p], corners[p], edges[p], axis[FACE:], work[1], found, work[13:22])
+    points = overlap(rel, cores[c], corners[c], edges[c], cores[p], corners[p], edges[p], axis[FACE:], work[1], found, work[13:22])
     for i in range(points):
         if at == 1 and found[i, 3] < 0.0:
             # where edges cross, a face says only what may yet come to lie on it
             continue
         slot = slots[at + i]
         _put(slot, found[i, 0], found[i, 1], found[i, 2], axis[FACE:])
-        _recall(slot, before)
+        _recall(slot, before, MOST_POINTS)
         entered = enter(count, c, p, slot, found[i, 3], far, k, bodies, dt, pile, memory)
         count = note(count, entered, MEETINGS, pair, 0, at + i, slot, memory.who)
+    return count
+
+
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory):
+    """Make rows of the points of a round stone's rims that may touch the ground; return how many rows there are then."""
+    c, p, k = pile.pairs[pair, 0], pile.pairs[pair, 1], pile.pair_constants[pair]
+    slots, axis, axes, ground = memory.corner_slots[pair, 0], memory.work[22], memory.work[4:8], bodies[bodies.shape[0] - 1]
+    for i in range(3):
+        axis[i] = 1.0 if i == 2 else 0.0
+        axes[0, i] = rel[3 * i + 2]
+    pressed_side(slots, rel, pile.boxes[c, 0], axes[1])
+    sine = lowest(0.0, 0.0, 1.0, axes)
+    for i in range(RIMS):
+        radius, height = pile.rims[c, i, RADIUS], pile.rims[c, i, HEIGHT]
+        if radius == 0.0:
+            continue
+        for q in range(4):
+            direction, side = axes[2 + q % 2], radius if q < 2 else -radius
+            y0 = rel[9] + side * direction[0] + height * rel[2]
+            y1 = rel[10] + side * direction[1] + height * rel[5]
+            y2 = rel[11] + side * direction[2] + height * rel[8]
+            slot = slots[4 * i + q]
+            _put(slot, y0, y1, y2, axis)
+            entered = enter(count, c, p, slot, y2 - pile.boxes[p, 2], far, k, bodies, dt, pile, memory)
+            if q == 0 and entered > count:
+                roll(rel[REL_W:], 0.0, 0.0, 1.0, sine, radius, axes, ground, dt, memory.table[count])
+            count = note(count, entered, MEETINGS, pair, 0, 4 * i + q, slot, memory.who)
+    return count
+
+
+@kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
+def _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory):
+    """Make rows of the points where a round stone's face lies on another stone's, or under it; return how many rows there are then.
+
+    Stones that came to lie in each other's outlines, met as the boxes inside them, are left to these: return -1.
+    """
+    c, p, k, work = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.work
+    slots, before, axes, axis, found = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], work[7:11], work[19], work[20:]
+    pressed_side(slots, rel, min(pile.boxes[c, 0], pile.boxes[p, 0]), axis[4:])
+    points = shared_points(c, p, rel, pile, axis, work[4:19], found)
+    if memory.handled[pair] == BOXES:
+        for i in range(points):
+            if found[i, 3] < -DEEP:
+                return -1
+    for i in range(MOST_FOUND):
+        for j in range(SLOT):
+            before[i, j] = slots[i, j]
+        slots[i, ENTERED] = 0.0
+    # the rim that rolls is the partner's where the carrier's face is the one it rolls on
+    box = p if axis[3] > 0.0 else c
+    side = 1.0 if rel[REL_D + 2] > 0.0 else -1.0
+    for i in range(3):
+        axes[0, i] = (1.0 if i == 2 else 0.0) if box == p else rel[3 * i + 2]
+        axes[1, i] = axis[4 + i]
+    up = -1.0 if box == p else 1.0
+    sine = lowest(up * axis[0], up * axis[1], up * axis[2], axes)
+    face = (1 if side > 0.0 else 0) if box == p else (0 if side * rel[8] > 0.0 else 1)
+    radius = pile.rims[box, face, RADIUS]
+    for i in range(points):
+        slot = slots[i]
+        _put(slot, found[i, 0], found[i, 1], found[i, 2], found[i, ALONG:])
+        _recall(slot, before, MOST_FOUND)
+        entered = enter(count, c, p, slot, found[i, 3], far, k, bodies, dt, pile, memory)
+        if found[i, LOWEST] > 0.0 and entered > count:
+            frame, row = bodies[pile.owner[p]], memory.table[count]
+            roll(rel[REL_W:], up * axis[0], up * axis[1], up * axis[2], sine, radius, axes, frame, up * dt, row)
+        count = note(count, entered, MEETINGS, pair, 0, i, slot, memory.who)
     return count
 
 
 @kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _meet(count, pair, bodies, dt, pile, memory):
     """Make rows of the points where two boxes, or a box and the ground, may touch; return how many rows there are then."""
-    boxes, rel, first, ground = pile.boxes, memory.work[0], count, pile.boxes.shape[0] - 1
+    boxes, rel, first, ground, faces = pile.boxes, memory.work[0], count, pile.boxes.shape[0] - 1, -1
     on_ground = pile.pairs[pair, 1] == ground
     c, p = pile.pairs[pair, 0 if on_ground else 1], pile.pairs[pair, 1 if on_ground else 0]
     relative(c, p, bodies, boxes, pile.owner, memory.work[2:4], rel)
     far = far_in(rel, boxes[c], dt)
-    if on_ground:
+    if on_ground and pile.rims[c, 0, RADIUS] > 0.0:
+        count = _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory)
+    elif on_ground:
         count = _meet_ground(count, pair, rel, far, bodies, dt, pile, memory)
     else:
-        count = _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory)
+        if pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] > 0.0 and face_each_other(rel, boxes[c], boxes[p]):
+            faces = _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory)
+        count = faces if faces >= 0 else _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory)
+    memory.handled[pair] = FACES if faces >= 0 else BOXES
     rebound = pile.pair_constants[pair, REBOUND]
     if rel[8] > COSINE:
         for i in range(first, count):
@@ -193,8 +274,7 @@ def find(bodies, dt, look, pile, memory):
             continue
         if near(pile.pairs[pair, 0], pile.pairs[pair, 1], memory.bounds):
             count = _meet(count, pair, bodies, dt, pile, memory)
-            memory.handled[pair] = -1
-        elif memory.handled[pair] == -1:
+        elif memory.handled[pair] < 0:
             memory.handled[pair] = 0
             forget(pair, memory)
     return count

@@ -13,7 +13,7 @@ from seisblock.dynamics.arrays import MATRIX
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GIVEN, IMPULSE, NORMAL, PRECISION, parting, press, settle
+from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GIVEN, IMPULSE, NORMAL, PRECISION, VEERING, parting, press, settle
 from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
 from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
@@ -30,7 +30,7 @@ SLIPS = 1e-4
 
 @kernel(_t.void(_t.int64, MATRIX, MATRIX, MEMORY))
 def _prepare(n, bodies, inert, memory):
-    """Write the inverse inertia of the bodies as they lie, and their velocities."""
+    """Write the inverse inertia of the bodies as they lie, their velocities, and how their spins change by turning."""
     for i in range(n):
         b, v, j = bodies[i], memory.speeds[i], memory.inverses[i]
         for p in range(3):
@@ -44,6 +44,10 @@ def _prepare(n, bodies, inert, memory):
         v[0], v[1], v[2] = b[V], b[V + 1], b[V + 2]
         for p in range(3):
             v[3 + p] = j[3 * p] * b[L] + j[3 * p + 1] * b[L + 1] + j[3 * p + 2] * b[L + 2]
+        # a body that turns on with the same angular momentum: w' = -J (w x L)
+        g0, g1, g2 = v[4] * b[L + 2] - v[5] * b[L + 1], v[5] * b[L] - v[3] * b[L + 2], v[3] * b[L + 1] - v[4] * b[L]
+        for p in range(3):
+            v[VEERING + p] = -(j[3 * p] * g0 + j[3 * p + 1] * g1 + j[3 * p + 2] * g2)
 
 
 @kernel(_t.void(MEMORY))

@@ -17,7 +17,7 @@ from seisblock.solvers.stack.contact import (
     SLIDES,
 )
 from seisblock.solvers.stack.frames import AT, R, X
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, BOUNCE, GAP, IMPULSE, MU, NORMAL, answers
+from seisblock.solvers.stack.impulse import ARM_A, ARM_B, BOUNCE, GAP, IMPULSE, MU, NORMAL, ROLL, answers
 
 _t = types()
 
@@ -60,6 +60,8 @@ def enter(count, c, p, slot, gap, far, k, bodies, dt, pile, memory):
         row[NORMAL + i] = second[r] * slot[PLACE + 3] + second[r + 1] * slot[PLACE + 4] + second[r + 2] * slot[PLACE + 5]
     row[GAP] = gap
     row[BOUNCE] = -1.0
+    for i in range(ROLL, ROLL + 3):
+        row[i] = 0.0
     if slot[ENTERED] == 0.0:
         for i in range(3):
             slot[PUSH + i] = 0.0

@@ -27,6 +27,9 @@ from seisblock.words import noted, said
 RIGID, SPRINGS = "rigid", "springs"
 """Laws of contact."""
 
+FINER = 5
+"""How many times finer steps answer where round stones created energy; springs know no round ones."""
+
 EDGES = 2
 """Points along each side of a joint that stands on its edges."""
 
@@ -60,8 +63,8 @@ def solve_stack(
     motion : Motion
         Ground acceleration; +x is its first row.
     law : str
-        ``rigid`` or ``springs``; default: springs where `contact` is given, else rigid, and springs with a warning where rigid stones
-        created energy.
+        ``rigid`` or ``springs``; default: springs where `contact` is given, else rigid, and with a warning springs where rigid stones
+        created energy, or finer steps where there are round ones.
     points : int
         Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
     contact : PileContact
@@ -128,8 +131,14 @@ def solve_stack(
         if law is not None or springs is not None or (mu_kinetic, restitution, step) != (None, None, None):
             raise
         rest: dict[str, Any] = {"vertical": vertical, "across": across, "gravity": gravity, "stop_at_fall": stop_at_fall, "tilts": tilts}
-        found = solve_stack(body, motion, law=SPRINGS, points=points, progress=progress, **rest)
-        why = said("{name}: springs at the same points answer instead of rigid stones: {why}", name=motion.name or "x", why=error.said)
+        label = motion.name or "x"
+        if any(stone.is_round for stone in body.stones):
+            finer = motion.dt / steps / FINER
+            found = solve_stack(body, motion, points=points, step=finer, progress=progress, **rest)
+            why = said("{name}: steps of {step:.2g} s answer instead of coarser ones: {why}", name=label, step=finer, why=error.said)
+        else:
+            found = solve_stack(body, motion, law=SPRINGS, points=points, progress=progress, **rest)
+            why = said("{name}: springs at the same points answer instead of rigid stones: {why}", name=label, why=error.said)
         return replace(found, warnings=(why, *found.warnings))
     return Response(
         model="stack",

@@ -30,7 +30,7 @@ APPROACH = 0.4
 
 ON_FACE = 4
 ALL_EDGES = 12
-SCRATCH = 23
+SCRATCH = 36
 """Rows of scratch."""
 
 MARGIN = 0.01

@@ -25,7 +25,9 @@ from seisblock.solvers.stack.impulse import (
     IMPULSE,
     NORMAL,
     RATE,
+    ROLL,
     SWERVE,
+    VEERING,
     parting,
 )
 from seisblock.solvers.stack.row import FALL, FIRST, WHOLE
@@ -151,13 +153,17 @@ def soonest(count, half, left, memory):
 
 @kernel(_t.void(VECTOR, VECTOR, _t.float64, VECTOR), inline=True)
 def _swerve(speeds, arm, half, swerve):
-    """Add how a body's point at `arm` changes its velocity by the body's turning in a time: w x (w x r)."""
+    """Add how a body's point at `arm` changes its velocity by the body's turning in a time: w x (w x r) + w' x r."""
     x, y, z = speeds[3], speeds[4], speeds[5]
     along = x * arm[0] + y * arm[1] + z * arm[2]
     square = x * x + y * y + z * z
     swerve[0] += half * (x * along - square * arm[0])
     swerve[1] += half * (y * along - square * arm[1])
     swerve[2] += half * (z * along - square * arm[2])
+    x, y, z = speeds[VEERING], speeds[VEERING + 1], speeds[VEERING + 2]
+    swerve[0] += half * (y * arm[2] - z * arm[1])
+    swerve[1] += half * (z * arm[0] - x * arm[2])
+    swerve[2] += half * (x * arm[1] - y * arm[0])
 
 
 @kernel(_t.void(_t.int64, _t.float64, MEMORY))
@@ -169,6 +175,6 @@ def lay_floors(count, dt, memory):
         if row[FLOOR] == 0.0:
             row[FLOOR] = -gap / dt if gap > 0.0 else min(-MENDED * gap / memory.pace[WHOLE], GENTLY)
         for k in range(3):
-            row[SWERVE + k] = 0.0
+            row[SWERVE + k] = 0.5 * dt * row[ROLL + k]
         _swerve(memory.speeds[memory.who[i, 0]], row[ARM_A:], 0.5 * dt, row[SWERVE:])
         _swerve(memory.speeds[memory.who[i, 1]], row[ARM_B:], -0.5 * dt, row[SWERVE:])

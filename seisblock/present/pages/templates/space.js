@@ -1,7 +1,11 @@
-// A scene in three dimensions, without perspective: cuboids and springs on a patch of ground; dragged sideways one walks around it.
+// A scene in three dimensions, without perspective: cuboids, cylinders and springs on a patch of ground; dragged sideways one walks around it.
 const FACES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]], COILS = 5, WIDE = 0.35;
 const MARK = "#c0392b", EDGE = "#404040";
 const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7].map(i => [i >> 2, i >> 1 & 1, i & 1].map(bit => bit - 0.5));
+const SIDES = 20, AROUND = Array.from({ length: SIDES }, (_, i) => i);
+const RIMS = [-0.5, 0.5].flatMap(z => AROUND.map(i => 2 * Math.PI * i / SIDES).map(a => [Math.cos(a) / 2, Math.sin(a) / 2, z]));
+const MANTLE = AROUND.map(i => [i, (i + 1) % SIDES, SIDES + (i + 1) % SIDES, SIDES + i]);
+const CAPS = [AROUND.slice().reverse(), AROUND.map(i => SIDES + i)];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2], plus = (a, b) => a.map((v, i) => v + b[i]);
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 let azimuth = null, dragged = null;
@@ -46,16 +50,16 @@ function faces(scene, vector, moved, ahead) {
   const seen = [];
   scene.solids.forEach(solid => {
     const centre = plus(vector(solid.centre), moved), q = vector(solid.turn), length = Math.hypot(...q), turn = q.map(v => v / length);
-    const corners = CORNERS.map(corner => plus(centre, rotated(turn, corner.map((v, i) => v * solid.size[i]))));
+    const corners = (solid.round ? RIMS : CORNERS).map(corner => plus(centre, rotated(turn, corner.map((v, i) => v * solid.size[i]))));
     const edge = solid.fell !== null && now >= solid.fell ? MARK : EDGE;
-    FACES.forEach(face => {
+    (solid.round ? [...MANTLE, ...CAPS] : FACES).forEach(face => {
       const points = face.map(i => corners[i]), minus = (a, b) => a.map((v, i) => v - b[i]);
       const across = cross(minus(points[1], points[0]), minus(points[2], points[1])), size = Math.hypot(...across);
       const normal = across.map(v => v / size);
       if (dot(normal, ahead) <= 1e-9) return;
       const light = 0.72 + 0.32 * dot(normal, scene.light);
       const shade = "rgb(" + scene.stone.map(v => Math.round(255 * Math.min(Math.max(v * light, 0), 1))).join(",") + ")";
-      seen.push({ depth: points.reduce((sum, p) => sum + dot(p, ahead), 0), points, shade, edge });
+      seen.push({ depth: points.reduce((sum, p) => sum + dot(p, ahead), 0) / points.length, points, shade, edge });
     });
   });
   return seen.sort((a, b) => a.depth - b.depth);

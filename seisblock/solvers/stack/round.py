@@ -1,0 +1,130 @@
+"""Where a round stone touches: at the lowest point of its rim, at the points a quarter round from it, and where its rim crosses a border.
+
+A rim has no corners. Its lowest point follows from the lean, exactly: u, across the stone's axis a and furthest against the normal n,
+
+    u = -(n - (n.a) a) / |n - (n.a) a|   (derived here).
+
+It wanders round the stone as the stone wobbles or rolls, at s = R (u' - w x u) over its material (derived here); a point that rolls is
+asked to be at rest half a step later where it will be then, so that rolling and spinning keep their energy. Points a quarter round, and
+opposite, carry the stone where it stands flat; it turns about none of them, since a lean of any size makes the lowest point another. Where
+there is no lean yet, that point is sought where the stone presses: thither it will turn.
+"""
+
+from __future__ import annotations
+
+import math
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.arrays import MATRIX, VECTOR
+from seisblock.solvers.stack.contact import ENTERED, PLACE, PUSH, REL_D
+from seisblock.solvers.stack.frames import R
+from seisblock.solvers.stack.impulse import ROLL
+from seisblock.solvers.stack.step import APPROACH, COSINE
+
+_t = types()
+
+RIMS = 4
+RADIUS, HEIGHT = 0, 1
+"""A circle that bounds a round stone."""
+
+FLAT = 1e-10
+"""Square of the sine of a lean that has no direction: the stone will then turn to where it presses."""
+
+CENTRED = 0.05
+"""How far from the middle, over its radius, a stone presses to no side."""
+
+FASTEST = 0.5
+"""Angle, rad, by which the lowest point may wander round the stone in half a step and still be asked where it will be then."""
+
+
+@kernel(_t.float64(_t.float64, _t.float64, _t.float64, MATRIX), inline=True)
+def lowest(n0, n1, n2, axes):
+    """Write the direction of a rim's lowest point, and the one a quarter round from it; return the sine of the lean.
+
+    Parameters
+    ----------
+    n0, n1, n2 : float
+        The normal that points up.
+    axes : (4, 18) array
+        The stone's axis, a direction to take where there is no lean, and the two directions.
+    """
+    a, x, u, w = axes[0], axes[1], axes[2], axes[3]
+    along = n0 * a[0] + n1 * a[1] + n2 * a[2]
+    m0, m1, m2 = n0 - along * a[0], n1 - along * a[1], n2 - along * a[2]
+    square = m0 * m0 + m1 * m1 + m2 * m2
+    sine = math.sqrt(square)
+    if square < FLAT:
+        along = x[0] * a[0] + x[1] * a[1] + x[2] * a[2]
+        m0, m1, m2 = x[0] - along * a[0], x[1] - along * a[1], x[2] - along * a[2]
+        size = math.sqrt(m0 * m0 + m1 * m1 + m2 * m2)
+        u[0], u[1], u[2] = m0 / size, m1 / size, m2 / size
+        sine = 0.0
+    else:
+        u[0], u[1], u[2] = -m0 / sine, -m1 / sine, -m2 / sine
+    w[0] = a[1] * u[2] - a[2] * u[1]
+    w[1] = a[2] * u[0] - a[0] * u[2]
+    w[2] = a[0] * u[1] - a[1] * u[0]
+    return sine
+
+
+@kernel(_t.void(MATRIX, VECTOR, _t.float64, VECTOR))
+def pressed_side(slots, rel, radius, x):
+    """Write the direction, seen from the carrier's centre, in which the forces of the last step pressed on it; its own x if in none."""
+    p0, p1, p2, whole = 0.0, 0.0, 0.0, 0.0
+    for i in range(slots.shape[0]):
+        slot = slots[i]
+        if slot[ENTERED] > 0.0:
+            press = abs(slot[PUSH] * rel[2] + slot[PUSH + 1] * rel[5] + slot[PUSH + 2] * rel[8])
+            whole += press
+            p0 += press * (slot[PLACE] - rel[REL_D])
+            p1 += press * (slot[PLACE + 1] - rel[REL_D + 1])
+            p2 += press * (slot[PLACE + 2] - rel[REL_D + 2])
+    along = p0 * rel[2] + p1 * rel[5] + p2 * rel[8]
+    p0, p1, p2 = p0 - along * rel[2], p1 - along * rel[5], p2 - along * rel[8]
+    centred = p0 * p0 + p1 * p1 + p2 * p2 <= (CENTRED * radius * whole) ** 2
+    x[0] = rel[0] if centred else p0
+    x[1] = rel[3] if centred else p1
+    x[2] = rel[6] if centred else p2
+
+
+@kernel(_t.void(VECTOR, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, MATRIX, VECTOR, _t.float64, VECTOR))
+def roll(spin, n0, n1, n2, sine, radius, axes, frame, step, row):
+    """Write into a row how the lowest point of a rim changes its velocity by wandering round the stone: w x s.
+
+    Parameters
+    ----------
+    spin : (3,) array, rad/s
+        Of the first stone against the second; it and all else in the axes of `frame`.
+    sine, radius : float
+        Of the lean, and of the rim, m.
+    axes : (4, 18) array
+        See :func:`lowest`.
+    frame : (31,) array
+        The body in whose axes this is.
+    step : float, s
+        Negative where the rim is the second stone's.
+    row : (69,) array
+    """
+    if sine == 0.0:
+        return
+    a, u = axes[0], axes[2]
+    w0, w1, w2 = spin[0], spin[1], spin[2]
+    d0, d1, d2 = w1 * a[2] - w2 * a[1], w2 * a[0] - w0 * a[2], w0 * a[1] - w1 * a[0]
+    along, turning = n0 * a[0] + n1 * a[1] + n2 * a[2], n0 * d0 + n1 * d1 + n2 * d2
+    m0, m1, m2 = -turning * a[0] - along * d0, -turning * a[1] - along * d1, -turning * a[2] - along * d2
+    back = u[0] * m0 + u[1] * m1 + u[2] * m2
+    s0 = (back * u[0] - m0) / sine - (w1 * u[2] - w2 * u[1])
+    s1 = (back * u[1] - m1) / sine - (w2 * u[0] - w0 * u[2])
+    s2 = (back * u[2] - m2) / sine - (w0 * u[1] - w1 * u[0])
+    if s0 * s0 + s1 * s1 + s2 * s2 > (2.0 * FASTEST / step) ** 2:
+        return
+    factor = math.copysign(radius, step)
+    e0, e1, e2 = factor * (w1 * s2 - w2 * s1), factor * (w2 * s0 - w0 * s2), factor * (w0 * s1 - w1 * s0)
+    for i in range(3):
+        row[ROLL + i] = frame[R + 3 * i] * e0 + frame[R + 3 * i + 1] * e1 + frame[R + 3 * i + 2] * e2
+
+
+@kernel(_t.boolean(VECTOR, VECTOR, VECTOR))
+def face_each_other(rel, own, half):
+    """Whether one of two stones stands on the other with a flat face."""
+    return abs(rel[8]) > COSINE and abs(rel[REL_D + 2]) > half[2] + APPROACH * own[2]

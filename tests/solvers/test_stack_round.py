@@ -1,0 +1,202 @@
+"""Round stones roll, spin, wobble and rock as cylinders do, and worn ones turn about their insets."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from seisblock.bodies.block import Block
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.bodies.pile.toml import load_pile
+from seisblock.errors import ParameterError
+from seisblock.records import Motion
+from seisblock.solvers.respond.solve import solve_respond
+from seisblock.solvers.stack.arrays import pile_arrays
+from seisblock.solvers.stack.base import base_of
+from seisblock.solvers.stack.books import CREATED, LOST
+from seisblock.solvers.stack.course import Course
+from seisblock.solvers.stack.frames import L, Q, V, W, X, orient
+from seisblock.solvers.stack.solve import solve_stack
+from seisblock.units import STANDARD_GRAVITY as G
+from tests.solvers.test_stack_rigid import after_one_impact, cycle, lean_of, still
+
+R = 0.2
+STEP = 2e-3
+LYING = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+
+
+def drum(height, diameter=2.0 * R, name="block", **more):
+    return PileStone(name, diameter, diameter, height, shape="round", **more)
+
+
+def slab(height, side=2.0 * R, name="block", **more):
+    return PileStone(name, side, side, height, **more)
+
+
+def let_go(stone, turned, centre_height, velocity, spin, motion, mu=1.0):
+    """Follow one stone that begins in motion."""
+    pile = pile_arrays(Pile("one", (stone,), mu=mu), None, 2)
+    body = pile.bodies[0]
+    body[X : X + 3] = 0.0, 0.0, centre_height
+    body[Q : Q + 4] = np.roll(Rotation.from_matrix(turned).as_quat(), 1)
+    orient(body)
+    body[V : V + 3], body[W : W + 3] = velocity, spin
+    body[L : L + 3] = turned @ (stone.mass * stone.gyration_squared * (turned.T @ spin))
+    return Course(pile, motion, (1.0, 1.0), G, max(1, round(motion.dt / STEP)), True, False, {}).follow()
+
+
+def spinning(height, lean):
+    """Return the rate at which a cylinder whose centre stays at rest turns round on its rim, rad/s.
+
+    The spin lies along the line from the centre to the point of contact; the moment of the weight about the centre turns the angular
+    momentum: Omega^2 = g (R cos - h/2 sin) / (sin (A cos - C sin h/(2R))), with A and C the squared radii of gyration across and along the
+    axis (derived here); 4 g/(R sin) for a thin disk (Moffatt 2000, Nature 404, 833).
+    """
+    s, c = math.sin(lean), math.cos(lean)
+    across, _, along = drum(height).gyration_squared
+    return math.sqrt(G * (R * c - 0.5 * height * s) / (s * (across * c - along * s * height / (2.0 * R))))
+
+
+@pytest.mark.parametrize(("height", "lean"), [(1e-3, 0.5), (1e-3, 0.1), (0.1, 0.3), (0.2, 0.4), (1.6, 0.1)])
+def test_a_spinning_stone_goes_round_as_the_closed_form_says(height, lean):
+    """Five turns of a disk, of drums and of a column: rate and lean within 0.3 %, and no energy from nowhere."""
+    rate, s, c = spinning(height, lean), math.sin(lean), math.cos(lean)
+    turned = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    spin = -rate * s * turned[:, 0] + rate * s * 0.5 * height / R * turned[:, 2]
+    end = let_go(drum(height), turned, R * s + 0.5 * height * c, np.zeros(3), spin, still(10.0 * math.pi / rate), mu=5.0)
+    w, x, y, z = end.track.quaternions[:, 0].T
+    axis = np.array([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)])
+    inside = end.track.time < 10.0 * math.pi / rate
+    went = np.unwrap(np.arctan2(axis[1], axis[0]))[inside]
+    assert abs(went[-1] - went[0]) / np.ptp(end.track.time[inside]) == pytest.approx(rate, rel=3e-3)
+    np.testing.assert_allclose(np.arccos(axis[2][inside]), lean, rtol=3e-3)
+    assert end.kept.books[CREATED] < 1e-4 * drum(height).mass * G * R
+
+
+def test_a_drum_rolls_down_a_slope_at_two_thirds():
+    """Without slip a cylinder on its side gains 2/3 g sin of the slope, and loses nothing."""
+    angle, seconds = 0.2, 1.0
+    even = np.full(round(seconds / STEP), G)
+    motion = Motion.from_arrays(even * math.sin(angle), STEP, vertical=even * (math.cos(angle) - 1.0))
+    end = let_go(drum(0.4), LYING, R, np.zeros(3), np.zeros(3), motion)
+    inside = end.track.time < seconds
+    gained = 2.0 * np.polynomial.Polynomial.fit(end.track.time[inside], end.track.centres[inside, 0, 0], 2).convert().coef[2]
+    assert gained == pytest.approx(-2.0 / 3.0 * G * math.sin(angle), rel=2e-3)
+    assert end.kept.books[LOST] < 1e-4 * end.kept.books[0]
+
+
+def test_a_coin_rolls_straight_on():
+    """Upright, at 2 m/s, it neither slows down nor turns aside."""
+    end = let_go(drum(1e-3), LYING, R, np.array([2.0, 0.0, 0.0]), np.array([0.0, 2.0 / R, 0.0]), still(1.0))
+    inside = end.track.time < 1.0
+    x, y, _ = end.track.centres[inside, 0].T
+    np.testing.assert_allclose(x, 2.0 * end.track.time[inside], rtol=1e-5, atol=1e-9)
+    assert np.abs(y).max() < 1e-3
+
+
+def in_the_plane(stone):
+    """Return the block that a round stone is in the plane of its lean."""
+    return Block(stone.width, stone.height, mass=stone.mass, centroid_inertia=stone.mass * float(stone.gyration_squared[1]))
+
+
+def test_a_drum_rocks_in_the_plane_as_its_block():
+    """Let go from 0.6 alpha, each amplitude follows from the last by energy and the restitution of its block, within 1 %."""
+    stone = drum(0.96, 0.24)
+    block = in_the_plane(stone)
+    alpha, kept = block.slenderness, block.restitution
+
+    def height(lean):
+        return math.cos(alpha - lean) - math.cos(alpha)
+
+    response = solve_stack(Pile("one", (stone,), mu=5.0), still(3.0), tilts={"block": 0.6 * alpha})
+    assert after_one_impact(response, alpha, 0.6 * alpha) == pytest.approx(kept, abs=2e-3)
+    assert base_of(response).restitution == pytest.approx(kept, abs=1e-12)
+    lean = lean_of(response)
+    crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:6]
+    amplitudes = [np.abs(lean[a + 1 : b + 1]).max() for a, b in pairwise(crossings)]
+    for before, after in pairwise(amplitudes):
+        assert height(after) == pytest.approx(kept**2 * height(before), rel=1e-2)
+
+
+@pytest.mark.parametrize("worn", [0.0, 0.1])
+@pytest.mark.parametrize("make", [drum, slab])
+def test_a_stone_on_its_true_base_topples_where_respond_topples(make, worn):
+    """Round and square, sharp and worn: just below the threshold of its block in the plane it stands, just above it falls."""
+    stone = make(0.72, 0.24)
+    plane, pile = in_the_plane(stone).worn(worn), Pile("one", (stone,), mu=1.0).worn(worn)
+
+    def falls(pga):
+        return bool(solve_respond(plane, cycle(pga, 1.5), mu=1.0).outcome.overturned)
+
+    low, high = 2.0, 6.0
+    while high - low > 2e-3 * low:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if falls(middle) else (middle, high)
+    below, above = (solve_stack(pile, cycle(part * high, 1.5), stop_at_fall=True) for part in (0.98, 1.02))
+    assert not below.outcome.overturned_any
+    assert above.outcome.overturned_any
+    found = base_of(above)
+    assert (found.width_ratio, found.restitution) == (pytest.approx(1.0 - 2.0 * worn), pytest.approx(plane.restitution, abs=1e-12))
+
+
+@pytest.mark.parametrize("degrees", [20.0, 45.0])
+def test_a_column_leans_alike_in_every_direction(degrees):
+    """Shaken along any azimuth, its lean is the one along x, turned."""
+    pile, shaking = Pile("one", (drum(0.8, 0.26),), mu=1.0), cycle(4.0, 1.5)
+    along = solve_stack(pile, shaking)
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    aside = solve_stack(pile, Motion(np.array([c, s, 0.0])[:, None] * shaking.acceleration[0], shaking.dt))
+    assert 0.02 < along.outcome.max_tilt_rad["block"] < 0.3
+    assert aside.outcome.max_tilt_rad["block"] == pytest.approx(along.outcome.max_tilt_rad["block"], rel=1e-2)
+
+
+PILES = {
+    "drum on slab": (slab(0.3, 0.6, "low"), drum(0.8, 0.3, on="low")),
+    "slab on drum": (drum(0.3, 0.3, "low"), slab(0.2, 0.6, on="low")),
+    "drums": (drum(0.4, name="low"), drum(0.4, name="middle", on="low"), drum(0.4, on="middle")),
+    "drums aside": (drum(0.4, name="low"), drum(0.4, on="low", offset=(0.1, 0.05))),
+    "flush": (slab(0.4, name="low"), drum(0.4, on="low")),
+}
+
+
+@pytest.mark.parametrize("name", PILES)
+def test_round_stones_rest_on_others_and_move_without_creating_energy(name):
+    """At rest they stay; shaken along three axes they keep momentum, and create less than 1e-3 of the energy of a fall."""
+    pile = Pile(name, PILES[name], mu=0.6)
+    rest = solve_stack(pile, still(2.0)).outcome
+    assert not rest.overturned
+    assert max(rest.residual_slip_m.values()) < 1e-5
+    time = np.arange(0.0, 3.0, 0.005)
+    waves = [6.0 * np.sin(4.0 * math.pi * time), 3.0 * np.sin(4.4 * math.pi * time + 0.7), 1.6 * np.sin(6.8 * math.pi * time)]
+    shaken = solve_stack(pile, Motion(np.array(waves), 0.005)).outcome
+    tall = sum(stone.height for stone in pile.stones)
+    assert shaken.created_j < 1e-3 * sum(stone.mass for stone in pile.stones) * G * tall
+    assert shaken.momentum_error < 1e-12
+    assert max(shaken.max_tilt_rad.values()) > 1e-4 or max(shaken.residual_slip_m.values()) > 1e-4
+
+
+def test_a_column_stands_and_says_where_it_falls():
+    """The bundled column of drums and a capital stands still, and falls under strong shaking to a side that is said."""
+    column = load_pile("column")
+    assert all(stone.is_round for stone in column.stones[:-1])
+    assert not solve_stack(column, still(1.0)).outcome.overturned_any
+    fallen = [stone for stone in solve_stack(column, cycle(9.0, 0.8), stop_at_fall=True).outcome.stones if stone.state == "fallen"]
+    assert fallen
+    assert all(stone.fell_towards_deg is not None for stone in fallen)
+
+
+@pytest.mark.parametrize(
+    ("stone", "more", "said"),
+    [
+        (drum(0.4), {"law": "springs"}, "is round: it stands rigid on its rim"),
+        (drum(0.4), {"points": 5}, "is round: it stands rigid on its rim"),
+        (slab(0.4), {"points": 5, "inset": 0.1}, "an inset is one of stones that stand on their edges"),
+    ],
+)
+def test_what_round_and_worn_bases_do_not_know_is_refused(stone, more, said):
+    pile = Pile("one", (stone,)).worn(more.pop("inset", 0.0))
+    with pytest.raises(ParameterError, match=said):
+        solve_stack(pile, still(0.1), **more)
