@@ -23,25 +23,27 @@ _SHIFTS = {0.01: 2, 1e-3: 3}
 
 def to_si(values: FloatArray, unit: str) -> FloatArray:
     """Return accelerations in m/s^2; for gal and mm/s^2 the decimal point moves, so that 306.21 gal is 3.0621 m/s^2 to the last bit."""
-    factor = ACCELERATION_UNITS[unit]
-    if factor == 1.0:
-        return values
-    if factor not in _SHIFTS:
-        return values * factor
-    for places in (3, 6):  # decimals that files are written with
-        if all(_has_decimals(values[begin : begin + AT_A_TIME], places) for begin in range(0, values.size, AT_A_TIME)):
-            whole = values * 10.0**places
-            np.rint(whole, out=whole)
-            whole /= 10.0 ** (places + _SHIFTS[factor])
-            return whole
-    return values / 10.0 ** _SHIFTS[factor]
+    return values if ACCELERATION_UNITS[unit] == 1.0 else _converted(values, unit, np.empty_like(values))
 
 
 def turned_si(values: FloatArray, unit: str, sign: float = 1.0) -> FloatArray:
     """Return accelerations, (n,), that nobody else holds in m/s^2, in their own place, times a sign; read-only from now on."""
-    values[:] = to_si(values, unit)
+    _converted(values, unit, values)
     values *= sign
     return sealed(values)
+
+
+def _converted(values: FloatArray, unit: str, into: FloatArray) -> FloatArray:
+    """Write accelerations in m/s^2 into a row, which may be their own, and return it."""
+    factor = ACCELERATION_UNITS[unit]
+    if factor not in _SHIFTS:
+        return np.multiply(values, factor, out=into)
+    for places in (3, 6):  # decimals that files are written with
+        if all(_has_decimals(values[begin : begin + AT_A_TIME], places) for begin in range(0, values.size, AT_A_TIME)):
+            np.multiply(values, 10.0**places, out=into)
+            np.rint(into, out=into)
+            return np.divide(into, 10.0 ** (places + _SHIFTS[factor]), out=into)
+    return np.divide(values, 10.0 ** _SHIFTS[factor], out=into)
 
 
 def _has_decimals(values: FloatArray, places: int) -> bool:

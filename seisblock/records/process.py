@@ -13,7 +13,7 @@ from seisblock.records.cuts import CUT
 from seisblock.records.doubts import settled
 from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
 from seisblock.records.motion import _oriented_pair, _resolve
-from seisblock.records.record import Component, Record
+from seisblock.records.record import Component, Record, sealed
 from seisblock.typing import FloatArray
 from seisblock.units import GAL
 from seisblock.words import said
@@ -39,7 +39,7 @@ def demean(record: Record) -> Record:
     checks.instance(record, Record)
     means = {c.code: float(c.acceleration.mean()) for c in record.components}
     did = said("mean of the whole record removed ({means} gal)", means=[f"{code} {mean / GAL:.4g}" for code, mean in means.items()])
-    return _apply(record, lambda c: c.acceleration - means[c.code], did, doubts=settled(record.doubts))
+    return _apply(record, lambda c: sealed(c.acceleration - means[c.code]), did, doubts=settled(record.doubts))
 
 
 def crop(record: Record, start_s: float | None, end_s: float | None) -> Record:
@@ -112,7 +112,7 @@ def scale(record: Record, factor: float) -> Record:
     checks.instance(record, Record)
     checks.finite("the scale factor", factor)
     did = said("scaled by {factor:.10g}", factor=factor)
-    return record if factor == 1.0 else _apply(record, lambda c: c.acceleration * factor, did)
+    return record if factor == 1.0 else _apply(record, lambda c: sealed(c.acceleration * factor), did)
 
 
 def scale_to_pga(record: Record, target: float, component: str | Sequence[str] | None = None) -> Record:
@@ -162,7 +162,7 @@ def scale_to_pga(record: Record, target: float, component: str | Sequence[str] |
         peak=peak / GAL,
         target=target / GAL,
     )
-    return _apply(record, lambda c: c.acceleration * factor, did)
+    return _apply(record, lambda c: sealed(c.acceleration * factor), did)
 
 
 def pick(record: Record, name: str) -> Component:

@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from seisblock.errors import ParameterError, RecordFormatError, UnitError
-from seisblock.readers.cells import to_si
+from seisblock.readers.cells import turned_si
 from seisblock.readers.directions import Direction, direction_of
 from seisblock.readers.formats.generic_doubts import doubts_of_file
 from seisblock.readers.naming import normal_unit
@@ -142,7 +142,7 @@ def _record(name: str, trace: Any, waveform: str, unit: str, doubts: tuple[Doubt
         raise RecordFormatError("{name}: channel {channel} has gaps: cut the record to a stretch without", name=name, channel=trace.id)
     if trace.data.dtype.kind not in "iuf":
         raise RecordFormatError("{name}: channel {channel} holds text, not samples", name=name, channel=trace.id)
-    values = np.asarray(trace.data, dtype=np.float64)
+    values = np.require(trace.data, np.float64, ["C", "O", "W"])  # nobody holds them but us
     if values.size < 2 or not stats.delta > 0:
         raise RecordFormatError(
             "{name}: channel {channel} holds {count} samples at an interval of {dt} s: no waveform",
@@ -164,7 +164,7 @@ def _record(name: str, trace: Any, waveform: str, unit: str, doubts: tuple[Doubt
         told = Direction(_LETTERS.get(stats.channel[-1:].upper(), stats.channel.upper() or "ACC"))
     start = stats.starttime.datetime.replace(tzinfo=UTC) if stats.starttime.timestamp else None
     return Record(
-        (Component(told.code, told.sign * to_si(values, unit), told.azimuth_deg),),
+        (Component(told.code, turned_si(values, unit, told.sign), told.azimuth_deg),),
         float(stats.delta),
         station=stats.station,
         start=start,
