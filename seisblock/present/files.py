@@ -22,6 +22,7 @@ from seisblock.present.formulas import guarded, unguarded
 from seisblock.present.leftovers import PREFIX, held, sweep
 from seisblock.records import Record
 from seisblock.results import Response
+from seisblock.typing import FloatArray
 from seisblock.words import said
 
 FIGURES, FILMS = (".png", ".svg", ".pdf"), (".gif", ".mp4", ".html")
@@ -198,7 +199,7 @@ def write_records(folder: Path, records: Sequence[Record]) -> list[Path]:
     written = []
     for record in records:
         path = folder / f"{record.source}.csv"
-        columns = [np.round(record.time, TIME_DECIMALS).tolist(), *(c.acceleration.tolist() for c in record.components)]
+        columns = [plain(np.round(record.time, TIME_DECIMALS)), *(plain(c.acceleration) for c in record.components)]
         write_table(path, ["time (s)", *(f"{code} (m/s2)" for code in record.codes)], zip(*columns, strict=True))
         written.append(path)
     return written
@@ -258,6 +259,18 @@ def of_records(header: Sequence[str], tables: Sequence[Iterable[Sequence[Any]]])
     return [*(["record_index"] if several else []), *header], rows
 
 
+def plain(values: FloatArray) -> list[float]:
+    """Return the numbers of a column as they are written: a zero has no sign.
+
+    Examples
+    --------
+    >>> plain(np.array([-0.0, -1.5]))
+    [0.0, -1.5]
+    """
+    numbers: list[float] = (values + 0.0).tolist()
+    return numbers
+
+
 def write_histories(path: Path | str, responses: Sequence[Response[Any]]) -> None:
     """Write the time histories of responses, one below the other, with the component in the first column and the phase in the last.
 
@@ -275,5 +288,5 @@ def _rows(response: Response[Any], names: Sequence[str]) -> Iterator[Sequence[An
     phases = np.array([phase.name for phase in response.phases] or [""])
     for begin in range(0, response.time.size, BLOCK):
         part = slice(begin, begin + BLOCK)
-        cells = [columns[name][part].tolist() if name in columns else [""] * phase[part].size for name in names]
+        cells = [plain(columns[name][part]) if name in columns else [""] * phase[part].size for name in names]
         yield from zip([response.motion.name] * phase[part].size, *cells, phases[phase[part]].tolist(), strict=True)

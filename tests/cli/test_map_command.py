@@ -79,10 +79,10 @@ def test_what_is_shown(tmp_path, monkeypatch):
             (tmp_path / name).write_bytes(data)
     shown = CliRunner().invoke(main, ["map", str(tmp_path), "--cemetery", "aoyama.csv"])
     assert shown.exit_code == 0, shown.stderr
-    assert "of 2 station(s), most at SYA001" in shown.stdout
+    assert "of 2 stations, most at SYA001" in shown.stdout
     assert "earthquake of magnitude 6.8, 13 km deep, 37.288 N 138.87 E, 2004-10-23 17:56:00 JST" in shown.stdout
     peaks = CliRunner().invoke(main, ["map", str(tmp_path)])
-    assert "2 station(s), the largest shaking at SYA001" in peaks.stdout
+    assert "2 stations, the largest shaking at SYA001" in peaks.stdout
 
 
 @pytest.mark.parametrize(
@@ -113,10 +113,10 @@ def test_bad_input(words, code, says, tmp_path):
 @pytest.mark.parametrize(
     ("words", "says", "heads"),
     [
-        ("--solver rock --block gravestone --runs 3", "gravestone falls at 0 of 1 station(s)", "falls share worst versions"),
-        ("--solver slide --mu 0.1", "object slides at 1 of 1 station(s)", "slides moves"),
-        ("--solver jump --body chozusha --mu 0.18", "chozusha jumps at 0 of 1 station(s)", "jumps falls moves"),
-        ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m lifts at 1 of 1 station(s)", "lifts rises"),
+        ("--solver rock --block gravestone --runs 3", "gravestone falls at 0 of 1 station", "falls share worst versions"),
+        ("--solver slide --mu 0.1", "object slides at 1 of 1 station", "slides moves"),
+        ("--solver jump --body chozusha --mu 0.18", "chozusha jumps at 0 of 1 station", "jumps falls moves"),
+        ("--solver uplift --width 1.2 --height 3 --frequency-vertical 8", "block 1.2 x 3 m lifts at 1 of 1 station", "lifts rises"),
     ],
 )
 def test_every_solver_is_told(words, says, heads, monkeypatch):

@@ -11,9 +11,11 @@ from click.testing import CliRunner
 from seisblock import find_risk, read_hazard
 from seisblock.cli import main
 from seisblock.present.documents.risk import document
+from seisblock.present.text.risk import name_of
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.hazard.curve import Hazard, HazardCurve
 from seisblock.studies.hazard.given import GivenFragility
+from seisblock.words import speaking
 
 LINE = ("--median", "60cm/s", "--beta", "0.4", "--hazard", "synthetic_hazard.csv")
 
@@ -101,3 +103,13 @@ def test_a_doubt_about_one_of_several_curves_says_about_which():
     about, *doubts = answer.warnings
     assert about == "passed over"
     assert [doubt.partition(": ")[0] for doubt in doubts] == ["shelf, overturns", "shelf, slides"]
+
+
+def test_what_happens_is_listed_as_the_language_lists():
+    """The body and what becomes of it, with the comma of the language spoken."""
+    given = GivenFragility("stone", "rock", "PGV", "m/s", Lognormal(0.6, 0.4))
+    names = {}
+    for spoken in ("en", "ja"):
+        with speaking(spoken):
+            names[spoken] = name_of(given)
+    assert names["en"].startswith("stone, ") and names["ja"].startswith("stone、")

@@ -175,6 +175,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
     assert "m/s²" in answer.stdout
     assert (tmp_path / "rock.png").stat().st_size > 10_000
     rows = list(csv.DictReader((tmp_path / "rock.csv").open()))
+    assert not any(cell == "-0.0" for row in rows for cell in row.values())
     assert set(rows[0]) == {
         "component",
         "time_s",

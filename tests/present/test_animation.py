@@ -42,6 +42,26 @@ def test_gif_holds_every_picture_at_true_speed(tmp_path):
         assert image.info["loop"] == 0
 
 
+def test_gif_holds_of_each_picture_what_is_new(tmp_path):
+    """What stands still is packed once, however much of it there is; what is seen is every picture as it was drawn."""
+    ground = np.random.default_rng(0).integers(0, 2, (60, 90)) * 255
+    shown = []
+    for i in range(20):
+        picture = np.repeat(ground[:, :, None], 3, axis=2).astype(np.uint8)
+        picture[:, 4 * i : 4 * i + 3] = (255, 0, 0)
+        picture[i, :] = (0, 0, 255)
+        shown.append(Image.fromarray(picture))
+    animate(shown[:1] * 2, tmp_path / "still.gif")
+    animate(shown, tmp_path / "moves.gif")
+    with Image.open(tmp_path / "moves.gif") as image:
+        assert image.n_frames == 20
+        for index, picture in enumerate(shown):
+            image.seek(index)
+            np.testing.assert_array_equal(np.asarray(image.convert("RGB")), np.asarray(picture))
+    still, moves = ((tmp_path / name).stat().st_size for name in ("still.gif", "moves.gif"))
+    assert moves < 10 * still
+
+
 @pytest.mark.skipif(ffmpeg() is None, reason="neither ffmpeg nor imageio-ffmpeg is installed")
 def test_mp4_is_a_film(tmp_path):
     """Odd sizes are cut to even ones, as the codec wants."""

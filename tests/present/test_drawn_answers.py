@@ -9,12 +9,14 @@ from matplotlib.lines import Line2D
 from seisblock import Block, solve_rock
 from seisblock.bodies.scan.directions import scan_azimuths
 from seisblock.bodies.scan.scan import scan_body
+from seisblock.present.figures.azimuths import figure as azimuths_figure
 from seisblock.present.figures.criteria import figure as criteria_figure
 from seisblock.present.figures.fragility import figure as fragility_figure
 from seisblock.present.figures.rock import figure as rock_figure
 from seisblock.present.text.fragility import verdict
 from seisblock.records import Motion
 from seisblock.studies.cemetery.rate import overturning_rate
+from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.validation.furukawa_field import MODELS, SURVEYED
 from seisblock.validation.furukawa_field import rates as field_rates
 from seisblock.validation.furukawa_surveys import SURVEYS
@@ -132,6 +134,19 @@ def test_a_rose_is_its_directions():
     wanted = [100.0 * each.max_displacement_m for each in found for _ in range(1 if each.overturned else 2)]
     assert heights == pytest.approx(sorted(wanted), abs=1e-6)
     assert len(lean.patches) == len(path.patches)
+
+
+def test_a_rose_names_the_side_to_which_the_worst_falls():
+    """What falls to 330 in the plane of azimuth 150 has its bar there, and its name above; what stands has both sides, and the plane's."""
+    t = np.arange(300) * 0.01
+    worst = solve_rock(Block(0.3, 0.9), Motion.from_arrays(6.0 * np.sin(4.0 * t), 0.01, name="150"))
+    assert worst.outcome.overturned
+    for towards, azimuth in (("-x", 330), ("+x", 150)):
+        found = [RockAzimuth(90.0, False, None, None, 0.4, 0.3), RockAzimuth(150.0, True, towards, 1.0, 5.2, 0.3)]
+        (rose,) = azimuths_figure([worst], [found]).axes
+        assert rose.get_title("left").endswith(f"worst: azimuth {azimuth}")
+        fell = [np.degrees(bar.get_x() + bar.get_width() / 2.0) for bar in rose.patches if bar.get_height() == 1.0]
+        assert fell == pytest.approx([azimuth])
 
 
 @pytest.mark.slow

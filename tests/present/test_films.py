@@ -202,6 +202,9 @@ def test_a_bar_tells_the_scale_of_the_scene(model, gal):
     assert {line, text} <= set(stage.moving)
     view = sorted(line.axes.get_xlim())
     assert 0.1 < (right - left) / (view[1] - view[0]) < 0.34 and view[0] < left and right < view[1]
+    if ticks := getattr(stage.actors[0], "ticks", None):  # the marks on the ground stay clear of it
+        ground = line.axes.transData.transform((0.0, stage.actors[0].level))[1]
+        assert text.get_window_extent().y1 < ground - ticks.get_markersize() * stage.sheet.dpi / 72.0 / 2.0
 
 
 @pytest.mark.parametrize("model", FILMS)

@@ -51,7 +51,7 @@ def _drawn(responses: Sequence[Response[Any]], directions: Sequence[Directions],
         record = response.motion.record
         called = f"{name_of(record)}: " if record is not None and down > 1 else ""
         lean = made.add_subplot(rows, columns, across * row + 1, projection="polar")
-        worst = side(response.motion.name, "+x")
+        worst = side(response.motion.name, _towards(response, found))
         _bars(lean, found, [RIM if each.overturned else min(each.max_rotation_ratio, RIM) for each in found])
         if not any(each.max_rotation_ratio for each in found):
             lean.annotate(
@@ -70,6 +70,12 @@ def _drawn(responses: Sequence[Response[Any]], directions: Sequence[Directions],
         handles.append(Patch(facecolor=FELL, edgecolor="0.4", linewidth=0.5, label=tell("falls to this side") if half else tell("falls")))
     canvas.legend_outside(made, handles, loc="outside lower center", ncols=2)
     return made
+
+
+def _towards(response: Response[Any], found: Directions) -> str:
+    """Return to which side of its direction the worst is told: to that to which the body falls, where its bar is."""
+    name = response.motion.name
+    return next((each.overturned_towards for each in found if each.overturned and f"{each.azimuth_deg:g}" == name), "+x")
 
 
 def _bars(panel: Any, found: Directions, values: Sequence[float]) -> None:

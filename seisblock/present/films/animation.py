@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
@@ -21,6 +22,9 @@ from seisblock.words import tell
 
 FRAMES_PER_SECOND = 20
 """Default rate; a .gif counts in hundredths of a second, so 20, 25 and 50 play at true speed."""
+
+CLEAR = 128
+"""Of the palette of a .gif, after its colours: what lets the picture before it show."""
 
 MOST_FRAMES = 1200
 """A longer answer plays faster than it was, rather than filling the disk."""
@@ -119,9 +123,21 @@ def _write_gif(frames: Iterable[Image.Image], path: Path, fps: int) -> None:
     several = Image.new("RGB", (width, 3 * height))
     for row, index in enumerate((0, len(pictures) // 2, -1)):
         several.paste(pictures[index], (0, row * height))
-    palette = several.quantize(128, method=Image.Quantize.MEDIANCUT)
-    mapped = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
-    mapped[0].save(path, format="GIF", save_all=True, append_images=mapped[1:], duration=round(100 / fps) * 10, loop=0, optimize=False)
+    palette = several.quantize(CLEAR, method=Image.Quantize.MEDIANCUT)
+    first, *later = _changes([picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures])
+    often = {"duration": round(100 / fps) * 10, "loop": 0}
+    first.save(path, format="GIF", save_all=True, append_images=later, optimize=False, transparency=CLEAR, **often)
+
+
+def _changes(pictures: Sequence[Image.Image]) -> Iterator[Image.Image]:
+    """Yield pictures of one palette of which each but the first is clear where the one before it shows the same: that packs well."""
+    shown = None
+    for picture in pictures:
+        now = np.asarray(picture)
+        change = Image.fromarray(now if shown is None else np.where(now == shown, np.uint8(CLEAR), now), "P")
+        change.putpalette([*(picture.getpalette() or [])[: 3 * CLEAR], *[255] * (3 * (256 - CLEAR))])
+        yield change
+        shown = now
 
 
 def _write_mp4(frames: Iterable[Image.Image], path: Path, fps: int) -> None:

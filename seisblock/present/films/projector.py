@@ -14,7 +14,7 @@ from seisblock.present.films.frames import film_frames
 from seisblock.present.films.page import film_page
 
 MOST_IN_GIF = 600
-"""Pictures of a .gif, which holds each of them: at most some 8 MB."""
+"""Pictures of a .gif, which holds of each what is new in it: some 2 to 4 MB."""
 
 PAGE_RATE, MOST_MOMENTS = 250.0, 12000
 """Moments a second that a page holds, so that slow motion stays smooth, and at most how many."""

@@ -147,10 +147,11 @@ def _bar(axis: Axes, box: Box, *, gal: bool) -> list[Any]:
     left, right, bottom, top = box
     length = max((each for each in BARS if each < (right - left) / 3), default=BARS[0])
     size, name = length_unit([length], gal=gal and length < 1.0)
-    end, low = right - 0.02 * (right - left), bottom + 0.03 * (top - bottom)
+    end, low = right - 0.02 * (right - left), bottom + 0.04 * (top - bottom)
     (line,) = axis.plot([end - length, end], [low, low], color="0.1", linewidth=1.6, solid_capstyle="butt")
-    place: dict[str, Any] = {"xytext": (0.0, 2.0), "textcoords": "offset points", "ha": "right", "va": "bottom"}
-    return [line, axis.annotate(f"{length / size:g} {name}", (end, low), fontsize=8, **place)]
+    # beside it: above it are the marks on the ground
+    place: dict[str, Any] = {"xytext": (-3.0, 0.0), "textcoords": "offset points", "ha": "right", "va": "center_baseline"}
+    return [line, axis.annotate(f"{length / size:g} {name}", (end - length, low), fontsize=8, **place)]
 
 
 def _bare(axis: Axes) -> None:

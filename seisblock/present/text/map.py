@@ -32,11 +32,11 @@ HAPPENS = {
 """What a solver is asked about, as a heading."""
 
 _VERDICTS = {
-    "respond": noted("{subject} falls at {some} of {count} station(s), worst at {station}"),
-    "rock": noted("{subject} falls at {some} of {count} station(s), worst at {station}"),
-    "slide": noted("{subject} slides at {some} of {count} station(s), worst at {station}"),
-    "jump": noted("{subject} jumps at {some} of {count} station(s), worst at {station}"),
-    "uplift": noted("{subject} lifts at {some} of {count} station(s), worst at {station}"),
+    "respond": noted("{subject} falls at {some} of {stations}, worst at {station}"),
+    "rock": noted("{subject} falls at {some} of {stations}, worst at {station}"),
+    "slide": noted("{subject} slides at {some} of {stations}, worst at {station}"),
+    "jump": noted("{subject} jumps at {some} of {stations}, worst at {station}"),
+    "uplift": noted("{subject} lifts at {some} of {stations}, worst at {station}"),
 }
 
 MOST = 40
@@ -60,7 +60,7 @@ def tables(found: Stations, subject: WhatStands | None, *, gal: bool) -> Iterato
     shown = answered[:MOST]
     if shown:
         heads, rows = cells(shown, subject, gal=gal)
-        more = tell("and {count} more stations, in the files", count=len(answered) - MOST) if len(answered) > MOST else ""
+        more = _more(len(answered) - MOST)
         caption = " ".join(filter(None, (more, which_is_which(shown, subject))))
         yield table("", [head.replace(" (", "\n(") for head in heads], rows, caption=caption)  # names need the room
     missing = [answer for answer in found.answers if answer.failure]
@@ -151,20 +151,28 @@ def verdict(found: Stations, subject: WhatStands | None) -> str:
     if not answered:
         return tell("no station has an answer")
     worst = answered[0]
+    stations = tell("1 station") if count == 1 else tell("{count} stations", count=count)
     if subject is None:
-        return tell("{count} station(s), the largest shaking at {station}", count=count, station=worst.label)
+        return tell("{stations}, the largest shaking at {station}", stations=stations, station=worst.label)
     if isinstance(subject, StandingBody):
         some = sum(bool(answer.effect.happened) for answer in answered)
-        return tell(_VERDICTS[subject.solver], subject=tell(subject.name), some=some, count=count, station=worst.label)
+        return tell(_VERDICTS[subject.solver], subject=tell(subject.name), some=some, stations=stations, station=worst.label)
     rates = [answer.effect.rate or 0.0 for answer in answered]
     return tell(
-        "{subject}: stones fall at {falls} of {count} station(s), most at {station}, {rate}",
+        "{subject}: stones fall at {falls} of {stations}, most at {station}, {rate}",
         subject=tell(subject.name),
         falls=sum(rate > 0.0 for rate in rates),
-        count=count,
+        stations=stations,
         station=worst.label,
         rate=roughly(max(rates)),
     )
+
+
+def _more(count: int) -> str:
+    """Return how many stations the table leaves out, empty where it has all."""
+    if count <= 0:
+        return ""
+    return tell("and 1 more station, in the files") if count == 1 else tell("and {count} more stations, in the files", count=count)
 
 
 def _measured(answer: StationAnswer, a: Unit, v: Unit) -> list[str]:

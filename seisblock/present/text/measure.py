@@ -10,7 +10,7 @@ from rich.text import Text
 
 from seisblock.limits import check_curves
 from seisblock.measures import FilterRange, RecordMeasures, ground_history
-from seisblock.present.files import BLOCK, of_records
+from seisblock.present.files import BLOCK, of_records, plain
 from seisblock.present.scales import acceleration_unit, length_unit, velocity_unit
 from seisblock.present.text.tables import acceleration, answered, line, number, seconds, table, told_acceleration
 from seisblock.records import Record
@@ -160,4 +160,4 @@ def _history_rows(record: Record, answer: RecordMeasures, codes: Sequence[str]) 
     for begin in range(0, record.samples, BLOCK):
         part = slice(begin, min(begin + BLOCK, record.samples))
         empty = [""] * (part.stop - begin)
-        yield from zip(*(empty if column is None else column[part].tolist() for column in columns), strict=True)
+        yield from zip(*(empty if column is None else plain(column[part]) for column in columns), strict=True)

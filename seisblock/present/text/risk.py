@@ -11,7 +11,7 @@ from seisblock.studies.fragility.intensity import IntensityMeasure, intensity_me
 from seisblock.studies.hazard.curve import Hazard
 from seisblock.studies.hazard.given import GivenFragility
 from seisblock.studies.hazard.risk import Risk, RiskShare
-from seisblock.words import noted, roughly, tell
+from seisblock.words import listed, noted, roughly, tell
 
 Found = Sequence[tuple[GivenFragility, Risk]]
 
@@ -41,7 +41,7 @@ def tables(found: Found, hazard: Hazard, *, gal: bool) -> Iterator[Any]:
 
 def name_of(given: GivenFragility, *, gal: bool = True) -> str:
     """Return what happens, and to what; empty where nobody said."""
-    return ", ".join(part for part in (given.body, limit_name(given.limit, gal=gal) if given.limit else "") if part)
+    return listed(part for part in (given.body, limit_name(given.limit, gal=gal) if given.limit else "") if part)
 
 
 def verdict(given: GivenFragility, risk: Risk, *, gal: bool = True) -> str:
