@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Rectangle
 
 from seisblock.bodies.spring_block import CORNERS
@@ -23,22 +23,41 @@ from seisblock.words import noted, tell
 if TYPE_CHECKING:
     from seisblock.solvers.uplift.outcome import UpliftOutcome
 
+Uplifts = Sequence[Response["UpliftOutcome"]]
+
 COLOURS = (canvas.ACCENT, canvas.SECOND, "#2e7d4f", "#8a6d1f", "#6b4c8a", "0.25")
 LIFTED = canvas.BANDS[0]
 IN_AIR = noted("in the air")
 SUBSCRIPTS = "₁₂₃₄"
 
 
-def record_figure(responses: Sequence[Response[UpliftOutcome]], *, gal: bool = True) -> Figure:
+def record_figure(responses: Uplifts, *, gal: bool = True) -> Figure:
     """Return ground motion, four corner displacements with uplift shaded, and a plan of which corner lifted when."""
-    columns = len(responses)
-    motions, spans = [response.motion for response in responses], [stretch(response) for response in responses]
-    made = canvas.titled(heading_of(motions), width=3.0 + 5.0 * columns, height=11.6)
-    above, below = made.subfigures(2, 1, height_ratios=(5.3, 2.6), squeeze=False)[:, 0]
-    plans = below.subplots(1, columns, squeeze=False)[0]
-    histories = columns_of(above, motions, spans, 5, heights=(1.3, 1, 1, 1, 1))
+    made = _drawn(responses, gal=gal)
+    made.stacked = lambda: _drawn(responses, gal=gal, stacked=True)
+    return made
+
+
+def _drawn(responses: Uplifts, *, gal: bool, stacked: bool = False) -> canvas.Sheet:
+    """Return the figure, its columns beside or below each other, each over its plan."""
+    motions = [response.motion for response in responses]
+    wide, down = (1, len(responses)) if stacked else (len(responses), 1)
+    made = canvas.titled(heading_of(motions), width=3.0 + 5.0 * wide, height=11.6 * down)
+    blocks = made.subfigures(2 * down, 1, height_ratios=(5.3, 2.6) * down, squeeze=False)[:, 0]
     far = length_unit((corner.max_uplift_m for response in responses for corner in response.outcome.corners), gal=gal)
-    for panels, plan, name, response, span in zip(histories, plans, names_of(motions), responses, spans, strict=True):
+    names = names_of(motions)
+    for row in range(down):
+        part = slice(row * wide, (row + 1) * wide)
+        _columns(blocks[2 * row], blocks[2 * row + 1], responses[part], names[part], far, gal=gal)
+    return made
+
+
+def _columns(above: SubFigure, below: SubFigure, responses: Uplifts, names: Sequence[str], far: Unit, *, gal: bool) -> None:
+    """Draw columns beside each other: histories above, plans below."""
+    spans = [stretch(response) for response in responses]
+    plans = below.subplots(1, len(responses), squeeze=False)[0]
+    histories = columns_of(above, [response.motion for response in responses], spans, 5, heights=(1.3, 1, 1, 1, 1))
+    for panels, plan, name, response, span in zip(histories, plans, names, responses, spans, strict=True):
         _motion(panels[0], name, response, gal=gal)
         for i, panel in enumerate(panels[1:]):
             if i:
@@ -46,7 +65,6 @@ def record_figure(responses: Sequence[Response[UpliftOutcome]], *, gal: bool = T
             _corner(panel, response, i, far)
         canvas.dress(plan)
         _plan(plan, response, *span)
-    return made
 
 
 def stretch(response: Response[UpliftOutcome]) -> Stretch:

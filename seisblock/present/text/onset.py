@@ -30,5 +30,16 @@ def onset(how: str, threshold: float, motion: Motion, *, gal: bool = True) -> st
     "rocks from 200.0 gal on, 1.25 times this record's PGA"
     """
     peak = float(np.abs(motion.horizontal).max())
-    factor = tell(", {times:.3g} times this record's PGA", times=threshold / peak) if 0.0 < peak < threshold else ""
+    factor = tell(", {times} times this record's PGA", times=times(threshold / peak)) if 0.0 < peak < threshold else ""
     return tell(how, threshold=told_acceleration(threshold, gal=gal), factor=factor)
+
+
+def times(factor: float) -> str:
+    """Return a factor to three digits, whole from 100 on; never as a power of ten.
+
+    Examples
+    --------
+    >>> times(1.25), times(340.2), times(1053.7)
+    ('1.25', '340', '1054')
+    """
+    return f"{factor:.3g}" if factor < 100.0 else f"{factor:.0f}"

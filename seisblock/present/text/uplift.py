@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.present.scales import length_cell, length_unit, told_length
+from seisblock.present.text.onset import times
 from seisblock.present.text.tables import answered, line, seconds, table
 from seisblock.results import Response
 from seisblock.solvers.uplift.fates import SMALL
@@ -66,11 +67,11 @@ def _rows(response: Response[UpliftOutcome], *, gal: bool) -> Iterator[list[str]
 def sentence(response: Response[UpliftOutcome], *, gal: bool = True) -> str:
     """Return what happened in words."""
     outcome, name = response.outcome, response.motion.name
-    if not outcome.uplifts and outcome.uplift_scale is None:
-        return tell("{name}: no corner lifts.", name=name)
     if not outcome.uplifts:
-        needed = outcome.uplift_scale
-        return tell("{name}: no corner lifts; the motion would have to be {factor:.3g} times as strong.", name=name, factor=needed)
+        if outcome.uplift_scale is None:
+            return tell("{name}: no corner lifts.", name=name)
+        needed = times(outcome.uplift_scale)
+        return tell("{name}: no corner lifts; the motion would have to be {factor} times as strong.", name=name, factor=needed)
     corners = outcome.first_corners
     if len(corners) > 1:
         numbers = tell(" and ").join(map(str, corners))
