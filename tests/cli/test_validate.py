@@ -63,6 +63,8 @@ def test_what_differs_is_listed_and_what_holds_is_counted():
     short, whole = run("--paper", "Sugimoto2017").stdout, run("--paper", "Sugimoto2017", "--all").stdout
     count = len(cases("sugimoto"))
     assert short.startswith(f"{count} cases: ") and whole.startswith(f"{count} cases: ")
+    japanese = run("--paper", "Sugimoto2017", "--lang", "ja").stdout
+    assert "。--all で" in japanese  # no blank between two Japanese sentences
     assert "What holds" not in short and "--all lists those that hold" in " ".join(short.split())
     assert "case 9: impact" not in " ".join(short.split())
     assert len(short.splitlines()) < 0.4 * len(whole.splitlines())

@@ -13,7 +13,7 @@ from rich.text import Text
 
 from seisblock.present.text.tables import line, table
 from seisblock.validation.case import VERDICTS, WORTHS, Case, CaseResult, Verdict, Worth, counts, counts_by_kind
-from seisblock.words import noted, tell
+from seisblock.words import noted, strung, tell
 
 WIDTH = 110
 """Widest line, characters."""
@@ -147,7 +147,7 @@ def _count(results: Sequence[CaseResult], *, every: bool) -> Text:
     counted = counts(results)
     counts_told = tell("{all} cases: {hold} hold, {differ} differ as explained, {fail} fail.", all=len(results), **_named(counted))
     told = line(counts_told, "bold red" if counted["fails"] else "")
-    return told if every else told.append(" " + tell("--all lists those that hold."), style="dim")
+    return told if every else told.append(strung(["", tell("--all lists those that hold.")]), style="dim")
 
 
 def _named(counted: Mapping[Verdict, int]) -> dict[str, int]:
