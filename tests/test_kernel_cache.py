@@ -42,7 +42,7 @@ def answers(folder, script=SCRIPT, **options):
 def filled(tmp_path_factory):
     """A folder with the kernels compiled."""
     folder = tmp_path_factory.mktemp("kernels")
-    assert answers(folder) == ["compiling the kernels, once; a few seconds..."]
+    assert answers(folder) == ["compiling the kernels, once; seconds, for the largest a minute..."]
     return folder
 
 
@@ -108,7 +108,7 @@ def test_a_damaged_kernel_is_compiled_afresh(folder, suffix, spoil, script):
 def test_a_full_disk_is_no_reason_to_stop(tmp_path):
     """Nothing can be written: the kernels are compiled for this run, and one line names the folder and why."""
     said = answers(tmp_path / "kernels", ONE, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
-    assert said[0] == "compiling the kernels, once; a few seconds..."
+    assert said[0] == "compiling the kernels, once; seconds, for the largest a minute..."
     assert len(said) == 2 and "compiling afresh" in said[1] and os.strerror(27) in said[1]
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from seisblock import Block, solve_respond, solve_rock
+from seisblock import Block, crop, load_pile, motion_of, read, solve_respond, solve_rock, solve_stack
 from seisblock.bodies.spring_block import CORNERS
 from seisblock.measures import ground_history
 from seisblock.present.faces import FACES, figure_of
@@ -319,6 +319,15 @@ def test_a_fallen_stone_has_no_slip_from_where_it_turns_away():
     for time, slip in ((film_lines[0].time, film_lines[0].values), figure_line.get_data()):
         drawn = np.asarray(time)[np.isfinite(slip)]
         assert fell.fell_at_s - 0.25 < drawn.max() < fell.fell_at_s - 0.2
+
+
+def test_a_drum_that_rolls_on_is_not_followed():
+    """Film and figure end some seconds after the last fall, though the fallen drums of a column roll for as long as they are followed."""
+    found = solve_stack(load_pile("column"), motion_of(crop(read("synthetic_jma.csv"), 24.0, 36.0), "NS"))
+    last = max(stone.fell_at_s for stone in found.outcome.stones)
+    where = np.stack([found[f"{name}_{axis}"] for name in found.body.names for axis in "xy"])
+    assert np.abs(where[:, -1] - where[:, found.time < last + 5.0][:, -1]).max() > 1.0
+    assert last < stack.stretch(found, margin=1.5)[1] <= last + 3.5
 
 
 def test_a_corner_is_drawn_in_the_air_when_it_is():

@@ -97,6 +97,13 @@ def test_a_coin_rolls_straight_on():
     assert np.abs(y).max() < 1e-3
 
 
+def test_a_drum_may_roll_far():
+    """The ground has no edge within a record's reach."""
+    end = let_go(drum(0.4), LYING, R, np.array([80.0, 0.0, 0.0]), np.array([0.0, 80.0 / R, 0.0]), still(1.0))
+    assert end.track.centres[-1, 0, 0] > 75.0
+    np.testing.assert_allclose(end.track.centres[:, 0, 2], R, rtol=1e-3)
+
+
 def in_the_plane(stone):
     """Return the block that a round stone is in the plane of its lean."""
     return Block(stone.width, stone.height, mass=stone.mass, centroid_inertia=stone.mass * float(stone.gyration_squared[1]))

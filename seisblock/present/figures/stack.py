@@ -28,6 +28,9 @@ DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1, 2)), (0, (1, 1)), (0, (
 FALLING = 0.2
 """How long before its fall a stone no longer slides but turns away, s."""
 
+FALLEN = 2.0
+"""How long after its fall a stone is followed, s: a drum that lies may roll until the record ends."""
+
 
 def figure(responses: Stacks, *, gal: bool = True) -> Figure:
     """Return the figure: per run the ground acceleration, and tilts and slips of the stones against time."""
@@ -96,10 +99,11 @@ def largest(response: Response[StackOutcome], quantity: str) -> float:
 def stretch(response: Response[StackOutcome], *, margin: float) -> tuple[float, float]:
     """Return when the stones move noticeably, with a margin, s; the strong part of the record if they never do."""
     time, moving = response.time, np.zeros(response.time.size, dtype=bool)
-    for name in response.body.names:
+    for stone in response.outcome.stones:
+        followed = time <= (np.inf if stone.fell_at_s is None else stone.fell_at_s + FALLEN)
         for quantity, least in (("tilt", NOTICEABLE_TILT), ("slip", NOTICEABLE_SLIP)):
-            values = response[f"{name}_{quantity}"]
-            moving |= (np.abs(np.gradient(values)) > 0.1 * least) & (np.abs(values - values[0]) > least)
+            values = response[f"{stone.name}_{quantity}"]
+            moving |= (np.abs(np.gradient(values)) > 0.1 * least) & (np.abs(values - values[0]) > least) & followed
     if not moving.any():
         return strong_stretch(response.motion)
     first, last = time[moving][[0, -1]]

@@ -24,8 +24,8 @@ from seisblock.solvers.stack.step import ALL_EDGES, CARRIER, JOINT, LEVEL, ORBIT
 from seisblock.typing import FloatArray, IntArray
 from seisblock.words import noted
 
-GROUND_HALF = 50.0
-"""Half size, m, of the box that is the ground."""
+GROUND_HALF, GROUND_DEPTH = 1e5, 50.0
+"""Half width and half depth, m, of the box that is the ground: a drum may roll far."""
 
 PLASTIC = -1.0
 """The rebound of joints that are given none."""
@@ -145,7 +145,7 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: f
     for i, stone in enumerate(body.stones):
         boxes[i, :3] = 0.5 * np.array(stone.size)
         boxes[i, AT:] = centres[i] - bodies[owner[i], X : X + 3]
-    boxes[-1] = (GROUND_HALF, GROUND_HALF, GROUND_HALF, 0.0, 0.0, -GROUND_HALF)
+    boxes[-1] = (GROUND_HALF, GROUND_HALF, GROUND_DEPTH, 0.0, 0.0, -GROUND_DEPTH)
     pairs = np.array([(i, j) for i in range(len(boxes)) for j in range(i + 1, len(boxes)) if owner[i] != owner[j]], dtype=np.int64)
     integers, constants, grids, worn = _joint_arrays(body, contact, points, kinetic, rebound, joints, boxes, owner, inert, pairs)
     corners, counts, edges, cores, rims = hulls_of(body, boxes, worn)
