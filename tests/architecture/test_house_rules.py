@@ -226,6 +226,17 @@ def test_only_the_jit_module_decorates_kernels():
     assert [path.name for path in sources() if re.search(r"@(numba\.)?n?jit\b|fastmath=", path.read_text(encoding="utf-8"))] == []
 
 
+def test_every_statement_can_be_reached():
+    """Nothing stands behind a return, a raise, a break or a continue of its own block."""
+    ends = (ast.Return, ast.Raise, ast.Break, ast.Continue)
+    for path in sources():
+        for node in ast.walk(tree_of(path)):
+            for name in ("body", "orelse", "finalbody"):
+                block = getattr(node, name, [])
+                for statement in block[:-1] if isinstance(block, list) else []:
+                    assert not isinstance(statement, ends), f"{path}:{statement.lineno} nothing after this is done"
+
+
 def test_nothing_below_the_command_line_prints():
     """The library is silent: no print and no sys.stdout outside cli."""
     loud = [

@@ -67,9 +67,9 @@ def _gather(i, n, count, memory):
                 bed[0, UP + m] = side * row[NORMAL + m]
             along += bed[0, UP + m] * side * row[NORMAL + m]
             point[AWAY + m] = row[arm + m]
+            point[SHARE + m] = side * row[IMPULSE + m] / pressed
         if along < 1.0 - 1e-9:
             return False
-            point[SHARE + m] = side * row[IMPULSE + m] / pressed
         point[ROUGH] = row[MU]
         point[SIDE] = side
         for m in range(4):
