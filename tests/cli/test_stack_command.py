@@ -142,6 +142,8 @@ def test_own_stones(pulse, tmp_path):
     (found,) = answer(pulse, "--stones", stones, "--joint-stiffness", "1e8")["results"]
     assert found["overturned"] == []
     assert set(found["max_tilt_rad"]) == {"lower", "upper"}
+    told = " ".join(run(pulse, "--stones", stones).stdout.split())
+    assert "upper is so squat that an impact ends its rocking" in told  # Housner's ratio would be negative
 
 
 def test_records_beside_the_study(pulse):

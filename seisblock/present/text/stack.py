@@ -169,6 +169,8 @@ def standing(response: Response[StackOutcome]) -> str:
             share=found.width_ratio,
             **told,
         )
+    if points == EDGES and found.restitution <= 0.0:
+        return tell("{law} on their edges; on firm ground, {stone} is so squat that an impact ends its rocking.", law=law, **told)
     if points == EDGES:
         return tell("{law} on their edges; an impact leaves {stone}, on firm ground, {kept:.2f} of its angular velocity.", law=law, **told)
     return tell(
