@@ -50,7 +50,7 @@ def identity(path: Path) -> Identity:
     try:
         found = path.stat()
     except OSError:
-        return str(path.resolve())
+        return os.path.realpath(path)  # `resolve` fails on a link to itself
     return found.st_dev, found.st_ino
 
 

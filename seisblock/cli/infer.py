@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -121,7 +122,7 @@ def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str |
         )
     if len(cemetery) > 1 and rate is not None:
         raise click.UsageError(tell("--rate is of one place: several cemeteries need a column fallen each"))
-    if twice := [name for name, count in Counter(str(Path(name).resolve()) for name in cemetery).items() if count > 1]:
+    if twice := [name for name, count in Counter(os.path.realpath(name) for name in cemetery).items() if count > 1]:
         raise click.UsageError(tell("--cemetery names {name} twice: its stones would count double", name=Path(twice[0]).name))
     return _stones(output, cemetery, rate, asked)
 

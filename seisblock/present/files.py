@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import errno
 import os
 import secrets
 import shutil
@@ -90,6 +91,11 @@ def checked_target(path: Path | str) -> Path:
     target = Path(path)
     if target.exists() and not (target.is_file() or target.is_dir()):
         return target  # a name such as /dev/fd/63 leads to a pipe, which has no other
+    try:
+        target.stat()
+    except OSError as error:
+        if error.errno == errno.ELOOP:
+            raise OutputError("cannot write {target}: {reason}{kept}", target=target, reason=reason(error), kept="") from error
     real = target.resolve()
     if real.is_dir():
         raise OutputError("{target} is a directory: give a file name", target=target)

@@ -181,6 +181,18 @@ def test_a_name_too_long_is_a_sentence(folder):
     assert done.exit_code == 3 and "too long" in done.stderr and "Traceback" not in done.output
 
 
+@pytest.mark.parametrize(
+    "words",
+    [("slide", "in.csv", "--mu", "0.2", "--csv"), ("stack", "in.csv", "--plot"), ("report", "in.csv", "-o"), ("infer", "--cemetery")],
+    ids=" ".join,
+)
+def test_a_link_to_itself_is_a_sentence(words, folder):
+    """The disk finds no file behind it, however often it looks: a traceback with Python before 3.13."""
+    (folder / "loop.png").symlink_to("loop.png")
+    done = run(*words, "loop.png")
+    assert done.exit_code == 3 and "loop.png" in done.stderr and not isinstance(done.exception, RuntimeError)
+
+
 def box(kind, size):
     """Return a box of an MP4."""
     return (size + 8).to_bytes(4, "big") + kind + bytes(size)
