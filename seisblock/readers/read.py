@@ -12,6 +12,7 @@ from seisblock import checks
 from seisblock.errors import ComponentError, KindError, ParameterError
 from seisblock.readers.assemble import assemble, continues
 from seisblock.readers.dispatch import Options, parts_of
+from seisblock.readers.heap import give_back
 from seisblock.readers.siblings import with_siblings
 from seisblock.readers.source import STDIN, Blob, Location, digest, fetch
 from seisblock.records import Record
@@ -19,6 +20,9 @@ from seisblock.records.signs import examined
 
 ALL = "all"
 """The station that stands for every station of a bundle."""
+
+_MANY = 2**20
+"""Samples from which on it is worth while to let go of what reading them left behind."""
 
 
 def read(
@@ -185,7 +189,7 @@ def _records_of(group: Sequence[Opened], options: Options, named: frozenset[Path
     for part in parts:
         recordings.setdefault((part.station, part.start, part.metadata.get("event")), []).append(part)
     sha256 = digest(blobs)
-    return [examined(replace(assemble(name, each, level=_level(each, options.level)), sha256=sha256)) for each in recordings.values()]
+    return [_examined(replace(assemble(name, each, level=_level(each, options.level)), sha256=sha256)) for each in recordings.values()]
 
 
 def _record_of(group: Sequence[Opened], options: Options, named: frozenset[Path | None] = frozenset()) -> Record:
@@ -196,7 +200,15 @@ def _record_of(group: Sequence[Opened], options: Options, named: frozenset[Path 
         if len(stations) > 1:
             raise ComponentError("{name} holds {count} stations, and one record was asked for: choose one", name=name, count=len(stations))
     record = assemble(name, parts, station=None if options.station == ALL else options.station, level=options.level)
-    return examined(replace(record, sha256=digest(blobs)))
+    return _examined(replace(record, sha256=digest(blobs)))
+
+
+def _examined(record: Record) -> Record:
+    """Return a record with what its samples tell; what reading and looking took is the system's again."""
+    told = examined(record)
+    if len(record.components) * record.components[0].acceleration.size > _MANY:
+        give_back()
+    return told
 
 
 def _family(group: Sequence[Opened], options: Options, named: frozenset[Path | None]) -> tuple[str, list[Record], list[Blob]]:

@@ -99,11 +99,11 @@ def test_what_is_free_under_a_block_that_is_not_is_given_back():
     assert given > 30e6
 
 
-def test_a_long_file_leaves_nothing_of_its_decoder_behind(tmp_path, monkeypatch):
+def test_a_long_record_leaves_nothing_of_its_reading_behind(tmp_path, monkeypatch):
     """It was 0.2 GB of a day, beside the record and what is made of it; a short file is not worth the while."""
     told = []
-    monkeypatch.setattr("seisblock.readers.formats.generic.give_back", lambda: told.append(samples))
-    monkeypatch.setattr("seisblock.readers.formats.generic._MANY", 1000)
+    monkeypatch.setattr(sys.modules["seisblock.readers.read"], "give_back", lambda: told.append(samples))
+    monkeypatch.setattr(sys.modules["seisblock.readers.read"], "_MANY", 1000)
     for samples in (1000, 1001):
         path = tmp_path / f"{samples}.mseed"
         obspy.Trace(np.arange(samples, dtype=np.int32), {"station": "DAY", "channel": "HNN", "delta": 0.005}).write(str(path), "MSEED")

@@ -14,7 +14,6 @@ from seisblock.errors import ParameterError, RecordFormatError, UnitError
 from seisblock.readers.cells import turned_si
 from seisblock.readers.directions import Direction, direction_of
 from seisblock.readers.formats.generic_doubts import doubts_of_file
-from seisblock.readers.heap import give_back
 from seisblock.readers.naming import normal_unit
 from seisblock.readers.source import LONGEST_SHOWN, Blob
 from seisblock.records import Component, Doubt, Record
@@ -30,9 +29,6 @@ _KNOWN = noted(
     "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, CSMIP, COSMOS, SMC, ESM, GeoNet, a plain table, a bundle of those, nor a "
     "waveform format of obspy"
 )
-_MANY = 2**20
-"""Samples from which on it is worth while to let go of what their decoder left behind."""
-
 _LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
 
 
@@ -66,8 +62,6 @@ def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) 
         path.write_bytes(blob.data)
         name = _recognise(blob.name, path) if waveform is None else waveform.upper()
         traces, warned = _traces(blob.name, path, name)
-    if sum(trace.stats.npts for trace in traces) > _MANY:
-        give_back()
     doubts = doubts_of_file(blob.data, name, traces, warned)
     if units is None:
         raise UnitError(
