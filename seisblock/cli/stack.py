@@ -209,6 +209,7 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
     from seisblock.cli.progress import progress
     from seisblock.present.documents.stack import document
     from seisblock.present.text import stack as shown
+    from seisblock.readers.heap import give_back
     from seisblock.solvers.stack.solve import solve_stack
     from seisblock.studies.agreement import pile_agreement
     from seisblock.studies.standing.pile_probability import PileVersions, stack_probability
@@ -223,6 +224,7 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
             name = f"{record.station} {motion.name}".strip()
             with progress(name) as advance:
                 responses.append(solve_stack(body, motion, contact=contact, progress=advance, **asked))
+            give_back()  # a day's models of one stone find no room beside what compiling has freed
             extra: dict[str, Any] = {"agreement": pile_agreement(responses[-1])}
             if varied["runs"]:
                 with progress("versions {name}", name=name) as advance:
