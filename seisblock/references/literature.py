@@ -89,6 +89,14 @@ LITERATURE = (
         "Computer Methods in Applied Mechanics and Engineering, 177(3-4), 235-257",
     ),
     Reference(
+        "Moffatt2000",
+        "Moffatt, H. K.",
+        2000,
+        "Euler's disk and its finite-time singularity",
+        "Nature, 404, 833-834",
+        doi="10.1038/35009017",
+    ),
+    Reference(
         "Gottschalk1996",
         "Gottschalk, S. and Lin, M. C. and Manocha, D.",
         1996,

@@ -20,6 +20,7 @@ PAPERS: tuple[str, ...] = (
     "furukawa_pile",
     "furukawa_dowel",
     "stack_steps",
+    "stack_round",
     "fema_p58",
 )
 """Modules of this package that export CASES."""

@@ -2,10 +2,10 @@
 
 import pytest
 
-from seisblock.validation import furukawa_dowel, stack_steps
+from seisblock.validation import furukawa_dowel, stack_round, stack_steps
 
 
-@pytest.mark.parametrize("case", (*furukawa_dowel.CASES, *stack_steps.CASES), ids=lambda case: case.key)
+@pytest.mark.parametrize("case", (*furukawa_dowel.CASES, *stack_steps.CASES, *stack_round.CASES), ids=lambda case: case.key)
 def test_case(case):
     """What holds holds, what differs does by as much as its note explains."""
     result = case.run()

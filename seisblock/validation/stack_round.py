@@ -1,0 +1,190 @@
+"""Round stones of a pile beside closed forms: cylinders go round on their rims, drums roll down a slope, coins roll on, what slips rolls.
+
+No shaking: each is let go in the motion that the closed form belongs to, and is followed with the steps of a pile.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import ROUND, PileStone
+from seisblock.records.motion import Motion
+from seisblock.solvers.stack.arrays import pile_arrays
+from seisblock.solvers.stack.course import Course
+from seisblock.solvers.stack.frames import L, Q, R, V, W, X
+from seisblock.solvers.stack.outcome import End
+from seisblock.solvers.stack.solve import EDGES
+from seisblock.typing import FloatArray
+from seisblock.units import STANDARD_GRAVITY
+from seisblock.validation.case import CONVERGED, Case
+
+RADIUS = 0.2
+STEP = 2e-3
+ROUGH = 5.0
+"""Friction at which nothing slips."""
+
+ON_THE_RIM = ((1e-3, 0.5), (1e-3, 0.1), (0.1, 0.3), (0.2, 0.4), (1.6, 0.1))
+"""Height, m, and lean, rad, of a disk, of drums and of a column."""
+
+RATE = 2e-4
+"""Relative tolerance of a rate: the error of steps of 2 ms, which falls with their square."""
+
+WAY = 1e-5
+"""Tolerance of a way, m: the same."""
+
+TURNS = 5
+SECONDS = 1.0
+SLOPE = 0.2
+"""Angle of the slope, rad."""
+
+SPEED = 2.0
+SLIPPERY = 0.3
+"""Friction of the drum that is thrown without a spin."""
+
+LYING = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+"""Axes of a cylinder on its side, its own axis along y."""
+
+
+def drum(height: float) -> PileStone:
+    """Return a cylinder of the radius of this module; a disk where it is low."""
+    return PileStone("drum", 2.0 * RADIUS, 2.0 * RADIUS, height, shape=ROUND)
+
+
+def still(seconds: float) -> Motion:
+    """Return ground that stands still, a sample a step."""
+    return Motion.from_arrays(np.zeros(math.ceil(seconds / STEP) + 1), STEP)
+
+
+def let_go(
+    stone: PileStone, axes: FloatArray, height: float, velocity: FloatArray, spin: FloatArray, motion: Motion, mu: float = ROUGH
+) -> End:
+    """Follow one stone that begins in motion: its own axes as columns, the height of its centre, velocity, m/s, and spin, rad/s."""
+    from scipy.spatial.transform import Rotation
+
+    pile = pile_arrays(Pile("one", (stone,), mu=mu), None, EDGES)
+    body = pile.bodies[0]
+    body[X : X + 3] = 0.0, 0.0, height
+    body[Q : Q + 4] = np.roll(Rotation.from_matrix(axes).as_quat(), 1)
+    body[R : R + 9] = axes.ravel()
+    body[V : V + 3], body[W : W + 3] = velocity, spin
+    body[L : L + 3] = axes @ (stone.mass * stone.gyration_squared * (axes.T @ spin))
+    return Course(pile, motion, (1.0, 1.0), STANDARD_GRAVITY, 1, True, False, {}).follow()
+
+
+def rate_on_the_rim(stone: PileStone, lean: float) -> float:
+    """Return the rate at which a cylinder whose centre stays at rest goes round on its rim, rad/s ([Moffatt2000]_ eq. (1)).
+
+    The spin lies along the line from the centre to the point of contact; the moment of the weight about the centre turns the angular
+    momentum: Omega^2 = g (R cos - h/2 sin) / (sin (A cos - C sin h/(2R))), with A = (3 R^2 + h^2)/12 and C = R^2/2 the squared radii of
+    gyration across and along the axis (derived here for any height); 4 g/(R sin) for a thin disk.
+    """
+    s, c, half = math.sin(lean), math.cos(lean), 0.5 * stone.height
+    across, along = (3.0 * RADIUS**2 + stone.height**2) / 12.0, 0.5 * RADIUS**2
+    return math.sqrt(STANDARD_GRAVITY * (RADIUS * c - half * s) / (s * (across * c - along * s * half / RADIUS)))
+
+
+def go_round(stone: PileStone, lean: float) -> tuple[FloatArray, FloatArray, End]:
+    """Return the times, s, (n,), and the axis, (n, 3), of a cylinder let go as it goes round on its rim, through some turns; and its end."""
+    rate, s, c, half = rate_on_the_rim(stone, lean), math.sin(lean), math.cos(lean), 0.5 * stone.height
+    axes = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    spin = rate * s * (half / RADIUS * axes[:, 2] - axes[:, 0])
+    seconds = 2.0 * math.pi * TURNS / rate
+    end = let_go(stone, axes, RADIUS * s + half * c, np.zeros(3), spin, still(seconds))
+    inside = end.track.time <= seconds
+    w, x, y, z = end.track.quaternions[inside, 0].T
+    axis = np.array([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)])
+    return end.track.time[inside], axis.T, end
+
+
+def rate_followed(height: float, lean: float) -> float:
+    """Return the mean rate at which a cylinder goes round through some turns, rad/s."""
+    time, axis, _ = go_round(drum(height), lean)
+    went = np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
+    return float(abs(went[-1] - went[0]) / np.ptp(time))
+
+
+def roll_down() -> tuple[float, End]:
+    """Return what a drum on its side gains on a slope, m/s^2, and its end; the slope is a weight that does not point down."""
+    even = np.full(round(SECONDS / STEP) + 1, STANDARD_GRAVITY)
+    motion = Motion.from_arrays(-even * math.sin(SLOPE), STEP, vertical=even * (math.cos(SLOPE) - 1.0))
+    end = let_go(drum(2.0 * RADIUS), LYING, RADIUS, np.zeros(3), np.zeros(3), motion)
+    inside = end.track.time <= SECONDS
+    way = np.polynomial.Polynomial.fit(end.track.time[inside], end.track.centres[inside, 0, 0], 2)
+    return float(2.0 * way.convert().coef[2]), end
+
+
+def rolled_down() -> float:
+    """Return what a drum on its side gains on a slope, m/s^2."""
+    return roll_down()[0]
+
+
+def roll_on(height: float, speed: float = SPEED, rolls: bool = True, mu: float = ROUGH) -> tuple[FloatArray, FloatArray]:
+    """Return times, s, (n,), and centres, m, (n, 3), of a cylinder on its side that rolls, or is thrown without a spin."""
+    spin = np.array([0.0, speed / RADIUS if rolls else 0.0, 0.0])
+    end = let_go(drum(height), LYING, RADIUS, np.array([speed, 0.0, 0.0]), spin, still(SECONDS), mu)
+    inside = end.track.time <= SECONDS
+    return end.track.time[inside], end.track.centres[inside, 0]
+
+
+def rolled(height: float, rolls: bool = True, mu: float = ROUGH) -> float:
+    """Return how far a cylinder on its side gets, m."""
+    _, centres = roll_on(height, rolls=rolls, mu=mu)
+    return float(centres[-1, 0])
+
+
+def thrown() -> float:
+    """Return how far a drum gets that is thrown without a spin: friction turns it until it rolls, with two thirds of its speed, m."""
+    slips = SPEED / (3.0 * SLIPPERY * STANDARD_GRAVITY)
+    return SPEED * slips - 0.5 * SLIPPERY * STANDARD_GRAVITY * slips**2 + 2.0 / 3.0 * SPEED * (SECONDS - slips)
+
+
+def _round(height: float, lean: float) -> Case:
+    """Return the case of one cylinder on its rim."""
+    expected = rate_on_the_rim(drum(height), lean)
+    return Case(
+        f"stack-round-rim-{height:g}-m-{lean:g}-rad",
+        "[Moffatt2000]_ eq. (1)",
+        f"rate at which a cylinder of radius {RADIUS:g} m and height {height:g} m goes round on its rim, {lean:g} rad from lying flat",
+        "rad/s",
+        expected,
+        RATE * expected,
+        partial(rate_followed, height, lean),
+        note="expected: the closed form for any height, derived here; the paper's is that of a thin disk. Steps of 2 ms",
+        kind="derived",
+        quick=False,
+    )
+
+
+def _rolling(key: str, quantity: str, unit: str, expected: float, tolerance: float, compute: Callable[[], float]) -> Case:
+    """Return the case of a cylinder on its side."""
+    return Case(
+        f"stack-round-{key}",
+        "[Jean1999]_ section 3",
+        quantity,
+        unit,
+        expected,
+        tolerance,
+        compute,
+        note="expected: closed form of rolling without slip",
+        kind="derived",
+        quick=False,
+    )
+
+
+DOWN = 2.0 / 3.0 * STANDARD_GRAVITY * math.sin(SLOPE)
+
+CASES = (
+    *(_round(*stone) for stone in ON_THE_RIM),
+    _rolling("slope", "acceleration of a drum that rolls down a slope of 0.2 rad, two thirds of g sin", "m/s^2", DOWN, CONVERGED * DOWN, rolled_down),
+    _rolling("coin", "way of a coin that rolls at 2 m/s, after 1 s", "m", SPEED * SECONDS, WAY, partial(rolled, 1e-3)),
+    _rolling(
+        "thrown", "way of a drum thrown at 2 m/s without a spin, which slips until it rolls with two thirds of that, after 1 s; friction 0.3",
+        "m", thrown(), WAY, partial(rolled, 2.0 * RADIUS, rolls=False, mu=SLIPPERY),
+    ),
+)  # fmt: skip
+"""Every case on round stones."""
