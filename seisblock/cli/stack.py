@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
 from seisblock.cli import offered
 from seisblock.cli.command import Command, option
@@ -28,7 +29,7 @@ RIGID, SPRINGS = "rigid", "springs"
 EDGES, GRID = 2, 5
 """Points along each side of a joint: on its edges, and as in Furukawa2009."""
 
-VARIED = ("size", "mu", "amplitude", "azimuth")
+VARIED = ("size", "inset", "mu", "amplitude", "azimuth")
 """What versions of a pile differ in."""
 
 COARSEST = 29
@@ -207,6 +208,7 @@ def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, .
 def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dict[str, Any]) -> None:
     """Follow the pile through the records."""
     from seisblock.cli.progress import progress
+    from seisblock.errors import ParameterError
     from seisblock.present.documents.stack import document
     from seisblock.present.text import stack as shown
     from seisblock.readers.heap import give_back
@@ -215,6 +217,9 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
     from seisblock.studies.standing.pile_probability import PileVersions, stack_probability
 
     versions = PileVersions(**widths_of(asked, *VARIED))
+    told = click.get_current_context().get_parameter_source("vary_inset") is not ParameterSource.DEFAULT
+    if told and versions.inset and asked["points"] != EDGES:
+        raise ParameterError("--vary-inset goes with stones on their edges: leave --contact grid={points} out", points=asked["points"])
     varied = {"versions": versions, **{name: asked.pop(name) for name in ("runs", "seed")}, "moved_m": asked.pop("moved")}
     responses, extras = [], []
     for record in load(source):

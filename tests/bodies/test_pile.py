@@ -68,6 +68,7 @@ def test_the_lantern_stands():
             ),
             "unstable at rest: the stone slab",
         ),
+        (lambda: pile(FOOT, replace(HEAD, offset=(0.25, 0.0))).worn(0.45), "unstable at rest: the stone foot"),
         (lambda: pile(FOOT, replace(HEAD, density=0.0)), "density of the stone head must be positive"),
         (lambda: pile(FOOT, replace(HEAD, height=-1.0)), "height of the stone head must be positive"),
         (lambda: pile(FOOT, replace(HEAD, mu=-0.1)), "friction under the stone head must be zero or more"),

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.toml import load_pile
@@ -107,6 +108,18 @@ def test_a_stone_on_its_true_base_topples_where_respond_topples(make, worn):
     assert above.outcome.overturned_any
     found = base_of(above)
     assert (found.width_ratio, found.restitution) == (pytest.approx(1.0 - 2.0 * worn), pytest.approx(plane.restitution, abs=1e-12))
+
+
+@pytest.mark.parametrize("law", ["rigid", "springs"])
+def test_a_worn_stone_stands_over_the_edge_of_a_wider_one(law):
+    """It turns about its own worn edges and the sharp one of the stone below; on springs it fell to the side that was worn by neither."""
+    lower, upper = PileStone("lower", 0.5, 0.5, 0.2), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.2, 0.0), on="lower")
+    pile = Pile("over", (lower, upper), mu=2.0).worn(0.2)
+    found = solve_stack(pile, cycle(1.0, 1.7), law=law)
+    assert not found.outcome.overturned_any
+    points = pile_arrays(pile, PileContact(), 2).grids[1]
+    ends = points[points[:, :, 2] > 0.0][:, 0]
+    assert (ends.min(), ends.max()) == (pytest.approx(-0.06), pytest.approx(0.05))  # from the middle of the upper stone
 
 
 @pytest.mark.parametrize("degrees", [20.0, 45.0])

@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from seisblock.bodies.inset import Inset
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.errors import ParameterError
+from seisblock.bodies.pile.wear import deepest_wear, worn_to
+from seisblock.errors import BodyError, ParameterError
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.solvers.stack.solve import solve_stack
@@ -16,7 +18,7 @@ from seisblock.studies.standing.pile_probability import PileVersions, changed_mo
 
 PILE = Pile("two", (PileStone("lower", 0.5, 0.5, 0.2, mu=0.6), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.02, 0.0), on="lower")), mu=0.5)
 PULSE = Motion.from_arrays(3.3 * np.sin(np.linspace(0.0, 2 * np.pi, 101)), 0.01, name="20")
-NOTHING_VARIES = PileVersions(size=0.0, mu=0.0, amplitude=0.0, azimuth_deg=0.0)
+NOTHING_VARIES = PileVersions(size=0.0, inset=0.0, mu=0.0, amplitude=0.0, azimuth_deg=0.0)
 
 
 @pytest.fixture(scope="module")
@@ -61,8 +63,8 @@ def test_shares_are_counts_with_their_interval(found):
 
 
 def test_versions_stay_within_their_half_widths():
-    """All lengths change by one factor, each joint's friction by its own; the pile stands as it did."""
-    draws = np.random.default_rng(1).uniform(-1.0, 1.0, (50, 5))
+    """All lengths change by one factor, edges by one share, each joint's friction by its own; the pile stands as it did."""
+    draws = np.random.default_rng(1).uniform(-1.0, 1.0, (50, 6))
     changed = [changed_pile(PILE, PileVersions(), draw) for draw in draws]
     sizes = np.array([[stone.size for stone in pile.stones] for pile in changed]) / [stone.size for stone in PILE.stones]
     sizes = sizes.reshape(len(changed), -1)
@@ -72,13 +74,16 @@ def test_versions_stay_within_their_half_widths():
     rough = np.array([[stone.mu for stone in pile.stones] for pile in changed]) / [0.6, 0.5]
     assert np.abs(rough - 1.0).max() <= 0.2 + 1e-12 < np.abs(rough - 1.0).max() + 0.02
     assert abs(np.corrcoef(rough.T)[0, 1]) < 0.5
+    wear = np.array([[stone.inset.share for stone in pile.stones] for pile in changed])
+    assert (wear[:, 0] == wear[:, 1]).all() and wear.min() >= 0.0
+    assert 0.09 < wear.max() <= 0.1 and wear.mean() == pytest.approx(0.05, abs=0.01)
     assert all(len(pile.joints()) == len(PILE.joints()) for pile in changed)
 
 
 def test_shaking_is_scaled_and_turned():
     """A version of the shaking is the record's along an azimuth next to it, times a factor; one horizontal alone is never turned."""
     record = read("synthetic_jma.csv")
-    draw = np.array([0.0, 0.5, 0.7, 0.0, 0.0])
+    draw = np.array([0.0, 0.5, 0.7, 0.0, 0.0, 0.0])
     turned = changed_motion(motion_of(record, "30"), PileVersions(), draw)
     there = motion_of(record, "37")
     assert np.abs(turned.acceleration - 1.05 * there.acceleration).max() < 1e-9
@@ -97,7 +102,49 @@ def test_what_makes_no_sense_is_refused(wrong, says):
         stack_probability(PILE, PULSE, **wrong)
 
 
-@pytest.mark.parametrize("width", [("size", 1.0), ("mu", -0.1), ("amplitude", 1.0), ("azimuth_deg", 200.0)])
+def test_stones_worn_by_more_than_versions_are_differ_from_their_own():
+    """A length grows with the stone and stays a length; half of the deepest to both sides, and never to nothing of a base."""
+    worn = replace(PILE, stones=(PILE.stones[0], replace(PILE.stones[1], inset=Inset(length_m=0.04))))
+    for draw in (-1.0, 0.0, 1.0):
+        lower, upper = changed_pile(worn, PileVersions(size=0.1), np.array([1.0, 0.0, 0.0, draw, 0.0, 0.0])).stones
+        assert upper.inset.share == 0.0
+        assert upper.insets()[0] / upper.width == pytest.approx(0.2 + 0.05 * draw)
+        assert lower.insets()[0] / lower.width == pytest.approx(0.05 + 0.05 * draw)
+    alone = Pile("one", (PILE.stones[0],)).worn(0.48)
+    assert worn_to(alone, 0.1, 1.0).stones[0].inset.share == pytest.approx(0.496)
+    kept = changed_pile(worn, replace(NOTHING_VARIES, size=0.1), np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]))
+    assert kept.stones[1].insets()[0] == pytest.approx(1.1 * 0.04)
+
+
+def test_worn_stones_fall_sooner():
+    """Of a pile shaken so that it just stands, versions with worn edges fall, and only these."""
+    motion = Motion.from_arrays(0.75 * PULSE.horizontal, PULSE.dt)
+    assert not solve_stack(PILE, motion).outcome.overturned
+    assert stack_probability(PILE, motion, runs=8, versions=NOTHING_VARIES).overturned == 0.0
+    assert 0.0 < stack_probability(PILE, motion, runs=8, versions=replace(NOTHING_VARIES, inset=0.3)).overturned < 1.0
+
+
+def test_a_grid_of_points_has_no_worn_edges():
+    """Its points stand inside by themselves: what is answered says that none was worn, and is that of no wear."""
+    asked = stack_probability(PILE, PULSE, runs=4, points=5, versions=PileVersions(inset=0.3))
+    assert asked == stack_probability(PILE, PULSE, runs=4, points=5, versions=PileVersions(inset=0.0))
+    assert asked.versions.inset == 0.0
+
+
+def test_versions_are_worn_no_further_than_they_stand():
+    """A stone whose load is near an edge is worn by less than asked, and the answer says by how much; each version stands at rest."""
+    edgy = Pile("edgy", (PILE.stones[0], replace(PILE.stones[1], offset=(0.23, 0.0))))
+    deepest = deepest_wear(edgy, 0.45)
+    assert 0.1 < deepest < 0.36
+    still = Motion.from_arrays(np.zeros(100), 0.01)
+    assert not solve_stack(worn_to(edgy, deepest, 1.0), still).outcome.overturned
+    with pytest.raises(BodyError, match="unstable at rest"):
+        edgy.worn(1.25 * deepest + 0.002)
+    found = stack_probability(edgy, still, runs=3, versions=PileVersions(inset=0.45))
+    assert (found.versions.inset, found.overturned) == (deepest, 0.0)
+
+
+@pytest.mark.parametrize("width", [("size", 1.0), ("inset", 0.5), ("mu", -0.1), ("amplitude", 1.0), ("azimuth_deg", 200.0)])
 def test_impossible_widths_are_refused(width):
     """Shares lie below 1, azimuths within half a turn."""
     with pytest.raises(ParameterError, match="spread"):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Protocol
 
-from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, lies_over
+from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, carrying, lies_over
 from seisblock.errors import BodyError
 from seisblock.words import noted, said
 
@@ -133,7 +133,8 @@ def _check_balance(pile: Standing, joints: list[Joint]) -> None:
         supports = [joint for joint in joints if joint.upper in body and joint.lower not in body]
         carried = _carried(body, whole, joints)
         mass = sum(pile.stones[i].mass for i in carried)
-        for axis, sides in ((0, [j.x for j in supports]), (1, [j.y for j in supports])):
+        worn = [carrying(joint, pile.stones, centres) for joint in supports]
+        for axis, sides in enumerate(zip(*worn, strict=True)):
             at = sum(pile.stones[i].mass * centres[i][axis] for i in carried) / mass
             low, high = min(side[0] for side in sides), max(side[1] for side in sides)
             if not low < at < high:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -146,6 +147,26 @@ class Joint:
     x: tuple[float, float]
     y: tuple[float, float]
     height: float
+
+
+def carrying(
+    joint: Joint, stones: Sequence[PileStone], centres: Sequence[tuple[float, float, float]]
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the part of a joint that carries, its ends along x and along y, m: its smaller face turns about worn edges.
+
+    Examples
+    --------
+    >>> slabs = PileStone("lower", 0.5, 0.5, 0.2), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.2, 0.0), on="lower", inset=Inset(share=0.1))
+    >>> joint, centres = Joint(1, 0, (0.1, 0.25), (-0.1, 0.1), 0.2), [(0.0, 0.0, 0.1), (0.2, 0.0, 0.55)]
+    >>> [[round(end, 3) for end in side] for side in carrying(joint, slabs, centres)]
+    [[0.12, 0.25], [-0.08, 0.08]]
+    """
+    above = stones[joint.upper]
+    below = above if joint.lower < 0 else stones[joint.lower]
+    smaller, at = (above, joint.upper) if above.width * above.depth <= below.width * below.depth else (below, joint.lower)
+    depths = above.inset.of(smaller.width), above.inset.of(smaller.depth)
+    x, y = (span(centres[at][k], smaller.size[k] - 2.0 * depths[k]) for k in (0, 1))
+    return (max(x[0], joint.x[0]), min(x[1], joint.x[1])), (max(y[0], joint.y[0]), min(y[1], joint.y[1]))
 
 
 def lies_over(centre: tuple[float, float, float], stone: PileStone, other_centre: tuple[float, float, float], other: PileStone) -> bool:

@@ -8,7 +8,9 @@ from typing import Any
 
 from rich.text import Text
 
+from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import GROUND
+from seisblock.bodies.pile.wear import worn_share
 from seisblock.present.directions import towards
 from seisblock.present.scales import Unit, length_cell, length_unit, told_length
 from seisblock.present.text.agreement import agreement_line
@@ -20,7 +22,7 @@ from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
 from seisblock.solvers.stack.solve import EDGES, RIGID
 from seisblock.studies.agreement import Agreement
 from seisblock.studies.standing.pile_probability import PileProbability, StoneChance
-from seisblock.words import roughly, strung, tell
+from seisblock.words import Said, roughly, said, strung, tell
 
 NOTICEABLE_TILT, NOTICEABLE_SLIP = 2e-3, 2e-4
 """What shows in a figure, rad and m."""
@@ -56,7 +58,7 @@ def _details(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal:
     yield table(title, columns, (_row(stone, unit) for stone in reversed(response.outcome.stones)))
     yield line(standing(response))
     if "probability" in extra:
-        yield from _versions(extra["probability"], gal=gal)
+        yield from _versions(extra["probability"], response.body, gal=gal)
     if found is not None:
         top = tell("{stone}, {name}", stone=tell(response.body.names[-1]), name=response.motion.name)
         yield line(agreement_line(top, found))
@@ -97,7 +99,7 @@ def verdict(response: Response[StackOutcome]) -> str:
     return tell("Every stone stands where it was.")
 
 
-def _versions(found: PileProbability, *, gal: bool) -> Iterator[Any]:
+def _versions(found: PileProbability, pile: Pile, *, gal: bool) -> Iterator[Any]:
     """Yield in what share of the versions each stone falls and moves, and what was varied."""
     columns = [tell("stone"), tell("falls (%)"), tell("95 % interval"), tell("falls to (deg)"), tell("moves (%)")]
     far = told_length(found.moved_m, gal=gal)
@@ -107,7 +109,7 @@ def _versions(found: PileProbability, *, gal: bool) -> Iterator[Any]:
         columns,
         map(_chance, reversed(found.stones)),
     )
-    yield line(varied(found), "dim")
+    yield line(varied(found, pile), "dim")
 
 
 def _chance(chance: StoneChance) -> list[str]:
@@ -144,16 +146,28 @@ def share(found: PileProbability, *, gal: bool = True) -> str:
     return tell("{falls}; {moves}.", falls=falls, moves=moves)
 
 
-def varied(found: PileProbability) -> str:
+def varied(found: PileProbability, pile: Pile) -> str:
     """Return what was varied, and of what the share is."""
     by = found.versions
+    size = said("size ±{share}", share=roughly(by.size))
     return tell(
-        "of this model's scatter alone: size ±{size}, friction of each joint ±{mu}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees",
-        size=roughly(by.size),
+        "of this model's scatter alone: {shape}, friction of each joint ±{mu}, amplitude ±{amplitude}, direction ±{azimuth:g} degrees",
+        shape=said("{parts}", parts=[size, _worn(pile, by.inset)] if by.inset else [size]),
         mu=roughly(by.mu),
         amplitude=roughly(by.amplitude),
         azimuth=by.azimuth_deg,
     )
+
+
+def _worn(pile: Pile, deepest: float) -> Said:
+    """Return how far the edges of versions are worn."""
+    own = [worn_share(stone) > deepest for stone in pile.stones]
+    share, half = roughly(deepest), roughly(0.5 * deepest)
+    if all(own):
+        return said("edges worn by their own ±{half} of the width", half=half)
+    if any(own):
+        return said("edges worn by 0 to {share} of the width, or by more of their own ±{half}", share=share, half=half)
+    return said("edges worn by 0 to {share} of the width", share=share)
 
 
 def standing(response: Response[StackOutcome]) -> str:

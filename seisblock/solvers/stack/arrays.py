@@ -10,7 +10,7 @@ from seisblock import checks
 from seisblock.bodies.inset import SHARP
 from seisblock.bodies.pile.contact import PileContact
 from seisblock.bodies.pile.pile import Pile
-from seisblock.bodies.pile.stone import Joint
+from seisblock.bodies.pile.stone import Joint, carrying
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.solvers.stack.arguments import PileLayout, PileMemory
@@ -226,6 +226,7 @@ def _joint_arrays(
     constants = np.zeros((len(joints), JOINT))
     grids = np.zeros((len(joints), half_orbits**2, 4, 3))
     worn: Worn = {}
+    centres = body.centres()
     number = {tuple(pair): p for p, pair in enumerate(pairs.tolist())}
     for j, joint in enumerate(joints):
         upper, lower = joint.upper, joint.lower if joint.lower >= 0 else len(boxes) - 1
@@ -242,23 +243,21 @@ def _joint_arrays(
         constants[j, [SIGMA, LEVEL]] = sigma, sigma * boxes[carrier, 2]
         mu = body.mu if stone.mu is None else stone.mu
         constants[j, POINT:] = (*law, mu, float(points == SHARP_POINTS), kinetic * mu, rebound)
-        place = np.array(body.centres()[carrier])
-        if points > 2:
-            inset = float(boxes[carrier, 0] / points), float(boxes[carrier, 1] / points)
-        else:
-            inset = stone.inset.of(float(2.0 * boxes[carrier, 0])), stone.inset.of(float(2.0 * boxes[carrier, 1]))
-        grids[j] = _orbits(points, joint.x, joint.y, place, inset if points == SHARP_POINTS else (0.0, 0.0))
+        hx, hy = boxes[carrier, :2].tolist()
+        inset = (hx / points, hy / points) if points > SHARP_POINTS else (stone.inset.of(2.0 * hx), stone.inset.of(2.0 * hy))
+        carried = carrying(joint, body.stones, centres) if points == SHARP_POINTS else (joint.x, joint.y)
+        grids[j] = _orbits(points, *carried, np.array(centres[carrier]))
         if max(inset) > 0.0:
             worn[carrier, 1 if sigma > 0.0 else 0] = inset
     return integers, constants, grids, worn
 
 
-def _orbits(points: int, x: tuple[float, float], y: tuple[float, float], place: FloatArray, inset: tuple[float, float]) -> FloatArray:
+def _orbits(points: int, x: tuple[float, float], y: tuple[float, float], place: FloatArray) -> FloatArray:
     """Return the points of a joint on the carrier's face, (orbits, 4, 3): x, y, and 1 where there is a point, mirror images together."""
     ends = 1.0 if points == SHARP_POINTS else 1.0 - 1.0 / points
     ticks = np.linspace(-ends, ends, points)[(points // 2) :] if points > 1 else np.zeros(1)
     middle = (0.5 * (x[0] + x[1]) - place[0], 0.5 * (y[0] + y[1]) - place[1])
-    half = (0.5 * (x[1] - x[0]) - inset[0], 0.5 * (y[1] - y[0]) - inset[1])
+    half = 0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])
     grid = np.zeros((ticks.size**2, 4, 3))
     for o, (u, v) in enumerate((u, v) for u in ticks for v in ticks):
         u, v = (0.0 if abs(w) < 1e-12 else w for w in (u, v))

@@ -13,20 +13,22 @@ from typing import Any
 import numpy as np
 
 from seisblock import checks
+from seisblock.bodies.inset import HALF
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
+from seisblock.bodies.pile.wear import deepest_wear, worn_to
 from seisblock.limits import check_budget
 from seisblock.records.given import check_call
 from seisblock.records.motion import Motion
 from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
-from seisblock.solvers.stack.solve import solve_stack
+from seisblock.solvers.stack.solve import EDGES, solve_stack
 from seisblock.studies.intervals import clopper_pearson
 from seisblock.studies.runs import in_threads
 from seisblock.studies.standing.probability import MOVED_M
 from seisblock.typing import FloatArray, Progress
 from seisblock.words import noted
 
-SIZE, AMPLITUDE, AZIMUTH, FRICTION = range(4)
+SIZE, AMPLITUDE, AZIMUTH, INSET, FRICTION = range(5)
 """Columns of the draws; from the last one on there is one for each stone."""
 
 
@@ -38,8 +40,11 @@ class PileVersions:
     ----------
     size, amplitude : float
         Half widths as shares: of all lengths of the pile, and of the shaking.
+    inset : float
+        Largest inset per side, a share of the width: versions are worn from sharp edges to this, all stones by the same share. A stone
+        that is itself worn by more, from its own less to its own plus half of it. On a grid of points without effect.
     mu : float
-        The same, a share, of the friction under each stone by itself.
+        The same as of the size, of the friction under each stone by itself.
     azimuth_deg : float
         Half width of the direction of the shaking, degrees; without effect where the record's second horizontal is unknown.
 
@@ -50,12 +55,14 @@ class PileVersions:
     """
 
     size: float = 0.05
+    inset: float = 0.1
     mu: float = 0.2
     amplitude: float = 0.1
     azimuth_deg: float = 10.0
 
     def __post_init__(self) -> None:
         checks.within("the spread of the size, a share,", self.size, "[0, 1)")
+        checks.within("the spread of the inset, a share of the width,", self.inset, f"[0, {HALF})")
         checks.within("the spread of the friction, a share,", self.mu, "[0, 1)")
         checks.within("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
         checks.within("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
@@ -104,7 +111,7 @@ class PileProbability:
     stones : tuple of StoneChance
         From below upwards.
     versions : PileVersions
-        What was varied, and how far.
+        What was varied, and how far; its inset 0 on a grid of points, and less than asked where the pile would no longer stand at rest.
     seed : int
     """
 
@@ -168,6 +175,7 @@ def stack_probability(
     checks.whole("the number of runs", runs, least=1)
     check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
     checks.positive("the displacement that counts as moved", moved_m, "m")
+    versions = replace(versions, inset=deepest_wear(body, versions.inset) if options.get("points", EDGES) == EDGES else 0.0)
     draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, FRICTION + len(body.stones)))
 
     def work(draw: FloatArray) -> StackOutcome:
@@ -191,17 +199,18 @@ def stack_probability(
 
 
 def changed_pile(body: Pile, versions: PileVersions, draw: FloatArray) -> Pile:
-    """Return one version of a pile: all its lengths by one factor, and the friction under each stone by its own.
+    """Return one version of a pile: all its lengths by one factor, its edges worn alike, and the friction under each stone by its own.
 
     Parameters
     ----------
     body, versions
         As of :func:`stack_probability`.
-    draw : (3 + stones,) array
+    draw : (4 + stones,) array
         In [-1, 1].
     """
     size, rough = 1.0 + versions.size * draw[SIZE], 1.0 + versions.mu * draw[FRICTION:]
-    return replace(body, stones=tuple(_changed(stone, size, rough[i], body.mu) for i, stone in enumerate(body.stones)))
+    worn = worn_to(body, versions.inset, float(draw[INSET]))
+    return replace(body, stones=tuple(_changed(stone, size, rough[i], body.mu) for i, stone in enumerate(worn.stones)))
 
 
 def _changed(stone: PileStone, size: float, rough: float, mu: float) -> PileStone:
@@ -213,6 +222,7 @@ def _changed(stone: PileStone, size: float, rough: float, mu: float) -> PileSton
         height=size * stone.height,
         offset=(size * stone.offset[0], size * stone.offset[1]),
         bottom=None if stone.bottom is None else size * stone.bottom,
+        inset=replace(stone.inset, length_m=size * stone.inset.length_m),
         mu=rough * (mu if stone.mu is None else stone.mu),
     )
 
@@ -224,7 +234,7 @@ def changed_motion(motion: Motion, versions: PileVersions, draw: FloatArray) -> 
     ----------
     motion, versions
         As of :func:`stack_probability`.
-    draw : (3 + stones,) array
+    draw : (4 + stones,) array
         In [-1, 1].
 
     Examples
