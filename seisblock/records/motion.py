@@ -202,8 +202,9 @@ def motion_of(record: Record, component: str) -> Motion:
 def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Callable[[slice], FloatArray] | None]:
     """Return the acceleration along a direction and, when known, what makes parts of that 90 degrees counter-clockwise of it."""
     azimuth = _as_azimuth(component)
-    if azimuth is None:
-        chosen = record.component(component)
+    recorded = None if azimuth is None else _recorded(record, component, azimuth)
+    if azimuth is None or recorded is not None:
+        chosen = record.component(component) if recorded is None else recorded
         if chosen.is_vertical:
             raise ComponentError(
                 "{component} is vertical; choose a horizontal direction: {codes}",
@@ -231,6 +232,15 @@ def _as_azimuth(component: str) -> float | None:
     if not np.isfinite(azimuth):
         raise ComponentError("the azimuth must be a finite number of degrees, found {component!r}", component=component)
     return azimuth
+
+
+def _recorded(record: Record, component: str, azimuth: float) -> Component | None:
+    """Return the horizontal that was recorded towards an azimuth, or has that number for its name and no known direction."""
+    for candidate in record.horizontals:
+        named = candidate.azimuth_deg is None and candidate.code == component
+        if named or candidate.azimuth_deg == azimuth % 360.0:
+            return candidate
+    return None
 
 
 def _oriented_pair(record: Record) -> tuple[Component, Component]:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 from click.testing import CliRunner
-from matplotlib.font_manager import fontManager
+from matplotlib.font_manager import FontManager, fontManager
 
 from seisblock.cli import main
 from seisblock.present.figures import canvas, fonts
@@ -58,6 +58,24 @@ def test_matplotlib_has_nothing_to_say(weights, installed, caplog, tmp_path):
         canvas.save(figure, tmp_path / "figure.png")
     assert [record.message for record in caplog.records if "findfont" in record.message] == []
     assert {text.get_fontfamily()[0] for text in figure.findobj(fonts.Text)} == {"Noto Sans CJK JP"}
+
+
+class BareSystem(FontManager):
+    """What matplotlib finds where nobody has installed a font."""
+
+    def __init__(self):
+        super().__init__()
+        self.ttflist = [entry for entry in self.ttflist if entry.name == fonts.LATIN]
+
+
+def test_a_font_of_the_package_index_serves_where_the_system_has_none(installed, monkeypatch, tmp_path):
+    """The extra `ja`: a Japanese figure on a machine without Japanese fonts, and no word about them."""
+    installed()
+    monkeypatch.setattr(fonts, "FontManager", BareSystem)
+    assert fonts.japanese_font() == fonts.Typeface("IPAexGothic", (400,))
+    answer = CliRunner().invoke(main, ["jump", "--component", "EW", "--lang", "ja", "--plot", str(tmp_path / "jump.png")])
+    assert answer.exit_code == 0 and (tmp_path / "jump.png").is_file()
+    assert "fonts-noto-cjk" not in answer.stderr
 
 
 def test_without_a_font_the_figure_is_english_and_one_line_says_so(tmp_path, monkeypatch):

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import importlib.util
 import logging
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 from matplotlib.axis import Axis
@@ -50,7 +52,12 @@ REGULAR = 400
 LATIN = "DejaVu Sans"
 """The family that comes with matplotlib; it holds what mathematics a label needs."""
 
-MISSING = noted("no font with Japanese letters was found: the figure is in English; install one, say fonts-noto-cjk or fonts-ipafont")
+PACKAGE = "matplotlib_fontja"
+"""A package of the index that brings IPAexGothic, and needs no system's leave; only its file is used."""
+
+MISSING = noted(
+    "no font with Japanese letters was found: the figure is in English; install one, say fonts-noto-cjk, or pip install matplotlib-fontja"
+)
 """What to say when there is none."""
 
 
@@ -73,15 +80,26 @@ def _number(weight: Any) -> int:
 
 @cache
 def japanese_font() -> Typeface | None:
-    """Return an installed family that holds Japanese, one of regular weight before one that is only bold; None when there is none."""
+    """Return an installed family that holds Japanese, one of regular weight before one that is only bold; None when there is none.
+
+    A font of the system comes before one that came with a package.
+    """
     found = _face(fontManager)
     if found is None:
         # matplotlib keeps a list of the fonts it once saw; one installed since is found by looking again
         again = FontManager()
+        for path in _packaged():
+            again.addfont(path)
         found = _face(again)
         if found is not None:
             fontManager.ttflist += [entry for entry in again.ttflist if entry.name == found.family]
     return found
+
+
+def _packaged() -> list[Path]:
+    """Return the files of the fonts that a package brings; it is not imported, for that would change how everything is drawn."""
+    package = importlib.util.find_spec(PACKAGE)
+    return sorted(Path(package.origin).parent.glob("fonts/*.ttf")) if package and package.origin else []
 
 
 def _face(manager: FontManager) -> Typeface | None:

@@ -1,0 +1,41 @@
+"""A horizontal that was recorded is found by its name and by its azimuth, whatever else the record holds."""
+
+import numpy as np
+import pytest
+
+from seisblock.errors import ComponentError
+from seisblock.records import Component, Record, motion_of
+
+ONE, OTHER = np.array([1.0, -2.0, 3.0]), np.array([0.5, 0.25, -4.0])
+
+
+def record(*components):
+    return Record(tuple(Component(code, row, azimuth_deg=azimuth) for code, row, azimuth in components), 0.01)
+
+
+@pytest.mark.parametrize("asked", ["340", "340.0", "-20", "700"])
+def test_one_horizontal_is_enough_for_its_own_azimuth(asked):
+    motion = motion_of(record(("340", ONE, 340.0)), asked)
+    assert motion.horizontal.tolist() == ONE.tolist()
+    assert not motion.transverse.any()
+
+
+def test_a_horizontal_of_another_name_is_found_by_its_azimuth():
+    assert motion_of(record(("NS", ONE, 0.0)), "360").horizontal.tolist() == ONE.tolist()
+
+
+def test_a_name_that_is_a_number_names_what_has_no_direction():
+    both = record(("1", ONE, None), ("2", OTHER, None))
+    assert motion_of(both, "2").horizontal.tolist() == OTHER.tolist()
+    assert motion_of(both, "1").horizontal.tolist() == ONE.tolist()
+
+
+def test_a_recorded_azimuth_has_its_neighbour_across():
+    motion = motion_of(record(("340", ONE, 340.0), ("250", OTHER, 250.0)), "340")
+    assert motion.horizontal.tolist() == ONE.tolist()
+    assert motion.transverse.tolist() == OTHER.tolist()
+
+
+def test_another_azimuth_still_needs_two():
+    with pytest.raises(ComponentError, match="needs two horizontal components of known direction"):
+        motion_of(record(("340", ONE, 340.0)), "341")
