@@ -14,6 +14,7 @@ from seisblock.bodies.pile.toml import load_pile
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.respond.solve import solve_respond
+from seisblock.solvers.stack.arrays import pile_arrays
 from seisblock.solvers.stack.base import base_of
 from seisblock.solvers.stack.books import CREATED, LOST
 from seisblock.solvers.stack.solve import solve_stack
