@@ -124,7 +124,7 @@ SINES_DIFFER = {
     ),
     (False, 3.0, 6.0): (
         3.5,
-        "the pile needs less than (9) says at 3 Hz; a rigid block on the outermost points gives a(3 Hz) = 2290 gal, (9) 2451",
+        "the pile needs less than (9) says at 3 Hz; a rigid block on the outermost points gives a(3 Hz) = 2307 gal, (9) 2451",
     ),
     (False, 1.0, 10.0): (1.8125, FRICTION + "Nothing below H/B 1.6 falls at any amplitude"),
     (True, 1.0, 5.0): (3.125, FRICTION + "Where nothing slides 2.94 falls; and p of (10) is a digit off: with 1362.9 gal it says 2.81"),

@@ -57,7 +57,7 @@ def after_one_impact(response, alpha, start):
 @pytest.mark.parametrize(("start", "step"), [(0.6, None), (0.1, None), (0.6, 5e-3), (0.1, 5e-4)])
 @pytest.mark.parametrize("ratio", [3.0, 4.0, 6.0])
 def test_free_rocking_is_housners(ratio, start, step):
-    """Six impacts, of large and of small rocking, at any step: times within 0.5 %, amplitudes within 0.2 % of the closed form.
+    """Six impacts, of large and of small rocking, at any step: times within 0.2 %, amplitudes within 0.1 % of the closed form.
 
     A step that passes over an impact leaves the weight on the edge that strikes: -54 % after six impacts of the small rocking.
     """
@@ -67,16 +67,16 @@ def test_free_rocking_is_housners(ratio, start, step):
     lean, time = lean_of(response) / alpha, response.time
     crossings = np.flatnonzero(lean[1:] * lean[:-1] < 0.0)[:6]
     part = lean[crossings] / (lean[crossings] - lean[crossings + 1])
-    np.testing.assert_allclose(time[crossings] + part * np.diff(time)[crossings], times, rtol=5e-3)
+    np.testing.assert_allclose(time[crossings] + part * np.diff(time)[crossings], times, rtol=2e-3)
     for (a, b), amplitude in zip(pairwise(crossings), amplitudes[1:], strict=False):
         top = a + 1 + int(np.argmax(np.abs(lean[a + 1 : b + 1])))
         near = slice(top - 2, top + 3)
         curve = np.polynomial.Polynomial.fit(time[near], lean[near], 2)
-        assert abs(curve(curve.deriv().roots()[0])) == pytest.approx(amplitude, rel=2e-3)
+        assert abs(curve(curve.deriv().roots()[0])) == pytest.approx(amplitude, rel=1e-3)
 
 
-@pytest.mark.parametrize("hertz", [1.0, 2.0])
-def test_a_stone_on_its_edges_topples_where_respond_topples(hertz):
+@pytest.mark.parametrize(("hertz", "limit"), [(1.0, 3.82), (2.0, 4.57)])
+def test_a_stone_on_its_edges_topples_where_respond_topples(hertz, limit):
     """Threshold amplitudes under one cycle of a sine agree within 0.3 %: just below both stand, just above both fall."""
     plane, pile = Block(WIDTH, 3.0 * WIDTH), block(mu=1.0)
 
@@ -87,6 +87,7 @@ def test_a_stone_on_its_edges_topples_where_respond_topples(hertz):
     while high - low > 5e-4 * low:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if falls(middle) else (middle, high)
+    assert high == pytest.approx(limit, abs=0.01)
     assert not solve_stack(pile, cycle(0.997 * high, hertz), stop_at_fall=True).outcome.overturned_any
     assert solve_stack(pile, cycle(1.003 * high, hertz), stop_at_fall=True).outcome.overturned_any
 
@@ -213,6 +214,18 @@ def test_stones_that_are_shaken_down_create_no_energy(seed):
     assert max(outcome.max_tilt_rad.values()) > 0.1
     assert outcome.created_j < 5e-4 * outcome.lost_j
     assert outcome.momentum_error < 1e-12
+
+
+@pytest.mark.slow
+def test_two_hundred_piles_create_no_energy():
+    """At most 1e-4 of its weight times its height in any of them, as many of which fall as stand."""
+    fell = []
+    for pile, shaking in map(shaken, range(200)):
+        outcome = solve_stack(pile, shaking, law="rigid").outcome
+        tall = sum(stone.height for stone in pile.stones)
+        assert outcome.created_j < 1e-4 * sum(stone.mass for stone in pile.stones) * G * tall
+        fell.append(outcome.overturned_any)
+    assert 80 < sum(fell) < 120
 
 
 @pytest.mark.parametrize(("component", "factor"), [("NS", 1.5), ("EW", 1.2), ("EW", 1.5)])
