@@ -9,12 +9,12 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
+from seisblock.records.motion import ALL_AZIMUTHS
+
 Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 COMPONENTS = ("NS", "EW", "UD", "all")
 """What most records have."""
-
-ALL_AZIMUTHS = "all-azimuths"
 
 SWEEPING = {"batch", "fragility", "respond", "rock", "slide", "spectrum"}
 """Commands that look in every direction when they are asked to."""

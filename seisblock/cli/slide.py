@@ -11,12 +11,12 @@ import click
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
-from seisblock.cli.offered import ALL_AZIMUTHS
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
 from seisblock.cli.types import FLOATS, LENGTH
+from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.words import said, tell
 
 if TYPE_CHECKING:

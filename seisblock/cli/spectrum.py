@@ -14,13 +14,13 @@ from seisblock.bodies.inset import SHARP, Inset
 from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.meant import OneOf
-from seisblock.cli.offered import ALL_AZIMUTHS
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.sweeping import sweeps
 from seisblock.cli.types import FLOATS, INSET, LENGTHS, Count
 from seisblock.errors import ParameterError
+from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.words import noted, said
 
 if TYPE_CHECKING:

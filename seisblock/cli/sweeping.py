@@ -7,9 +7,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from seisblock.cli.inputs import load, motions
-from seisblock.cli.offered import ALL_AZIMUTHS
 from seisblock.cli.options import Source
 from seisblock.cli.talk import say
+from seisblock.records.motion import ALL_AZIMUTHS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -1,6 +1,7 @@
 """The units in which people see things, chosen here and nowhere else: gal, kine and cm, or with ``--si`` m/s², m/s and m.
 
-Lengths are those that a surveyor reads off a tape: cm, and mm only where all that is shown together is below 1 cm.
+Lengths are those that a surveyor reads off a tape: cm, mm only where all that is shown together is below 1 cm, m where some of it is
+beyond 10 m.
 """
 
 from __future__ import annotations
@@ -12,6 +13,9 @@ from seisblock.units import GAL, KINE, LENGTH_UNITS
 
 SMALL = 0.00995
 """Lengths below this are told in mm, m: what is larger would be written as 1 cm."""
+
+LARGE = 9.995
+"""Lengths from this on are told in m, m, and to 10 cm in a sentence."""
 
 IN_WORDS = {"mm": 2, "cm": 1, "m": 3}
 IN_TABLES = {"mm": 2, "cm": 2, "m": 4}
@@ -52,13 +56,14 @@ def length_unit(lengths: Iterable[float | None], *, gal: bool) -> Unit:
 
     Examples
     --------
-    >>> [length_unit(each, gal=True).name for each in ([0.215, -0.004], [0.0005, None], [])], length_unit([0.2], gal=False).name
-    (['cm', 'mm', 'cm'], 'm')
+    >>> [length_unit(each, gal=True).name for each in ([0.215, -0.004], [0.0005, None], [], [18.0])], length_unit([0.2], gal=False).name
+    (['cm', 'mm', 'cm', 'm'], 'm')
     """
     if not gal:
         return Unit(1.0, "m")
     sizes = [abs(length) for length in lengths if length is not None]
-    name = "mm" if 0.0 < max(sizes, default=0.0) < SMALL else "cm"
+    longest = max(sizes, default=0.0)
+    name = "mm" if 0.0 < longest < SMALL else "m" if longest >= LARGE else "cm"
     return Unit(LENGTH_UNITS[name], name)
 
 
@@ -76,9 +81,11 @@ def told_length(length: float, unit: Unit | None = None, *, gal: bool = True) ->
     --------
     >>> told_length(0.2153), told_length(-0.0047), told_length(0.0047, length_unit([0.2], gal=True)), told_length(0.2153, gal=False)
     ('21.5 cm', '-4.70 mm', '0.5 cm', '0.215 m')
+    >>> told_length(118.681)
+    '118.7 m'
     """
     size, name = unit or length_unit([length], gal=gal)
-    decimals = IN_WORDS[name]
+    decimals = IN_WORDS[name] if abs(length) < LARGE else 1
     return f"{round(length / size, decimals) + 0.0:.{decimals}f} {name}"
 
 

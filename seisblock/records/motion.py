@@ -20,6 +20,9 @@ ALONG: Final = 0
 ACROSS: Final = 1
 UP: Final = 2
 
+ALL_AZIMUTHS = "all-azimuths"
+"""What asks for every direction in the place of a component."""
+
 LONG = 2**20
 """Samples (three hours at 100 Hz) beyond which nothing holds a motion or a trajectory whole that need not."""
 

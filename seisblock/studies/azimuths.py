@@ -20,9 +20,6 @@ from seisblock.words import noted
 STEP_DEG = 5.0
 """Between directions, unless told otherwise."""
 
-ALL_AZIMUTHS = "all-azimuths"
-"""What asks for every direction in the place of a component."""
-
 
 @dataclass(frozen=True, eq=False)
 class Sweep:

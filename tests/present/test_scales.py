@@ -33,7 +33,15 @@ def test_no_unit_is_written_elsewhere():
 
 @pytest.mark.parametrize(
     ("lengths", "unit"),
-    [((0.00994, -0.002), "mm"), ((0.00995,), "cm"), ((-0.0101, 0.001), "cm"), ((12.0,), "cm"), ((0.0, None), "cm"), ((), "cm")],
+    [
+        ((0.00994, -0.002), "mm"),
+        ((9.994,), "cm"),
+        ((0.1, -118.681), "m"),
+        ((0.00995,), "cm"),
+        ((-0.0101, 0.001), "cm"),
+        ((0.0, None), "cm"),
+        ((), "cm"),
+    ],
 )
 def test_millimetres_are_for_what_is_small_throughout(lengths, unit):
     """Below 1 cm, as it would be written: mm; nothing at all is no centimetre. In SI always m."""

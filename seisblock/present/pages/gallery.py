@@ -10,10 +10,11 @@ from typing import Any
 
 from seisblock.present.figures.embed import Picture
 from seisblock.present.page import page
-from seisblock.present.text.validate import KINDS, explanation, quantity, short, unit
+from seisblock.present.pages.formulas import set_formulas
+from seisblock.present.text.validate import KINDS, explanation, quantity, short, unit, verdicts
 from seisblock.references import REFERENCES
 from seisblock.validation.case import VERDICTS, WORTHS, CaseResult, counts, counts_by_kind, ranked
-from seisblock.words import noted, tell
+from seisblock.words import noted, said, tell
 
 FIELD_TEST = "furukawa-field-worn"
 """Beginning of the keys of cases that belong to the figure of the field test, and have computed what it shows."""
@@ -78,8 +79,10 @@ def _lead(results: Sequence[CaseResult]) -> str:
     """Return what the page comes to, in a sentence."""
     counted = counts(results)
     papers = len(list(_by_paper(results)))
-    text = noted("{all} statements of {papers} papers: {holds} hold, {differs} differ as explained, {fails} fail.")
-    return tell(text, all=len(results), papers=papers, **counted)
+    statement = noted("1 statement") if len(results) == 1 else noted("{count} statements")
+    paper = noted("1 paper") if papers == 1 else noted("{count} papers")
+    given = said(statement, count=len(results)), said(paper, count=papers)
+    return tell("{statements} of {papers}: {verdicts}.", statements=given[0], papers=given[1], verdicts=verdicts(counted))
 
 
 def anchor(paper: str, place: str) -> str:
@@ -112,7 +115,7 @@ def _tile(paper: str, results: Sequence[CaseResult]) -> dict[str, Any]:
         "paper": paper,
         "parts": parts,
         "level": level,
-        "text": tell("{holds} hold, {differs} differ as explained, {fails} fail", **counted),
+        "text": verdicts(counted),
     }
 
 
@@ -169,7 +172,7 @@ def _largest(results: Sequence[CaseResult]) -> str:
     size = f"{short(worst.error, 3)} {unit(worst.case)}".strip()
     if math.isfinite(_tolerances(worst)):
         size = tell("{size}, {share:.2g} of its tolerance", size=size, share=_tolerances(worst))
-    return tell("Largest difference: {size}.", size=f"{size} ({tell(worst.case.quantity)})")
+    return tell("Largest difference: {size}.", size=f"{size} ({set_formulas(tell(worst.case.quantity))})")
 
 
 def _tolerances(result: CaseResult) -> float:
@@ -189,10 +192,10 @@ def _rows(results: Sequence[CaseResult], *, place: bool = False) -> Iterator[dic
             "told": tell(WORDS[result.verdict]),
             "kind": tell(KINDS[case.kind]),
             "status": case.status,
-            "statement": f"{case.paper} {case.place}: {quantity(result)}" if place else quantity(result),
+            "statement": set_formulas(f"{case.paper} {case.place}: {quantity(result)}" if place else quantity(result)),
             "numbers": [short(result.expected, 6), short(result.computed, 6), short(result.error, 2), short(case.tolerance, 2)],
             "strip": _mark(result),
-            "why": "" if not (note and last) else tell("why: {reason}", reason=note) if result.verdict != "holds" else note,
+            "why": set_formulas("" if not (note and last) else tell("why: {reason}", reason=note) if result.verdict != "holds" else note),
         }
 
 

@@ -13,7 +13,7 @@ from rich.text import Text
 
 from seisblock.present.text.tables import line, table
 from seisblock.validation.case import VERDICTS, WORTHS, Case, CaseResult, Verdict, Worth, counts, counts_by_kind
-from seisblock.words import noted, strung, tell
+from seisblock.words import noted, said, strung, tell
 
 WIDTH = 110
 """Widest line, characters."""
@@ -145,11 +145,23 @@ def _kinds(results: Sequence[CaseResult]) -> Any:
 def _count(results: Sequence[CaseResult], *, every: bool) -> Text:
     """Return the first line."""
     counted = counts(results)
-    counts_told = tell("{all} cases: {hold} hold, {differ} differ as explained, {fail} fail.", all=len(results), **_named(counted))
-    told = line(counts_told, "bold red" if counted["fails"] else "")
+    one, more = noted("1 case: {verdicts}."), noted("{all} cases: {verdicts}.")
+    told = line(tell(one if len(results) == 1 else more, all=len(results), verdicts=verdicts(counted)), "bold red" * bool(counted["fails"]))
     return told if every else told.append(strung(["", tell("--all lists those that hold.")]), style="dim")
 
 
-def _named(counted: Mapping[Verdict, int]) -> dict[str, int]:
-    """Return counts under the names of the sentence."""
-    return {"hold": counted["holds"], "differ": counted["differs"], "fail": counted["fails"]}
+def verdicts(counted: Mapping[Verdict, int]) -> str:
+    """Return how many cases got each verdict, in words.
+
+    Examples
+    --------
+    >>> verdicts({"fails": 0, "differs": 1, "holds": 2})
+    '2 hold, 1 differs as explained, 0 fail'
+    """
+    words = {
+        "holds": (noted("1 holds"), noted("{count} hold")),
+        "differs": (noted("1 differs as explained"), noted("{count} differ as explained")),
+        "fails": (noted("1 fails"), noted("{count} fail")),
+    }
+    parts = [said(words[verdict][0 if counted[verdict] == 1 else 1], count=counted[verdict]) for verdict in reversed(VERDICTS)]
+    return tell("{parts}", parts=parts)

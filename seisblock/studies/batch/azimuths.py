@@ -9,7 +9,8 @@ from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.errors import ParameterError
 from seisblock.records import Record, motion_of
 from seisblock.records.given import vertical_gain
-from seisblock.studies.azimuths import ALL_AZIMUTHS, azimuths_of
+from seisblock.records.motion import ALL_AZIMUTHS
+from seisblock.studies.azimuths import azimuths_of
 from seisblock.studies.batch.models import Placed
 from seisblock.studies.batch.table import DIRECTIONS, FALLEN
 from seisblock.studies.rocking.azimuths import rock_directions

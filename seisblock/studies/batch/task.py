@@ -14,8 +14,8 @@ from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import Recording
 from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.doubtful import refuse_doubtful, sentences
+from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.site import is_of_station
-from seisblock.studies.azimuths import ALL_AZIMUTHS
 from seisblock.studies.batch.azimuths import around, worst_azimuth
 from seisblock.studies.batch.models import BATCH_MODELS, BatchModel, Placed
 from seisblock.studies.batch.table import REASON, WARNINGS, Row

@@ -14,8 +14,9 @@ from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import gather
 from seisblock.readers.source import Location
 from seisblock.records import Motion, Preparation, Record, motion_of
+from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.site import earthquake_of
-from seisblock.studies.azimuths import ALL_AZIMUTHS, azimuths_of
+from seisblock.studies.azimuths import azimuths_of
 from seisblock.studies.fragility.intensity import IntensityMeasure
 from seisblock.typing import FloatArray, IntArray
 from seisblock.words import said

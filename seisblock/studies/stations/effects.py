@@ -16,10 +16,11 @@ from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
 from seisblock.records import Record, motion_of
 from seisblock.records.given import Factor
+from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.process import towards
 from seisblock.references import CITED, papers
 from seisblock.solvers.jump.chain import OVERTURNED_LANDED, OVERTURNED_ROCKING
-from seisblock.studies.azimuths import ALL_AZIMUTHS, STEP_DEG
+from seisblock.studies.azimuths import STEP_DEG
 from seisblock.studies.batch.azimuths import WORST
 from seisblock.studies.batch.models import BatchModel, Placed, batch_model
 from seisblock.studies.batch.table import REASON, Row
