@@ -106,7 +106,9 @@ def verdict(response: Response[JumpOutcome], *, gal: bool = True) -> str:
     """Return what became of the block in the end, and what friction that takes."""
     outcome, name = response.outcome, response.motion.name or "x"
     if not outcome.chains:
-        moves = onset(ROCKS, outcome.rocking_threshold_m_s2, response.motion, gal=gal)
+        gravity = response.options["gravity_m_s2"]
+        share = outcome.rocking_threshold_m_s2 / gravity
+        moves = onset(ROCKS, (share, share), response.motion, gravity=gravity, gal=gal)
         return tell("{name}: stays where it is; {onset}.", name=name, onset=moves)
     jumps = sum(chain.outcome == JUMPED for chain in outcome.chains)
     if outcome.outcome not in (JUMPED, NO_JUMP):

@@ -6,32 +6,67 @@ import numpy as np
 
 from seisblock.present.text.tables import told_acceleration
 from seisblock.records import Motion
+from seisblock.records.motion import ALONG, UP
 from seisblock.words import noted, tell
 
 ROCKS, SLIDES = noted("rocks from {threshold} on{factor}"), noted("slides from {threshold} on{factor}")
 """How a body that kept still would begin to move."""
 
 
-def onset(how: str, threshold: float, motion: Motion, *, gal: bool = True) -> str:
-    """Return from which acceleration of the ground, m/s^2, a body moves, and how many times the motion's peak that is.
+def onset(how: str, towards: tuple[float, float], motion: Motion, *, gravity: float, vertical: float = 0.0, gal: bool = True) -> str:
+    """Return from which acceleration of the ground a body moves, and how many times the record that is.
 
     Parameters
     ----------
     how : str
         ``ROCKS`` or ``SLIDES``.
-    threshold : float, m/s^2
+    towards : two float, 1
+        Horizontal over vertical force, at the feet, at which it begins to move to +x and to -x; infinite where it cannot.
     motion : Motion
-        A peak above the threshold is not told: then something else held the body.
+        A motion above the threshold is told no factor: then something else held the body.
+    gravity : float, m/s^2
+    vertical : float, 1
+        Factor on the vertical motion: where it acts the weight comes and goes, and the record's factor is not that of its peak.
     gal : bool
 
     Examples
     --------
-    >>> onset(ROCKS, 2.0, Motion.from_arrays([0.0, 1.0, -1.6], 0.01))
+    >>> onset(ROCKS, (0.2, 0.2), Motion.from_arrays([0.0, 1.0, -1.6], 0.01), gravity=10.0)
     "rocks from 200.0 gal on, 1.25 times this record's PGA"
+    >>> sinking = Motion.from_arrays([0.0, 1.0, -1.6], 0.01, vertical=[0.0, 0.0, -1.0])
+    >>> onset(ROCKS, (0.2, 0.2), sinking, gravity=10.0, vertical=1.0)
+    'rocks from 200.0 gal on without vertical motion, 1.11 times this record with it'
     """
-    peak = float(np.abs(motion.horizontal).max())
-    factor = tell(", {times} times this record's PGA", times=times(threshold / peak)) if 0.0 < peak < threshold else ""
-    return tell(how, threshold=told_acceleration(threshold, gal=gal), factor=factor)
+    threshold, peak = min(towards) * gravity, float(np.abs(motion.horizontal).max())
+    factor = factor_of(towards, motion, gravity=gravity, vertical=vertical)
+    words = ""
+    if 1.0 < factor < np.inf:
+        if vertical and motion.vertical.any():
+            words = tell(" without vertical motion, {times} times this record with it", times=times(factor))
+        elif np.isclose(factor * peak, threshold):
+            words = tell(", {times} times this record's PGA", times=times(factor))
+        else:
+            words = tell(", {times} times this record", times=times(factor))
+    return tell(how, threshold=told_acceleration(threshold, gal=gal), factor=words)
+
+
+def factor_of(towards: tuple[float, float], motion: Motion, *, gravity: float, vertical: float = 0.0) -> float:
+    """Return the least factor on a motion from which a body moves; infinite where none does.
+
+    The ground pushes the body to +x where it goes to -x, with -a against a resistance of c (g + a_v), both of them scaled.
+
+    Examples
+    --------
+    >>> factor_of((0.1, 0.2), Motion.from_arrays([0.0, 1.6, -0.5], 0.01), gravity=10.0)
+    1.25
+    """
+    most = 0.0
+    for stretch in motion.stretches((True, False, vertical != 0.0)):
+        along, up = stretch.acceleration[ALONG], vertical * stretch.acceleration[UP]
+        for sense, share in zip((-1.0, 1.0), towards, strict=True):
+            if 0.0 < share < np.inf:
+                most = max(most, float(np.max(sense * along - share * up)) / share)
+    return gravity / most if most > 0.0 else np.inf
 
 
 def times(factor: float) -> str:

@@ -66,7 +66,9 @@ def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
     elif outcome.outcome == "rests":
         ratio, mu = min(response.body.arms) / response.body.centre, response.options["mu"]
         first = SLIDES if mu <= ratio else ROCKS
-        moves = onset(first, min(mu, ratio) * response.options["gravity_m_s2"], response.motion, gal=gal)
+        shares = tuple(min(mu, arm / response.body.centre) for arm in response.body.arms)
+        gravity, vertical = response.options["gravity_m_s2"], response.options["vertical"]
+        moves = onset(first, (shares[0], shares[1]), response.motion, gravity=gravity, vertical=vertical, gal=gal)
         words = tell("{verdict}; {onset}", verdict=tell("stands still"), onset=moves)
     else:
         words = listed(_stays(response, gal=gal))

@@ -120,12 +120,20 @@ def _ends(each: RockAzimuth) -> tuple[str, str]:
     return falls_to(each.azimuth_deg, each.overturned_towards), seconds(each.overturning_time_s)
 
 
+def _onset(response: Response[RockOutcome], *, gal: bool) -> str:
+    """Return from where on a block that stands still rocks."""
+    options, arms = response.options, response.body.arms
+    weakest = response.outcome.threshold_m_s2 / options["gravity_m_s2"] / min(arms)
+    towards = (arms[0] * weakest, arms[1] * weakest)
+    return onset(ROCKS, towards, response.motion, gravity=options["gravity_m_s2"], vertical=options["vertical"], gal=gal)
+
+
 def first_line(response: Response[RockOutcome], mu: float | None = None, *, gal: bool = True) -> str:
     """Return the verdict, from where on what stands still rocks, and that it takes more friction than there is where that is so."""
     outcome, name = response.outcome, response.motion.name or "x"
     what = verdict(outcome, response.motion.name)
     if not outcome.rocks:
-        what = tell("{verdict}; {onset}", verdict=what, onset=onset(ROCKS, outcome.threshold_m_s2, response.motion, gal=gal))
+        what = tell("{verdict}; {onset}", verdict=what, onset=_onset(response, gal=gal))
     told = tell("{name}: {verdict}.", name=name, verdict=what)
     if mu is None or friction_suffices(outcome, mu, response.options["gravity_m_s2"]):
         return told

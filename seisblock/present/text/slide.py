@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -67,10 +68,13 @@ def sentence(response: Response[SlideOutcome], *, gal: bool = True) -> str:
     """Say what happened."""
     outcome, name = response.outcome, response.motion.name
     if not outcome.slips:
-        base, level = response.body, not response.body.slope_deg and not response.options["vertical"]
-        if not level:
+        base, options = response.body, response.options
+        if base.slope_deg:
             return tell("{name}: stays where it is, static friction holds throughout.", name=name)
-        moves = onset(SLIDES, base.mu * response.options["gravity_m_s2"], response.motion, gal=gal)
+        gravity, vertical = options["gravity_m_s2"], options["vertical"]
+        moves = onset(
+            SLIDES, (base.mu, math.inf if base.one_way else base.mu), response.motion, gravity=gravity, vertical=vertical, gal=gal
+        )
         return tell("{name}: stays where it is; {onset}.", name=name, onset=moves)
     unit = length_unit([outcome.max_slip_m, outcome.path_m], gal=gal)
     words = {"name": name, "most": told_length(outcome.max_slip_m, unit), "path": told_length(outcome.path_m, unit)}
