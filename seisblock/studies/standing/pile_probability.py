@@ -44,7 +44,7 @@ class PileVersions:
         Largest inset per side, a share of the width: versions are worn from sharp edges to this, all stones by the same share. A stone
         that is itself worn by more, from its own less to its own plus half of it. On a grid of points without effect.
     mu : float
-        The same as of the size, of the friction under each stone by itself.
+        Half width as a share, of the friction under each stone by itself.
     azimuth_deg : float
         Half width of the direction of the shaking, degrees; without effect where the record's second horizontal is unknown.
 
