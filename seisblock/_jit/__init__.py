@@ -22,6 +22,9 @@ at_work: Callable[[str], AbstractContextManager[Any]] | None = None
 ENABLED = os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 """Whether kernels are compiled; ``NUMBA_DISABLE_JIT=1`` runs them as plain Python."""
 
+_whole = False
+"""Whether each kernel is compiled as a whole, since parts cannot be made."""
+
 
 def types() -> Any:
     """Return numba's type names, for signatures."""
@@ -51,16 +54,34 @@ def kernel(signature: Any, *, inline: bool = False, allocates: bool = False) -> 
         if not ENABLED:
             return function
 
-        def compiled(cached: bool) -> Any:
+        def compiled(cached: bool, **way: Any) -> Any:
             """Compile, or load what an earlier process compiled."""
             import numba
 
-            counting = {} if allocates else {"_nrt": False}
-            return numba.njit(signature, cache=cached, nogil=True, error_model="numpy", forceinline=inline, **counting)(function)
+            from seisblock._jit.asked import asked_once
 
-        return OnDemand(function, lambda: _made(compiled, function))  # type: ignore[return-value]
+            counting = {} if allocates else {"_nrt": False}
+            how = {"cache": cached, "nogil": True, "error_model": "numpy", "forceinline": inline, **counting, **way}
+            with asked_once():
+                return numba.njit(signature, **how)(function)
+
+        return OnDemand(function, lambda: _made(compiled, function), lambda: _part(compiled))  # type: ignore[return-value]
 
     return decorate
+
+
+def _part(compiled: Callable[..., Any]) -> Any:
+    """Compile what other kernels link, and nothing to be called from Python; None where numba is not as it was from 0.60 to 0.68."""
+    global _whole
+    if _whole:
+        return None
+    try:
+        from seisblock._jit.part import PartCompiler
+
+        return compiled(False, pipeline_class=PartCompiler)
+    except (ImportError, AttributeError, TypeError):
+        _whole = True
+    return None
 
 
 def _made(compiled: Callable[[bool], Any], function: Callable[..., Any]) -> Any:

@@ -109,7 +109,7 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
     if _given_up:
         return compiled(False)
     if not any(place.iterdir()):
-        _once(say, said("compiling the kernels, once; seconds, for the largest a minute..."))
+        _once(say, said("compiling the kernels, once; seconds, for the largest half a minute..."))
     with _numba_keeps_in(place):
         try:
             if seal_what_is_kept_in(place):

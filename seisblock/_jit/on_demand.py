@@ -1,4 +1,4 @@
-"""A kernel that is compiled, or read from the cache, when somebody first needs it."""
+"""A kernel that is compiled, or read from the cache, when somebody first needs it: as a whole for Python, as a part for other kernels."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ from seisblock.signals import losing_no_interrupt
 class OnDemand:
     """A kernel in the place of its function: Python calls it, and kernels that name it call what it holds.
 
-    Most kernels are called by other kernels alone, whose machine code in the cache holds theirs: a process that finds
-    everything in the cache reads only the few that Python calls.
+    Most kernels are called by other kernels alone, whose machine code holds theirs: only the few that Python calls are kept, and read.
 
     Parameters
     ----------
@@ -21,10 +20,14 @@ class OnDemand:
         The kernel's source.
     make : callable
         Compiles it, or reads it from the cache.
+    make_part : callable
+        Compiles what other kernels link; may return None.
     """
 
-    def __init__(self, function: Callable[..., Any], make: Callable[[], Any]) -> None:
+    def __init__(self, function: Callable[..., Any], make: Callable[[], Any], make_part: Callable[[], Any]) -> None:
         self._make = make
+        self._make_part = make_part
+        self._part: Any = None
         self._compiled: Any = None
         functools.update_wrapper(self, function)
 
@@ -42,7 +45,12 @@ class OnDemand:
     @property
     def _numba_type_(self) -> Any:
         """The attribute by which numba learns the type of what a kernel names."""
-        return self.compiled._numba_type_
+        if self._compiled is not None:
+            return self._compiled._numba_type_
+        if self._part is None:
+            with losing_no_interrupt():
+                self._part = self._make_part()
+        return (self._part or self.compiled)._numba_type_
 
     def __call__(self, *arguments: Any) -> Any:
         """Call the kernel from Python."""

@@ -120,7 +120,7 @@ def test_a_cold_cache_is_told_for_as_long_as_it_takes(tmp_path):
     """Kernels that are compiled, which takes longest, say so for as long as it takes."""
     said = on_a_terminal("from seisblock.cli import main; main()", ["slide", "--mu", "0.2"], tmp_path, SEISBLOCK_CACHE_DIR=str(tmp_path))
     assert re.search("compiling the kernels[^\n]*━", said)
-    assert left(said)[-1] == "compiling the kernels, once; seconds, for the largest a minute..."
+    assert left(said)[-1] == "compiling the kernels, once; seconds, for the largest half a minute..."
 
 
 @pytest.mark.parametrize("work", WORKS)
