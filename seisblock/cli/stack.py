@@ -76,7 +76,12 @@ COARSEST = 29
     "--contact edges. [default: the file's own, or 0]",
 )
 @option("--mu", type=float, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
-@option("--mu-kinetic", type=float, help="Friction of every joint that slides, 1; at most --mu; --law rigid. [default: as --mu]")
+@option(
+    "--mu-kinetic",
+    type=float,
+    help="Friction of what slides on a joint of friction --mu, 1, at most --mu; joints with a friction of their own slide with the same "
+    "share of that; --law rigid. [default: as --mu]",
+)
 @option(
     "--restitution",
     type=float,
@@ -98,13 +103,7 @@ COARSEST = 29
 )
 @option("--young", type=float, metavar="PA", help="Young's modulus of the stones, Pa. [default: contact of Furukawa2009 table 2]")
 @option("--joint-stiffness", type=float, metavar="N/M3", help="Stiffness of a joint per area, N/m^3. [default: as --young]")
-@option(
-    "--damping",
-    type=float,
-    default=1.0,
-    show_default=True,
-    help="Damping ratio of a stone on its joint, with --young or --joint-stiffness.",
-)
+@option("--damping", type=float, help="Damping ratio of a stone on its joint, with --young or --joint-stiffness. [default: 1]")
 @option(
     "--vertical/--no-vertical",
     default=None,
@@ -168,7 +167,9 @@ def stack(
     springs = law == SPRINGS or (law is None and (criterion or young is not None or stiffness is not None))
     if not springs and not (young is None and stiffness is None):
         raise ParameterError("rigid stones have no springs: leave --young and --joint-stiffness out, or choose --law springs")
-    contact = PileContact(young=young, stiffness=stiffness, damping_ratio=damping) if springs else None
+    if damping is not None and young is None and stiffness is None:
+        raise ParameterError("--damping goes with --young or --joint-stiffness")
+    contact = PileContact(young=young, stiffness=stiffness, damping_ratio=1.0 if damping is None else damping) if springs else None
     body = _pile(stones, reinforced, mu, without, fix)
     body = body if inset is None else body.worn(inset)
     say(
@@ -183,6 +184,10 @@ def stack(
             raise ParameterError("--criterion takes no --runs")
         if not (asked["mu_kinetic"] is None and asked["restitution"] is None):
             raise ParameterError("--criterion takes no --mu-kinetic and no --restitution")
+        if not (asked["step"] is None and asked["vertical"] is None and asked["across"]):
+            raise ParameterError(
+                "--criterion has steps of its own, and all components of a record act: leave out --step, --vertical and --across"
+            )
         _study(source, output, body, contact, grid, resume, points=asked["points"], gravity=asked["gravity"], reinforced=reinforced)
         return
     if grid != 1 or resume is not None:

@@ -195,6 +195,9 @@ BAD = {
     "two stiffnesses": (("--young", "1e9", "--joint-stiffness", "1e9"), "not both"),
     "negative stiffness": (("--young", "-1"), "must be positive"),
     "grid without study": (("--grid", "2"), "go with --criterion"),
+    "step of the study": (("--criterion", "--step", "0.001"), "--criterion has steps of its own"),
+    "components of the study": (("--criterion", "--no-across"), "leave out --step, --vertical and --across"),
+    "damping of nothing": (("--damping", "0.1"), "goes with --young"),
     "vertical as direction": (("--component", "UD"), "vertical"),
 }
 

@@ -237,15 +237,25 @@ def test_a_stone_that_falls_off_a_wide_base_creates_no_energy(component, factor)
     assert found.outcome.created_j < 5e-4 * found.outcome.lost_j
 
 
-def test_springs_answer_where_rigid_stones_create_energy(monkeypatch):
-    """Should a run of rigid stones create energy yet, no verdict is lost, and the warning says who gave it; rigid stones alone refuse."""
+def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monkeypatch):
+    """Should a run create energy, no verdict is lost, and the warning says who gave it; rigid stones alone refuse at last."""
+    refused = []
 
     def judged(pile, end, **more):
-        if not pile.constants[:, POINT].any():
+        if not pile.constants[:, POINT].any() and more["step"] > refused[0]:
             raise SolverError("they created energy")
         return stack_outcome(pile, end, **more)
 
     monkeypatch.setattr("seisblock.solvers.stack.solve.stack_outcome", judged)
+    refused[:] = [1e-3]
+    for more in ({}, {"law": "rigid"}, {"restitution": 0.5}, {"mu_kinetic": 0.1}):
+        found = solve_stack(block(), cycle(3.0, 1.0), **more)
+        assert found.options["law"] == "rigid"
+        assert found.outcome.step_s < 1e-3
+        assert "answer instead of coarser ones" in found.warnings[0]
+    with pytest.raises(SolverError, match="created"):
+        solve_stack(block(), cycle(3.0, 1.0), step=2e-3)
+    refused[:] = [0.0]
     with pytest.raises(SolverError, match="created"):
         solve_stack(block(), cycle(3.0, 1.0), law="rigid")
     found = solve_stack(block(), cycle(3.0, 1.0))

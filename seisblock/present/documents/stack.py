@@ -34,7 +34,7 @@ class StackParameters(Struct, frozen=True, kw_only=True):
     points : int
         Contact points along each side of a joint; 2: its edges.
     mu, mu_kinetic : float
-        Friction of the joints, and of what slides on them.
+        Friction of the joints that have none of their own, and of what slides on them.
     restitution : float or None
         Of the joints, a ratio of velocities; null: what angular momentum gives.
     base : Base

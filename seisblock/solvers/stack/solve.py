@@ -28,7 +28,7 @@ RIGID, SPRINGS = "rigid", "springs"
 """Laws of contact."""
 
 FINER = 5
-"""How many times finer steps answer where round stones created energy; springs know no round ones."""
+"""How many times finer steps answer where rigid stones created energy."""
 
 EDGES = 2
 """Points along each side of a joint that stands on its edges."""
@@ -63,14 +63,16 @@ def solve_stack(
     motion : Motion
         Ground acceleration; +x is its first row.
     law : str
-        ``rigid`` or ``springs``; default: springs where `contact` is given, else rigid, and with a warning springs where rigid stones
-        created energy, or finer steps where there are round ones.
+        ``rigid`` or ``springs``; default: springs where `contact` is given, else rigid. Where rigid stones created energy at the default
+        step, one five times finer answers, with a warning; where they do so there, too, springs, unless something was asked for that
+        these do not know.
     points : int
         Contact points along each side of a joint: 2 stand at the corners, 5 at segment centres as in [Furukawa2009]_.
     contact : PileContact
         Of springs; default: [Furukawa2009]_ table 2.
     mu_kinetic : float, 1
-        Friction of what slides, at most that of what clings; default: the same. Rigid stones only.
+        Friction of what slides on a joint that has the pile's friction, at most that; joints with one of their own slide with the same
+        share of it. Default: the same as of what clings. Rigid stones only.
     restitution : float, 1
         Of the joints: with what part of the velocity of the edge that strikes the opposite edge leaves. Default: what angular momentum
         about the edge that strikes gives, Housner's ratio for one block. Rigid stones on edges only.
@@ -128,18 +130,12 @@ def solve_stack(
     try:
         outcome = stack_outcome(pile, end, start=motion.start_s, gravity=gravity, step=motion.dt / steps, azimuth=motion.azimuth_deg)
     except SolverError as error:
-        if law is not None or springs is not None or (mu_kinetic, restitution, step) != (None, None, None):
+        if not rigid or step is not None:
             raise
-        rest: dict[str, Any] = {"vertical": vertical, "across": across, "gravity": gravity, "stop_at_fall": stop_at_fall, "tilts": tilts}
-        label = motion.name or "x"
-        if any(stone.is_round for stone in body.stones):
-            finer = motion.dt / steps / FINER
-            found = solve_stack(body, motion, points=points, step=finer, progress=progress, **rest)
-            why = said("{name}: steps of {step:.2g} s answer instead of coarser ones: {why}", name=label, step=finer, why=error.said)
-        else:
-            found = solve_stack(body, motion, law=SPRINGS, points=points, progress=progress, **rest)
-            why = said("{name}: springs at the same points answer instead of rigid stones: {why}", name=label, why=error.said)
-        return replace(found, warnings=(why, *found.warnings))
+        given: dict[str, Any] = {"law": law, "mu_kinetic": mu_kinetic, "restitution": restitution}
+        rest: dict[str, Any] = {"points": points, "vertical": vertical, "across": across, "gravity": gravity}
+        rest |= {"stop_at_fall": stop_at_fall, "tilts": tilts, "progress": progress}
+        return _instead(error, body, motion, motion.dt / steps / FINER, given, rest)
     return Response(
         model="stack",
         outcome=outcome,
@@ -163,6 +159,22 @@ def solve_stack(
         status=end.status,
         citations=papers("rigid pile" if rigid else "pile"),
     )
+
+
+def _instead(
+    error: SolverError, body: Pile, motion: Motion, finer: float, given: dict[str, Any], rest: dict[str, Any]
+) -> Response[StackOutcome]:
+    """Return what finer steps answer where rigid stones created energy, or springs where these do, too."""
+    label = motion.name or "x"
+    try:
+        found = solve_stack(body, motion, step=finer, **given, **rest)
+        why = said("{name}: steps of {step:.2g} s answer instead of coarser ones: {why}", name=label, step=finer, why=error.said)
+    except SolverError as again:
+        if any(value is not None for value in given.values()) or any(stone.is_round for stone in body.stones):
+            raise
+        found = solve_stack(body, motion, law=SPRINGS, **rest)
+        why = said("{name}: springs at the same points answer instead of rigid stones: {why}", name=label, why=again.said)
+    return replace(found, warnings=(why, *found.warnings))
 
 
 def _is_rigid(law: str | None, contact: PileContact | None) -> bool:
