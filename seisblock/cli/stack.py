@@ -79,8 +79,7 @@ COARSEST = 29
 @option(
     "--mu-kinetic",
     type=float,
-    help="Friction of what slides on a joint of friction --mu, 1, at most --mu; joints with a friction of their own slide with the same "
-    "share of that; --law rigid. [default: as --mu]",
+    help="Friction of every joint that slides, 1; at most that of any joint at rest; --law rigid. [default: the file's own, or as --mu]",
 )
 @option(
     "--restitution",

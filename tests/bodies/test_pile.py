@@ -131,3 +131,36 @@ def test_contact_is_per_mass_or_physical():
         PileContact(young=1e9, stiffness=1e9)
     with pytest.raises(ParameterError, match="must be positive"):
         PileContact(stiffness=0.0)
+
+
+def test_what_slides_may_have_less_friction_than_what_clings(tmp_path):
+    """Of the pile or of a stone, in the file or set for all; `mu` from outside replaces both."""
+    file = tmp_path / "own.toml"
+    stones = '[[stone]]\nname = "foot"\nwidth = 1.0\ndepth = 1.0\nheight = 0.2\nmu = 0.4\nmu_kinetic = 0.1\n'
+    stones += '[[stone]]\nname = "head"\nwidth = 0.5\ndepth = 0.5\nheight = 0.2\n'
+    file.write_text(f'kind = "pile"\nmu = 0.7\nmu_kinetic = 0.5\n{stones}')
+    own = load_pile(file)
+    assert [own.friction(), *map(own.friction, own.stones)] == [(0.7, 0.5), (0.4, 0.1), (0.7, 0.5)]
+    alike = own.sliding_at(0.3)
+    assert [alike.friction(stone) for stone in alike.stones] == [(0.4, 0.3), (0.7, 0.3)]
+    same = load_pile(file, mu=0.2)
+    assert not same.slides_easier and own.slides_easier
+    assert {same.friction(stone) for stone in same.stones} == {(0.2, 0.2)}
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: pile(FOOT, mu_kinetic=0.5), "kinetic friction, 0.5, is more than static friction, 0.438"),
+        (
+            lambda: pile(replace(FOOT, mu=0.3), mu_kinetic=0.4),
+            "kinetic friction under the stone foot, 0.4, is more than its static friction, 0.3",
+        ),
+        (lambda: pile(replace(FOOT, mu_kinetic=0.5)), "kinetic friction under the stone foot, 0.5, is more"),
+        (lambda: replace(FOOT, mu_kinetic=-0.1), "kinetic friction under the stone foot"),
+        (lambda: pile(FOOT, mu_kinetic=math.nan), "kinetic friction"),
+    ],
+)
+def test_more_friction_once_it_slides_is_refused(make, message):
+    with pytest.raises(BodyError, match=message):
+        make()

@@ -95,7 +95,7 @@ def test_versions_tell_how_sure_it_is(pulse):
     """--runs tells in what share of versions each stone falls, with the keys of respond; without it nothing is told."""
     (found,) = answer(pulse, "--scale", "0.7", "--runs", "6", "--seed", "1", "--vary-amplitude", "0.3")["results"]
     chance = found["probability"]
-    assert set(chance) == {"runs", "overturned", "moved", "interval", "moved_m", "stones", "versions", "seed"}
+    assert set(chance) == {"runs", "overturned", "moved", "interval", "moved_m", "stones", "versions", "seed", "left_out_count"}
     assert (chance["runs"], chance["seed"], chance["moved_m"], chance["versions"]["amplitude"]) == (6, 1, 0.01, 0.3)
     assert [stone["name"] for stone in chance["stones"]] == ["gedai", "mizubachi", "chudai", "jodai", "sao"]
     assert 0.0 < chance["overturned"] < 1.0

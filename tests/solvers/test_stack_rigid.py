@@ -117,15 +117,17 @@ def test_what_a_grid_makes_of_a_base_is_what_it_does(points, contact):
     assert solve_stack(tall, still(3.0), points=points, contact=contact, tilts={"block": 1.04 * alpha}).outcome.overturned_any
 
 
-def test_a_block_on_a_slope_slides_with_kinetic_friction():
-    """Below the angle of static friction it stays; beyond it slides with g (sin - mu_k cos)."""
+@pytest.mark.parametrize("elsewhere", [0.4, 0.8])
+def test_a_block_on_a_slope_slides_with_kinetic_friction(elsewhere):
+    """Below the angle of static friction it stays; beyond it slides with g (sin - mu_k cos), whatever other joints of the pile have."""
     static, kinetic, seconds = 0.4, 0.3, 3.0
     ramp = np.minimum(np.arange(0.0, seconds, 0.01), 1.0)
 
     def slope(angle):
         return Motion.from_arrays(G * np.sin(ramp * angle), 0.01, vertical=G * (np.cos(ramp * angle) - 1.0))
 
-    flat = block(0.5, mu=static)
+    flat = block(0.5, mu=elsewhere)
+    flat = replace(flat, stones=tuple(replace(stone, mu=static) for stone in flat.stones))
     below = solve_stack(flat, slope(math.atan(0.99 * static)), mu_kinetic=kinetic)
     assert below.outcome.stones[0].residual_slip_m < 1e-5
     angle = math.atan(1.1 * static)

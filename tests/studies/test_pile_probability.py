@@ -9,11 +9,12 @@ from seisblock.bodies.inset import Inset
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.wear import deepest_wear, worn_to
-from seisblock.errors import BodyError, ParameterError
+from seisblock.errors import BodyError, ParameterError, SolverError
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.solvers.stack.solve import solve_stack
 from seisblock.studies.intervals import clopper_pearson
+from seisblock.studies.standing import pile_probability
 from seisblock.studies.standing.pile_probability import PileVersions, changed_motion, changed_pile, stack_probability
 
 PILE = Pile("two", (PileStone("lower", 0.5, 0.5, 0.2, mu=0.6), PileStone("upper", 0.2, 0.2, 0.7, offset=(0.02, 0.0), on="lower")), mu=0.5)
@@ -149,3 +150,33 @@ def test_impossible_widths_are_refused(width):
     """Shares lie below 1, azimuths within half a turn."""
     with pytest.raises(ParameterError, match="spread"):
         PileVersions(**dict([width]))
+
+
+def test_versions_that_create_energy_are_left_out_and_counted(monkeypatch):
+    """One bad version takes neither the others nor the answer away; where all are bad the reason is told."""
+    calls = iter(range(8))
+
+    def sometimes(body, motion, **options):
+        if next(calls) % 4 == 0:
+            raise SolverError("created energy")
+        return solve_stack(body, motion, **options)
+
+    monkeypatch.setattr(pile_probability, "solve_stack", sometimes)
+    found = stack_probability(PILE, PULSE, runs=8, seed=3, workers=1)
+    assert (found.runs, found.left_out_count) == (6, 2)
+    assert found.interval == clopper_pearson(round(6 * found.overturned), 6)
+    calls = iter([0, 4])
+    with pytest.raises(SolverError, match="created energy"):
+        stack_probability(PILE, PULSE, runs=2, workers=1)
+
+
+def test_kinetic_friction_of_versions_stays_in_proportion():
+    """A joint that clings more slides less easily by as much, whatever its own friction; nothing is refused."""
+    draws = np.random.default_rng(5).uniform(-1.0, 1.0, (40, 6))
+    for draw in draws:
+        changed = changed_pile(PILE.sliding_at(0.45), PileVersions(), draw)
+        for stone, static in zip(changed.stones, (0.6, 0.5), strict=True):
+            clings, slides = changed.friction(stone)
+            assert slides / clings == pytest.approx(0.45 / static)
+    found = stack_probability(PILE, PULSE, runs=4, mu_kinetic=0.2)
+    assert found == stack_probability(PILE.sliding_at(0.2), PULSE, runs=4)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Protocol
 
+from seisblock import checks
 from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, carrying, lies_over
 from seisblock.errors import BodyError
 from seisblock.words import noted, said
@@ -29,6 +30,7 @@ class Standing(Protocol):
 
     def centres(self) -> list[tuple[float, float, float]]: ...  # noqa: D102
     def joints(self) -> list[Joint]: ...  # noqa: D102
+    def friction(self, stone: PileStone | None = None) -> tuple[float, float]: ...  # noqa: D102
     def bodies(self) -> Iterator[tuple[int, ...]]: ...  # noqa: D102
 
 
@@ -41,6 +43,7 @@ def check_pile(pile: Standing) -> None:
         With the first thing found wrong.
     """
     _check_names(pile)
+    _check_friction(pile)
     _check_overlaps(pile)
     joints = pile.joints()
     _check_floating(pile, joints)
@@ -52,8 +55,6 @@ def _check_names(pile: Standing) -> None:
     """Refuse a pile whose names do not say what stands on what."""
     if not pile.stones:
         raise BodyError("the pile {name} has no stones: give at least one", name=pile.name)
-    if not pile.mu >= 0.0:
-        raise BodyError("friction of the pile {name} must be zero or more, found {mu}", name=pile.name, mu=pile.mu)
     seen: set[str] = set()
     for stone in pile.stones:
         if stone.name in seen or stone.name == GROUND:
@@ -78,6 +79,25 @@ def _check_names(pile: Standing) -> None:
                 )
     if all(name in pile.fixed for name in pile.names):
         raise BodyError("every stone of the pile {name} is fixed: leave at least one free", name=pile.name)
+
+
+def _check_friction(pile: Standing) -> None:
+    """Refuse friction that is none, or more of it once a stone slides than before."""
+    if not pile.mu >= 0.0:
+        raise BodyError("friction of the pile {name} must be zero or more, found {mu}", name=pile.name, mu=pile.mu)
+    clings, slides = pile.friction()
+    checks.not_negative("kinetic friction", slides, error=BodyError)
+    if slides > clings:
+        raise BodyError("kinetic friction, {kinetic:g}, is more than static friction, {mu:g}", kinetic=slides, mu=clings)
+    for stone in pile.stones:
+        clings, slides = pile.friction(stone)
+        if slides > clings:
+            raise BodyError(
+                "kinetic friction under the stone {name}, {kinetic:g}, is more than its static friction, {mu:g}",
+                name=stone.name,
+                kinetic=slides,
+                mu=clings,
+            )
 
 
 def _check_overlaps(pile: Standing) -> None:

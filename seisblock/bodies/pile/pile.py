@@ -10,6 +10,7 @@ from seisblock.bodies.inset import Inset
 from seisblock.bodies.pile.checks import check_pile
 from seisblock.bodies.pile.stone import GROUND, TOUCHING, Joint, PileStone, lies_over, overlap, span
 from seisblock.bodies.ranges import Ranges
+from seisblock.errors import BodyError, ParameterError
 
 
 @dataclass(frozen=True)
@@ -25,15 +26,17 @@ class Pile:
         Names of stones held together as one body ([Furukawa2009]_ section 3(6)).
     fixed : tuple of str
         Stones that move with the ground.
-    mu : float, 1
-        Friction of the joints that have none of their own; 0.438 is that of [Furukawa2009]_ table 2.
+    mu, mu_kinetic : float, 1
+        Friction of the joints that have none of their own; 0.438 is that of [Furukawa2009]_ table 2. What slides has the latter, at most
+        the former; None: the same.
     ranges : Ranges or None
         Of its kind, as one block; a pile itself has no versions.
 
     Raises
     ------
     BodyError
-        If stones overlap, float, or do not touch where a dowel holds them; if the pile is unstable at rest.
+        If stones overlap, float, or do not touch where a dowel holds them; if the pile is unstable at rest; if kinetic friction is
+        more than static friction.
     """
 
     name: str
@@ -42,6 +45,7 @@ class Pile:
     fixed: tuple[str, ...] = ()
     mu: float = 0.438
     ranges: Ranges | None = field(default=None, repr=False)
+    mu_kinetic: float | None = None
 
     def __post_init__(self) -> None:
         check_pile(self)
@@ -89,6 +93,39 @@ class Pile:
             if i not in done and not any(self.names[m] in self.fixed for m in members):
                 done.update(members)
                 yield members
+
+    def friction(self, stone: PileStone | None = None) -> tuple[float, float]:
+        """Return static and kinetic friction of the joint under a stone, or of what else meets, 1.
+
+        Examples
+        --------
+        >>> from seisblock.bodies.pile.stone import PileStone
+        >>> pile = Pile("two", (PileStone("low", 1.0, 1.0, 0.5, mu=0.3), PileStone("high", 1.0, 1.0, 0.5, on="low")), mu=0.7)
+        >>> pile.friction(), [pile.sliding_at(0.25).friction(stone) for stone in pile.stones]
+        ((0.7, 0.7), [(0.3, 0.25), (0.7, 0.25)])
+        """
+        clings = self.mu if stone is None or stone.mu is None else stone.mu
+        slides = self.mu_kinetic if stone is None or stone.mu_kinetic is None else stone.mu_kinetic
+        return clings, clings if slides is None else slides
+
+    @property
+    def slides_easier(self) -> bool:
+        """Whether any kinetic friction is below static friction."""
+        return any(slides < clings for clings, slides in map(self.friction, (None, *self.stones)))
+
+    def sliding_at(self, mu_kinetic: float) -> Pile:
+        """Return the pile with the same kinetic friction in every joint, 1.
+
+        Raises
+        ------
+        ParameterError
+            If that is more than the static friction of one of them.
+        """
+        stones = tuple(replace(stone, mu_kinetic=None) for stone in self.stones)
+        try:
+            return replace(self, mu_kinetic=mu_kinetic, stones=stones)
+        except BodyError as error:
+            raise ParameterError("{why}", why=error.said) from None
 
     def without(self, *names: str) -> Pile:
         """Return the pile without some of its stones, on which none of the others may stand."""

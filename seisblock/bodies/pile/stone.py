@@ -37,8 +37,8 @@ class PileStone:
     on : str
         The stone it stands on, or ``ground``.
     density : float, kg/m^3
-    mu : float or None, 1
-        Friction of the joint under it; None: that of the pile.
+    mu, mu_kinetic : float or None, 1
+        Friction of the joint under it, as long as it clings and once it slides; None: that of the pile.
     bottom : float or None, m
         Height of its lower face above the ground; None: the upper face of the stone it stands on.
     shape : str
@@ -70,6 +70,7 @@ class PileStone:
     bottom: float | None = None
     shape: str = RECTANGULAR
     inset: Inset = SHARP
+    mu_kinetic: float | None = None
 
     def __post_init__(self) -> None:
         checks.positive("width of the stone {name}", self.width, "m", error=BodyError, name=self.name)
@@ -78,6 +79,8 @@ class PileStone:
         checks.positive("density of the stone {name}", self.density, "kg/m^3", error=BodyError, name=self.name)
         if self.mu is not None:
             checks.not_negative("friction under the stone {name}", self.mu, error=BodyError, name=self.name)
+        if self.mu_kinetic is not None:
+            checks.not_negative("kinetic friction under the stone {name}", self.mu_kinetic, error=BodyError, name=self.name)
         if len(self.offset) != 2 or not all(math.isfinite(part) for part in self.offset):
             raise BodyError(
                 "offset of the stone {name} takes two lengths, along x and y; found {found}", name=self.name, found=str(self.offset)

@@ -27,8 +27,8 @@ from seisblock.errors import BodyError
 from seisblock.limits import check_budget
 from seisblock.words import noted, said
 
-_PILE_KEYS = {"name", "kind", "mu", "density", "inset", "reinforced", "fixed", "stone", "note", "ranges"}
-_STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "bottom", "shape", "inset"}
+_PILE_KEYS = {"name", "kind", "mu", "mu_kinetic", "density", "inset", "reinforced", "fixed", "stone", "note", "ranges"}
+_STONE_KEYS = {"name", "width", "depth", "height", "offset", "on", "density", "mu", "mu_kinetic", "bottom", "shape", "inset"}
 
 
 def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = None) -> Pile:
@@ -38,14 +38,14 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     ----------
     name : str or Path
         ``kind = "pile"``, and one ``[[stone]]`` table per stone, from below upwards: ``name``, ``width``, ``depth``, ``height``
-        (numbers in m or texts such as ``"8sun"``); optional ``offset`` (two lengths), ``on``, ``density``, ``mu``, ``bottom``,
-        ``shape = "round"`` (``width`` is then its diameter, and ``depth`` may be left out), ``inset`` as of a block.
-        On top: ``name``, ``mu``, ``density``, ``inset``, ``fixed`` (list of names), ``reinforced`` (list of lists of names that dowels
-        hold); ``[ranges]`` of its kind, as of a block.
+        (numbers in m or texts such as ``"8sun"``); optional ``offset`` (two lengths), ``on``, ``density``, ``mu``, ``mu_kinetic``,
+        ``bottom``, ``shape = "round"`` (``width`` is then its diameter, and ``depth`` may be left out), ``inset`` as of a block.
+        On top: ``name``, ``mu``, ``mu_kinetic``, ``density``, ``inset``, ``fixed`` (list of names), ``reinforced`` (list of lists of
+        names that dowels hold); ``[ranges]`` of its kind, as of a block.
     reinforced : bool
         Whether the dowels of the file are in place.
     mu : float or None, 1
-        Friction of every joint; None: what the file says.
+        Friction of every joint, sliding or not; None: what the file says.
 
     Raises
     ------
@@ -70,13 +70,20 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
         below = stones[-1].name if stones else GROUND
         stones.append(_stone({**entry, "source": said("{source}: stone {number}", source=source, number=rank)}, below, table))
     if mu is not None:
-        stones = [replace(stone, mu=None) for stone in stones]
+        stones = [replace(stone, mu=None, mu_kinetic=None) for stone in stones]
     dowels = text_groups(table, "reinforced")
     if reinforced and not dowels:
         raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or leave `reinforced` out", source=source)
     own = number(table, "mu")
     friction = mu if mu is not None else Pile.mu if own is None else own
-    pile = Pile(text(table, "name", Path(source).stem), tuple(stones), dowels if reinforced else (), texts(table, "fixed"), friction)
+    pile = Pile(
+        text(table, "name", Path(source).stem),
+        tuple(stones),
+        dowels if reinforced else (),
+        texts(table, "fixed"),
+        friction,
+        mu_kinetic=None if mu is not None else number(table, "mu_kinetic"),
+    )
     whole = pile.as_block()
     return replace(pile, ranges=ranges_of(table, {"width": whole.width, "height": whole.height, "inset": whole.inset, "mu": own}))
 
@@ -101,4 +108,5 @@ def _stone(entry: Mapping[str, Any], below: str, table: Mapping[str, Any]) -> Pi
         length(entry, "bottom") if "bottom" in entry else None,
         shape,
         inset_of(entry if "inset" in entry else table),
+        number(entry, "mu_kinetic"),
     )

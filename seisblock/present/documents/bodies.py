@@ -156,8 +156,8 @@ class StoneEntry(Struct, frozen=True, kw_only=True):
     offset_m : two floats
         From the centre of what it stands on, along x and y.
     density_kg_m3 : float
-    mu : float or None
-        Friction of the joint under it; null: that of the pile.
+    mu, mu_kinetic : float or None
+        Friction of the joint under it, and of what slides on it; null: those of the pile.
     bottom_m : float or None
         Height of its lower face above the ground; null: the upper face of what it stands on.
     shape : str
@@ -174,6 +174,7 @@ class StoneEntry(Struct, frozen=True, kw_only=True):
     offset_m: tuple[float, float]
     density_kg_m3: float
     mu: float | None
+    mu_kinetic: float | None
     bottom_m: float | None
     shape: str
     inset_m: tuple[float, float]
@@ -185,8 +186,8 @@ class PileEntry(Struct, frozen=True, kw_only=True):
     Parameters
     ----------
     name : str
-    mu : float
-        Friction of its joints.
+    mu, mu_kinetic : float
+        Friction of its joints, and of what slides on them.
     stones : list of StoneEntry
         From below upwards.
     dowels : list of lists of str
@@ -197,6 +198,7 @@ class PileEntry(Struct, frozen=True, kw_only=True):
 
     name: str
     mu: float
+    mu_kinetic: float
     stones: tuple[StoneEntry, ...]
     dowels: tuple[tuple[str, ...], ...]
     fixed: tuple[str, ...]
@@ -214,13 +216,14 @@ def pile_entry(pile: Pile) -> PileEntry:
             offset_m=stone.offset,
             density_kg_m3=stone.density,
             mu=stone.mu,
+            mu_kinetic=stone.mu_kinetic,
             bottom_m=stone.bottom,
             shape=stone.shape,
             inset_m=stone.insets(),
         )
         for stone in pile.stones
     )
-    return PileEntry(name=pile.name, mu=pile.mu, stones=stones, dowels=pile.dowels, fixed=pile.fixed)
+    return PileEntry(name=pile.name, mu=pile.mu, mu_kinetic=pile.friction()[1], stones=stones, dowels=pile.dowels, fixed=pile.fixed)
 
 
 class PileContactEntry(Struct, frozen=True, kw_only=True):

@@ -143,7 +143,15 @@ def share(found: PileProbability, *, gal: bool = True) -> str:
         moves = tell("in all, one moves more than {far}", far=far) if found.moved else tell("none moves more than {far}", far=far)
     else:
         moves = tell("in {share} one moves more than {far}", share=roughly(found.moved), far=far)
-    return tell("{falls}; {moves}.", falls=falls, moves=moves)
+    if not found.left_out_count:
+        return tell("{falls}; {moves}.", falls=falls, moves=moves)
+    return tell(
+        "{falls}; {moves}; {count} of {asked} versions created energy and are left out.",
+        falls=falls,
+        moves=moves,
+        count=found.left_out_count,
+        asked=found.runs + found.left_out_count,
+    )
 
 
 def varied(found: PileProbability, pile: Pile) -> str:

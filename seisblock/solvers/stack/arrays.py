@@ -111,7 +111,7 @@ class PileArrays:
         )
 
 
-def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: float = 1.0, rebound: float = PLASTIC) -> PileArrays:
+def pile_arrays(body: Pile, contact: PileContact | None, points: int, rebound: float = PLASTIC) -> PileArrays:
     """Return the arrays of a pile ([Furukawa2009]_ section 3(1)).
 
     Parameters
@@ -122,8 +122,6 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: f
     points : int
         Contact points along each side of a joint: 2 stand at its corners, and go with the corners of what the faces share as stones
         slide; 3 or more at the centres of so many segments, as 5 do in [Furukawa2009]_, whose pivots so lie at 0.8 of the half width.
-    kinetic : float, 1
-        Kinetic friction over static friction.
     rebound : float, 1
         Of the joints, a ratio of velocities; negative: what angular momentum gives.
 
@@ -147,7 +145,7 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: f
         boxes[i, AT:] = centres[i] - bodies[owner[i], X : X + 3]
     boxes[-1] = (GROUND_HALF, GROUND_HALF, GROUND_DEPTH, 0.0, 0.0, -GROUND_DEPTH)
     pairs = np.array([(i, j) for i in range(len(boxes)) for j in range(i + 1, len(boxes)) if owner[i] != owner[j]], dtype=np.int64)
-    integers, constants, grids, worn = _joint_arrays(body, contact, points, kinetic, rebound, joints, boxes, owner, inert, pairs)
+    integers, constants, grids, worn = _joint_arrays(body, contact, points, rebound, joints, boxes, owner, inert, pairs)
     corners, counts, edges, cores, rims = hulls_of(body, boxes, worn)
     return PileArrays(
         body,
@@ -162,7 +160,7 @@ def pile_arrays(body: Pile, contact: PileContact | None, points: int, kinetic: f
         constants,
         grids,
         pairs,
-        _pair_constants(body, contact, points, kinetic, pairs, boxes, owner, inert, integers, constants),
+        _pair_constants(body, contact, points, pairs, boxes, owner, inert, integers, constants),
         corners,
         counts,
         edges,
@@ -212,7 +210,6 @@ def _joint_arrays(
     body: Pile,
     contact: PileContact | None,
     points: int,
-    kinetic: float,
     rebound: float,
     joints: list[Joint],
     boxes: FloatArray,
@@ -241,8 +238,8 @@ def _joint_arrays(
         mass = inert[owner[upper], MASS] if owner[upper] < len(inert) else inert[owner[lower], MASS]
         law = NO_SPRINGS if contact is None else contact.of_joint(float(mass), sides[0] * sides[1], 0.5 * above, points**2)
         constants[j, [SIGMA, LEVEL]] = sigma, sigma * boxes[carrier, 2]
-        mu = body.mu if stone.mu is None else stone.mu
-        constants[j, POINT:] = (*law, mu, float(points == SHARP_POINTS), kinetic * mu, rebound)
+        clings, slides = body.friction(stone)
+        constants[j, POINT:] = (*law, clings, float(points == SHARP_POINTS), slides, rebound)
         hx, hy = boxes[carrier, :2].tolist()
         inset = (hx / points, hy / points) if points > SHARP_POINTS else (stone.inset.of(2.0 * hx), stone.inset.of(2.0 * hy))
         carried = carrying(joint, body.stones, centres) if points == SHARP_POINTS else (joint.x, joint.y)
@@ -271,7 +268,6 @@ def _pair_constants(
     body: Pile,
     contact: PileContact | None,
     points: int,
-    kinetic: float,
     pairs: IntArray,
     boxes: FloatArray,
     owner: IntArray,
@@ -292,7 +288,7 @@ def _pair_constants(
         long = 0.5 * sum(heights[i] for _, i in sizes)
         if contact is not None:
             made[p, :FRICTION] = np.array(contact.of_joint(float(mass), min(sizes)[0], long, points**2)) * points**2 / 12.0
-        made[p, [FRICTION, KINETIC]] = body.mu, kinetic * body.mu
+        made[p, [FRICTION, KINETIC]] = body.friction()
     for j in range(joints.shape[0]):
         made[joints[j, PAIR]] = constants[j, POINT:]
         made[joints[j, PAIR], :FRICTION] *= points**2 / 12.0

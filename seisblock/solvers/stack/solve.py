@@ -71,8 +71,7 @@ def solve_stack(
     contact : PileContact
         Of springs; default: [Furukawa2009]_ table 2.
     mu_kinetic : float, 1
-        Friction of what slides on a joint that has the pile's friction, at most that; joints with one of their own slide with the same
-        share of it. Default: the same as of what clings. Rigid stones only.
+        Friction of every joint that slides, at most that of the same joint when it clings; default: the body's own. Rigid stones only.
     restitution : float, 1
         Of the joints: with what part of the velocity of the edge that strikes the opposite edge leaves. Default: what angular momentum
         about the edge that strikes gives, Housner's ratio for one block. Rigid stones on edges only.
@@ -117,8 +116,8 @@ def solve_stack(
     checks.gravity(gravity)
     rigid = _is_rigid(law, contact)
     springs = None if rigid else PileContact() if contact is None else checks.instance(contact, PileContact)
-    kinetic, rebound = _impact(body, rigid, points, mu_kinetic, restitution)
-    pile = pile_arrays(body, springs, points, kinetic, rebound)
+    body = _sliding(body, rigid, mu_kinetic, restitution)
+    pile = pile_arrays(body, springs, points, _rebound(points, restitution))
     steps = rigid_steps(pile, motion.dt, step, gravity) if rigid else steps_per_sample(pile, motion.dt, step)
     up = vertical_gain(motion, vertical)
     course = Course(pile, motion, (float(across), up), gravity, steps, rigid, stop_at_fall, tilts or {})
@@ -148,7 +147,7 @@ def solve_stack(
             "law": RIGID if rigid else SPRINGS,
             "points": points,
             "mu": body.mu,
-            "mu_kinetic": kinetic * body.mu,
+            "mu_kinetic": body.friction()[1],
             "restitution": restitution,
             "vertical": up,
             "across": float(across),
@@ -170,7 +169,8 @@ def _instead(
         found = solve_stack(body, motion, step=finer, **given, **rest)
         why = said("{name}: steps of {step:.2g} s answer instead of coarser ones: {why}", name=label, step=finer, why=error.said)
     except SolverError as again:
-        if any(value is not None for value in given.values()) or any(stone.is_round for stone in body.stones):
+        unknown = body.slides_easier or any(stone.is_round for stone in body.stones)
+        if unknown or any(value is not None for value in given.values()):
             raise
         found = solve_stack(body, motion, law=SPRINGS, **rest)
         why = said("{name}: springs at the same points answer instead of rigid stones: {why}", name=label, why=again.said)
@@ -186,22 +186,24 @@ def _is_rigid(law: str | None, contact: PileContact | None) -> bool:
     return contact is None if law is None else law == RIGID
 
 
-def _impact(body: Pile, rigid: bool, points: int, mu_kinetic: float | None, restitution: float | None) -> tuple[float, float]:
-    """Return kinetic over static friction, and the rebound of the joints."""
-    if not rigid and not (mu_kinetic is None and restitution is None):
+def _sliding(body: Pile, rigid: bool, mu_kinetic: float | None, restitution: float | None) -> Pile:
+    """Return the pile with the kinetic friction asked for, refusing springs what they do not know."""
+    if mu_kinetic is not None:
+        body = body.sliding_at(mu_kinetic)
+    if not rigid and (body.slides_easier or mu_kinetic is not None or restitution is not None):
         raise ParameterError("springs have one friction and their own dashpots: `mu_kinetic` and `restitution` go with rigid stones")
+    return body
+
+
+def _rebound(points: int, restitution: float | None) -> float:
+    """Return the rebound of the joints."""
     if restitution is not None:
         checks.fraction(noted("the restitution of the joints, a ratio of velocities,"), restitution)
         if points != EDGES:
             raise ParameterError(
                 "a restitution is one of stones that stand on their edges: leave out {points} points a side", points=points
             )
-    if mu_kinetic is not None:
-        checks.not_negative("kinetic friction", mu_kinetic)
-        if not mu_kinetic <= body.mu:
-            raise ParameterError("kinetic friction, {kinetic:g}, is more than static friction, {mu:g}", kinetic=mu_kinetic, mu=body.mu)
-    kinetic = 1.0 if mu_kinetic is None or body.mu == 0.0 else mu_kinetic / body.mu
-    return kinetic, PLASTIC if restitution is None else float(restitution)
+    return PLASTIC if restitution is None else float(restitution)
 
 
 def _curves(course: Course, end: End) -> Histories:

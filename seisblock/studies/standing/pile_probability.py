@@ -17,6 +17,7 @@ from seisblock.bodies.inset import HALF
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.bodies.pile.wear import deepest_wear, worn_to
+from seisblock.errors import SolverError
 from seisblock.limits import check_budget
 from seisblock.records.given import check_call
 from seisblock.records.motion import Motion
@@ -102,7 +103,8 @@ class PileProbability:
 
     Parameters
     ----------
-    runs : int
+    runs, left_out_count : int
+        Versions that were followed, and those that were not to their end, for they created energy.
     overturned, moved : float
         Shares in which any stone falls, and in which one ends more than `moved_m` from its place, or falls.
     interval : (float, float), 1
@@ -123,6 +125,7 @@ class PileProbability:
     stones: tuple[StoneChance, ...]
     versions: PileVersions
     seed: int
+    left_out_count: int = 0
 
 
 def stack_probability(
@@ -161,6 +164,8 @@ def stack_probability(
     ------
     ParameterError
         If there are no runs, or a number lies outside its range.
+    SolverError
+        If no version can be followed.
 
     Examples
     --------
@@ -175,26 +180,35 @@ def stack_probability(
     checks.whole("the number of runs", runs, least=1)
     check_budget(noted("versions"), runs, "SEISBLOCK_RUNS")
     checks.positive("the displacement that counts as moved", moved_m, "m")
+    if (mu_kinetic := options.pop("mu_kinetic", None)) is not None:
+        body = body.sliding_at(mu_kinetic)
     versions = replace(versions, inset=deepest_wear(body, versions.inset) if options.get("points", EDGES) == EDGES else 0.0)
     draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, FRICTION + len(body.stones)))
 
-    def work(draw: FloatArray) -> StackOutcome:
-        """Follow one version."""
-        return solve_stack(changed_pile(body, versions, draw), changed_motion(motion, versions, draw), **options).outcome
+    def work(draw: FloatArray) -> StackOutcome | SolverError:
+        """Follow one version as far as it can be."""
+        try:
+            return solve_stack(changed_pile(body, versions, draw), changed_motion(motion, versions, draw), **options).outcome
+        except SolverError as error:
+            return error
 
-    outcomes = list(in_threads(work, list(draws), progress=progress, workers=workers))
+    answers = list(in_threads(work, list(draws), progress=progress, workers=workers))
+    outcomes = [answer for answer in answers if isinstance(answer, StackOutcome)]
+    if not outcomes:
+        raise next(answer for answer in answers if isinstance(answer, SolverError))
     fates = [outcome.stones for outcome in outcomes]
     moved = np.array([[stone.state == "fallen" or stone.residual_slip_m > moved_m for stone in stones] for stones in fates])
     fell = sum(outcome.overturned_any for outcome in outcomes)
     return PileProbability(
-        runs,
-        fell / runs,
+        len(outcomes),
+        fell / len(outcomes),
         float(moved.any(axis=1).mean()),
-        clopper_pearson(fell, runs),
+        clopper_pearson(fell, len(outcomes)),
         moved_m,
         tuple(_chance([stones[i] for stones in fates], float(moved[:, i].mean()), motion.azimuth_deg) for i in range(len(body.stones))),
         versions,
         seed,
+        runs - len(outcomes),
     )
 
 
@@ -210,10 +224,10 @@ def changed_pile(body: Pile, versions: PileVersions, draw: FloatArray) -> Pile:
     """
     size, rough = 1.0 + versions.size * draw[SIZE], 1.0 + versions.mu * draw[FRICTION:]
     worn = worn_to(body, versions.inset, float(draw[INSET]))
-    return replace(body, stones=tuple(_changed(stone, size, rough[i], body.mu) for i, stone in enumerate(worn.stones)))
+    return replace(body, stones=tuple(_changed(stone, size, rough[i], *body.friction(stone)) for i, stone in enumerate(worn.stones)))
 
 
-def _changed(stone: PileStone, size: float, rough: float, mu: float) -> PileStone:
+def _changed(stone: PileStone, size: float, rough: float, clings: float, slides: float) -> PileStone:
     """Return a stone of another size, on another friction."""
     return replace(
         stone,
@@ -223,7 +237,8 @@ def _changed(stone: PileStone, size: float, rough: float, mu: float) -> PileSton
         offset=(size * stone.offset[0], size * stone.offset[1]),
         bottom=None if stone.bottom is None else size * stone.bottom,
         inset=replace(stone.inset, length_m=size * stone.inset.length_m),
-        mu=rough * (mu if stone.mu is None else stone.mu),
+        mu=rough * clings,
+        mu_kinetic=rough * slides,
     )
 
 
