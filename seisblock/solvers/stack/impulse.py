@@ -22,12 +22,15 @@ _t = types()
 
 ARM_A, ARM_B, NORMAL, W, WI, SPIN_A, SPIN_B, IMPULSE, FLOOR, MU, SWERVE, HEADING, HELD = 0, 3, 6, 9, 18, 27, 36, 45, 48, 49, 50, 53, 59
 GAP, RATE, BOUNCE, GIVEN, ROLL = 60, 61, 62, 63, 66
-ROW = 69
+SHIFT, STATIC, KINETIC, SLID, OLD, PACED, TURN = 69, 72, 73, 74, 75, 78, 79
+ROW = 80
 """A contact's row: its arms from the centres of both bodies, its normal, out of the second; the velocity that a unit impulse gives (9)
 and the inverse (9); the spins that it gives (9, 9); the impulse on the first body; the least normal velocity; friction; how its velocity
 changes by turning in half a step (3); the impulse before a sweep, and the way that the sweeps take it (3, 3); whether the floor holds from
 both sides, along the normal alone; the gap, m, and how fast it opens at the step, m/s; the restitution, negative where an impact is
-plastic; the impulse that was given before the last one was looked for (3); and the acceleration of a point that wanders round a rim (3)."""
+plastic; the impulse that was given before the last one was looked for (3); the acceleration of a point that wanders round a rim (3); and of
+friction, the middle of its cone over what presses (3), its two coefficients, whether the point slid, in what direction (3) and how fast,
+m/s, and what it does in the step."""
 
 SPEED, TURNING, VEERING = 0, 3, 6
 SPEEDS = 9
@@ -130,6 +133,7 @@ def _slide(row, c0, c1, c2):
     """Return the impulse at a point that slides, whose velocity without it is c."""
     n0, n1, n2 = row[NORMAL], row[NORMAL + 1], row[NORMAL + 2]
     q0, q1, q2, mu = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2], row[MU]
+    s0, s1, s2 = row[SHIFT], row[SHIFT + 1], row[SHIFT + 2]
     wn0 = row[W] * n0 + row[W + 1] * n1 + row[W + 2] * n2
     wn1 = row[W + 3] * n0 + row[W + 4] * n1 + row[W + 5] * n2
     wn2 = row[W + 6] * n0 + row[W + 7] * n1 + row[W + 8] * n2
@@ -137,13 +141,14 @@ def _slide(row, c0, c1, c2):
     wanted = row[FLOOR] - (c0 * n0 + c1 * n1 + c2 * n2)
     # the largest answer to a tangential impulse is no more than the trace
     gain = 1.0 / (row[W] + row[W + 4] + row[W + 8] - normal)
-    p = 0.0
+    shifted = normal + s0 * wn0 + s1 * wn1 + s2 * wn2
+    p = q0 * n0 + q1 * n1 + q2 * n2
     d0, d1, d2 = 0.0, 0.0, 0.0
     for _ in range(AIMS):
         u0 = c0 + row[W] * q0 + row[W + 1] * q1 + row[W + 2] * q2
         u1 = c1 + row[W + 3] * q0 + row[W + 4] * q1 + row[W + 5] * q2
         u2 = c2 + row[W + 6] * q0 + row[W + 7] * q1 + row[W + 8] * q2
-        u0, u1, u2 = q0 - gain * u0, q1 - gain * u1, q2 - gain * u2
+        u0, u1, u2 = q0 - p * s0 - gain * u0, q1 - p * s1 - gain * u1, q2 - p * s2 - gain * u2
         along = u0 * n0 + u1 * n1 + u2 * n2
         u0 -= along * n0
         u1 -= along * n1
@@ -151,10 +156,10 @@ def _slide(row, c0, c1, c2):
         size = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2)
         if size > 0.0:
             d0, d1, d2 = u0 / size, u1 / size, u2 / size
-        helped = normal + mu * (d0 * wn0 + d1 * wn1 + d2 * wn2)
+        helped = shifted + mu * (d0 * wn0 + d1 * wn1 + d2 * wn2)
         p = wanted / max(helped, LEAST_SHARE * normal)
         held = min(mu * p, size) if p > 0.0 else 0.0
-        q0, q1, q2 = p * n0 + held * d0, p * n1 + held * d1, p * n2 + held * d2
+        q0, q1, q2 = p * (n0 + s0) + held * d0, p * (n1 + s1) + held * d1, p * (n2 + s2) + held * d2
     return q0, q1, q2
 
 
@@ -185,7 +190,7 @@ def _relax(a, b, ground, inert, row, speeds):
         q1 = row[WI + 3] * e0 + row[WI + 4] * e1 + row[WI + 5] * e2
         q2 = row[WI + 6] * e0 + row[WI + 7] * e1 + row[WI + 8] * e2
         press = q0 * n0 + q1 * n1 + q2 * n2
-        t0, t1, t2 = q0 - press * n0, q1 - press * n1, q2 - press * n2
+        t0, t1, t2 = q0 - press * (n0 + row[SHIFT]), q1 - press * (n1 + row[SHIFT + 1]), q2 - press * (n2 + row[SHIFT + 2])
         if press <= 0.0 or t0 * t0 + t1 * t1 + t2 * t2 > (row[MU] * press) ** 2:
             q0, q1, q2 = _slide(row, c0, c1, c2)
     row[IMPULSE] = q0
@@ -217,7 +222,7 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
     ----------
     who : (k, 2) array of int
         The bodies of each contact.
-    table : (k, 69) array
+    table : (k, 80) array
         Contacts, with the impulses to start from.
     tolerance : float, m/s
     speeds : (m + 1, 9) array

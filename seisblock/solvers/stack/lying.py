@@ -16,7 +16,7 @@ from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH
 from seisblock.solvers.stack.frames import INERTIA, MASS, F, L, T, V, X
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, IMPULSE, MU, NORMAL
+from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, IMPULSE, NORMAL, STATIC
 from seisblock.solvers.stack.row import FALL, FIRST, JOINTS, KICKED, POINTS, PRESSED, SUPPORT, WAIT, WHOLE
 
 _t = types()
@@ -70,7 +70,7 @@ def _gather(i, n, count, memory):
             point[SHARE + m] = side * row[IMPULSE + m] / pressed
         if along < 1.0 - 1e-9:
             return False
-        point[ROUGH] = row[MU]
+        point[ROUGH] = row[STATIC]
         point[SIDE] = side
         for m in range(4):
             point[OF + m] = who[2 + m]

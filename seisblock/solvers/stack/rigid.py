@@ -13,7 +13,8 @@ from seisblock.dynamics.arrays import MATRIX
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GIVEN, IMPULSE, NORMAL, PRECISION, VEERING, parting, press, settle
+from seisblock.solvers.stack.friction import NOTICED, along_face, lay_cones, look_back, settle_slips
+from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, GIVEN, IMPULSE, PRECISION, VEERING, press, settle
 from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
 from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
@@ -23,9 +24,6 @@ _t = types()
 
 FORESIGHT = 0.9
 """Of a whole step: what points that share a load do against each other then fades."""
-
-SLIPS = 1e-4
-"""Speed, m/s, beyond which a point slides, and has kinetic friction in the next step."""
 
 
 @kernel(_t.void(_t.int64, MATRIX, MATRIX, MEMORY))
@@ -53,7 +51,7 @@ def _prepare(n, bodies, inert, memory):
 @kernel(_t.void(MEMORY))
 def _remember(memory):
     """Keep where the next step finds them the forces that pressed, and what slid."""
-    pressed = memory.pace[PRESSED]
+    pressed, least = memory.pace[PRESSED], NOTICED * memory.pace[FALL]
     for i in range(int(memory.pace[ROWS])):
         who, row = memory.who[i], memory.table[i]
         a, b = who[FIRST], who[FIRST + 1]
@@ -61,11 +59,13 @@ def _remember(memory):
         for k in range(3):
             slot[EARLIER + k] = slot[PUSH + k]
             slot[PUSH + k] = row[IMPULSE + k] / pressed
+        slot[SLIDES] = 0.0
+        if row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0 and row[GAP] > 0.0:
+            continue
+        u0, u1, u2 = along_face(who[0], who[1], row, memory)
+        slot[SLIDES] = 1.0 if u0 * u0 + u1 * u1 + u2 * u2 > least**2 else 0.0
         if row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0:
             continue
-        u0, u1, u2 = parting(who[0], who[1], row, memory.speeds)
-        along = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
-        slot[SLIDES] = 1.0 if u0 * u0 + u1 * u1 + u2 * u2 - along * along > SLIPS**2 else 0.0
         memory.touched[a, b] = 1.0
         memory.touched[b, a] = 1.0
 
@@ -115,6 +115,7 @@ def _strike(count, n, before, pile, memory):
     settle(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
     at_impact(count, memory)
     settle(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+    look_back(count, True, memory)
     for i in range(count):
         force = 1.0 / before if before > 0.0 else 0.0
         for k in range(3):
@@ -130,6 +131,7 @@ def _try(bodies, a0, a1, a2, left, look, pile, memory):
     before = 0.5 * pace[BEFORE]
     _prepare(n, bodies, pile.inert, memory)
     count = find(bodies, left, look, pile, memory)
+    look_back(count, False, memory)
     _go_on(count, n, before, a0, a1, a2, pile, memory)
     struck = strikes(count, memory)
     if struck:
@@ -145,7 +147,8 @@ def _try(bodies, a0, a1, a2, left, look, pile, memory):
         for j in range(IMPULSE, IMPULSE + 3):
             table[i, j] *= pressed
     lay_floors(count, step, memory)
-    pace[SWEPT] = settle(count, memory.who, table, n, pile.inert, PRECISION * pace[FALL], memory.speeds)
+    lay_cones(count, memory)
+    pace[SWEPT] = settle_slips(count, n, struck, pile, memory)
     _leave(count, bodies, struck, memory)
     pace[STRUCK] = 1.0 if struck else 0.0
     pace[ROWS] = count

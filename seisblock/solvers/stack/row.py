@@ -9,15 +9,15 @@ from seisblock.solvers.stack.contact import (
     EARLIER,
     ENTERED,
     FRICTION,
-    KINETIC,
     PLACE,
     PUSH,
     REL_V,
     REL_W,
     SLIDES,
 )
+from seisblock.solvers.stack.contact import KINETIC as SLICK
 from seisblock.solvers.stack.frames import AT, R, X
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, BOUNCE, GAP, IMPULSE, MU, NORMAL, ROLL, answers
+from seisblock.solvers.stack.impulse import ARM_A, ARM_B, BOUNCE, GAP, IMPULSE, KINETIC, MU, NORMAL, ROLL, SHIFT, SLID, STATIC, answers
 
 _t = types()
 
@@ -73,7 +73,12 @@ def enter(count, c, p, slot, gap, far, k, bodies, dt, pile, memory):
     who[0] = a if memory.lying[a, POINTS] == 0 else ground
     who[1] = b if memory.lying[b, POINTS] == 0 else ground
     answers(who[0], who[1], ground, pile.inert, memory.inverses, row)
-    row[MU] = k[KINETIC] if slot[SLIDES] > 0.0 else k[FRICTION]
+    row[STATIC] = k[FRICTION]
+    row[KINETIC] = k[SLICK]
+    row[SLID] = slot[SLIDES]
+    row[MU] = row[KINETIC] if row[SLID] > 0.0 else row[STATIC]
+    for i in range(SHIFT, SHIFT + 3):
+        row[i] = 0.0
     for i in range(3):
         row[IMPULSE + i] = slot[PUSH + i] + memory.pace[AHEAD] * (slot[PUSH + i] - slot[EARLIER + i])
     return count + 1

@@ -1,0 +1,177 @@
+"""Where a point begins to slide, comes to rest or turns within a step: what friction does before, and what it does after.
+
+Velocities change over the step by one impulse. Where a point slid along s (a unit vector) and comes to rest after the part f of the step,
+kinetic friction acted against s until then, and the rest of the step obeys Coulomb's law from rest: the impulse lies in the shifted cone
+
+    P_t = -mu_k f s P_n + Q ,   |Q| <= mu (1 - f) P_n ,   mu = mu_s where it stays, mu_k where it slides on   (derived here).
+
+Where it goes on sliding, f = 1/2: half of the friction is against where it went, half against where it goes, which follows a direction
+that turns to the second order of the step. Where it begins to slide, friction is static up to then; when that is follows from the forces of
+the step before and of this one. Friction by the velocity at the end of a step alone would brake what turns within it, by mu_k g of a step's
+velocity on average, and hold for a step more what begins to slide.
+"""
+
+from __future__ import annotations
+
+import math
+
+from seisblock._jit import kernel, types
+from seisblock.dynamics.arrays import VECTOR
+from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
+from seisblock.solvers.stack.contact import PUSH
+from seisblock.solvers.stack.impulse import (
+    GAP,
+    IMPULSE,
+    KINETIC,
+    MU,
+    NORMAL,
+    OLD,
+    PACED,
+    PRECISION,
+    SHIFT,
+    SLID,
+    STATIC,
+    SWERVE,
+    TURN,
+    parting,
+    settle,
+)
+from seisblock.solvers.stack.row import FALL, FIRST, JOINTS
+
+_t = types()
+
+NOTICED = 3e-3
+"""Speed, over that of a free fall of a step, beyond which a point slides; sweeps end below a third of it."""
+
+SATURATED = 1.0 - 1e-6
+"""Part of what friction can do that it does where a point slides."""
+
+TRIES = 4
+"""How often the impulses of a step are looked for at most."""
+
+STAYS, STOPS, TURNS, BEGINS, GOES = range(5)
+"""What a point does in a step, as far as is known: what it did; it stops; it stopped, and stays or goes another way; it begins to slide;
+and no more is asked."""
+
+
+@kernel(_t.UniTuple(_t.float64, 3)(_t.int64, _t.int64, VECTOR, MEMORY), inline=True)
+def along_face(a, b, row, memory):
+    """Return the velocity with which a point slides at the end of the step."""
+    u0, u1, u2 = parting(a, b, row, memory.speeds)
+    u0, u1, u2 = u0 + row[SWERVE], u1 + row[SWERVE + 1], u2 + row[SWERVE + 2]
+    along = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
+    return u0 - along * row[NORMAL], u1 - along * row[NORMAL + 1], u2 - along * row[NORMAL + 2]
+
+
+@kernel(_t.void(_t.int64, _t.boolean, MEMORY))
+def look_back(count, anew, memory):
+    """Note how points slide before the step's impulses: those that slid, or, `anew`, all that touch."""
+    least = NOTICED * memory.pace[FALL]
+    for i in range(count):
+        row = memory.table[i]
+        if anew:
+            row[SLID] = 1.0 if row[GAP] <= 0.0 else 0.0
+        if row[SLID] == 0.0:
+            continue
+        u0, u1, u2 = parting(memory.who[i, 0], memory.who[i, 1], row, memory.speeds)
+        along = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
+        u0, u1, u2 = u0 - along * row[NORMAL], u1 - along * row[NORMAL + 1], u2 - along * row[NORMAL + 2]
+        row[PACED] = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2)
+        if row[PACED] <= least:
+            row[SLID] = 0.0
+            continue
+        row[OLD] = u0 / row[PACED]
+        row[OLD + 1] = u1 / row[PACED]
+        row[OLD + 2] = u2 / row[PACED]
+
+
+@kernel(_t.void(VECTOR, _t.float64, _t.float64), inline=True)
+def _lay(row, before, after):
+    """Lay the cone of a point that slid: friction against where it went, and the width of the cone about it."""
+    row[MU] = after
+    for k in range(3):
+        row[SHIFT + k] = -before * row[OLD + k]
+
+
+@kernel(_t.void(_t.int64, MEMORY))
+def lay_cones(count, memory):
+    """Let what slid go on sliding, and what did not cling."""
+    for i in range(count):
+        row = memory.table[i]
+        row[TURN] = STAYS
+        if row[SLID] > 0.0:
+            _lay(row, 0.5 * row[KINETIC], 0.5 * row[KINETIC])
+        else:
+            row[MU] = row[STATIC]
+
+
+@kernel(_t.float64(_t.int64, _t.int64, _t.float64, _t.float64, _t.float64, MEMORY))
+def _earlier(i, count, x, y, z, memory):
+    """Return what two bodies' friction against a direction was in the step before, over what pressed; nothing where nothing pressed."""
+    who, n, press, drag = memory.who, memory.table[i], 0.0, 0.0
+    for j in range(count):
+        if who[j, FIRST] != who[i, FIRST] or who[j, FIRST + 1] != who[i, FIRST + 1]:
+            continue
+        o, p, q = who[j, 3], who[j, 4], who[j, 5]
+        slot = memory.joint_slots[o, p, q] if who[j, 2] == JOINTS else memory.corner_slots[o, p, q]
+        press += slot[PUSH] * n[NORMAL] + slot[PUSH + 1] * n[NORMAL + 1] + slot[PUSH + 2] * n[NORMAL + 2]
+        drag -= slot[PUSH] * x + slot[PUSH + 1] * y + slot[PUSH + 2] * z
+    return drag / press if press > 0.0 else 0.0
+
+
+@kernel(_t.boolean(_t.int64, _t.boolean, MEMORY))
+def _judge(count, struck, memory):
+    """Look at what points do with the impulses that were tried, and lay their cones anew; return whether another try is wanted."""
+    least, again = NOTICED * memory.pace[FALL], False
+    for i in range(count):
+        row = memory.table[i]
+        p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
+        press = p0 * row[NORMAL] + p1 * row[NORMAL + 1] + p2 * row[NORMAL + 2]
+        if press <= 0.0 or row[TURN] == GOES:
+            continue
+        u0, u1, u2 = along_face(memory.who[i, 0], memory.who[i, 1], row, memory)
+        along = u0 * row[OLD] + u1 * row[OLD + 1] + u2 * row[OLD + 2]
+        speed = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2)
+        if row[SLID] > 0.0 and row[TURN] == STAYS:
+            if along <= least:
+                row[TURN] = STOPS
+                _lay(row, row[KINETIC], 0.0)
+                again = True
+        elif row[TURN] == STOPS:
+            part = row[PACED] / (row[PACED] - along) if along < 0.0 else 1.0
+            row[TURN] = TURNS
+            _lay(row, part * row[KINETIC], (1.0 - part) * row[STATIC])
+            again = True
+        elif row[TURN] == TURNS:
+            if speed > least and row[KINETIC] < row[STATIC]:
+                row[MU] *= row[KINETIC] / row[STATIC]
+                again = True
+            row[TURN] = GOES
+        elif row[TURN] == BEGINS:
+            row[TURN] = GOES
+            gain = speed - row[PACED]
+            if not struck and gain > 0.0:
+                over = (row[STATIC] - row[KINETIC]) * row[PACED] / gain
+                rise = row[STATIC] + over - _earlier(i, count, u0 / speed, u1 / speed, u2 / speed, memory)
+                part = 0.5 + (min(over / rise, 1.0) if rise > 0.0 else 1.0)
+                row[MU] = max(row[STATIC] - part * (row[STATIC] - row[KINETIC]), 0.0)
+                again = True
+        elif row[SLID] == 0.0 and row[KINETIC] < row[STATIC] and speed > least:
+            drag = p0 * p0 + p1 * p1 + p2 * p2 - press * press
+            if drag >= (SATURATED * row[MU] * press) ** 2:
+                row[TURN] = BEGINS
+                row[PACED] = speed
+                row[MU] = row[KINETIC]
+                again = True
+    return again
+
+
+@kernel(_t.int64(_t.int64, _t.int64, _t.boolean, LAYOUT, MEMORY))
+def settle_slips(count, n, struck, pile, memory):
+    """Find the impulses of a step, again where points begin to slide or cease to; return how many sweeps the last try took."""
+    sweeps = 0
+    for turn in range(TRIES):
+        sweeps = settle(count, memory.who, memory.table, n, pile.inert, PRECISION * memory.pace[FALL], memory.speeds)
+        if turn == TRIES - 1 or not _judge(count, struck, memory):
+            break
+    return sweeps

@@ -1,0 +1,56 @@
+"""What slides in a pile follows its events at the default step."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.records import Motion
+from seisblock.solvers.stack.solve import solve_stack
+from seisblock.units import STANDARD_GRAVITY as G
+
+DT, STATIC = 0.01, 0.42
+
+
+def sine(pga, hertz, cycles, rest):
+    """Return cycles of a sine, and rest."""
+    time = np.arange(0.0, cycles / hertz + rest, DT)
+    return pga * np.sin(2.0 * math.pi * hertz * time) * (time * hertz < cycles)
+
+
+def slide(shaking, kinetic, fine=500):
+    """Return the slip of a slab, m, by the events of its motion: it clings, slides with kinetic friction, and clings where it stops."""
+    slip, speed, side, h, found = 0.0, 0.0, 0.0, DT / fine, []
+    for left, right in pairwise(shaking):
+        found.append(slip)
+        for k in range(fine):
+            ground = left + (right - left) * (k + 0.5) / fine
+            if side == 0.0:
+                if abs(ground) <= STATIC * G:
+                    continue
+                side = -math.copysign(1.0, ground)
+            rate = -ground - side * kinetic * G
+            slip, speed = slip + h * speed + 0.5 * h * h * rate, speed + h * rate
+            if speed * side <= 0.0:
+                speed, side = 0.0, 0.0
+    return np.array([*found, slip])
+
+
+@pytest.mark.parametrize("kinetic", [0.31, STATIC])
+@pytest.mark.parametrize(("pga", "hertz"), [(5.0, 1.0), (6.0, 2.0), (8.0, 4.0)])
+def test_a_slab_slips_as_far_as_its_events_say(pga, hertz, kinetic):
+    """Within 1 % of the largest slip at the default step.
+
+    Friction by the velocity at the end of a step missed by 2 to 7 % where kinetic friction is less, and by 3 % at 4 Hz where it is not.
+    """
+    shaking = sine(pga, hertz, 3.0, 0.5)
+    slab = Pile("slab", (PileStone("slab", 1.0, 1.0, 0.1),), mu=STATIC)
+    found = solve_stack(slab, Motion.from_arrays(shaking, DT), mu_kinetic=kinetic)
+    expected = slide(shaking, kinetic)
+    kept = np.round(found.time / DT).astype(int)
+    kept = kept[kept < len(shaking)]
+    assert np.abs(expected).max() > 0.005
+    np.testing.assert_allclose(found["slab_x"][: kept.size], expected[kept], atol=0.01 * np.abs(expected).max())
