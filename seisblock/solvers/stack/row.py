@@ -17,13 +17,31 @@ from seisblock.solvers.stack.contact import (
 )
 from seisblock.solvers.stack.contact import KINETIC as SLICK
 from seisblock.solvers.stack.frames import AT, R, X
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, BOUNCE, GAP, IMPULSE, KINETIC, MU, NORMAL, ROLL, SHIFT, SLID, STATIC, answers
+from seisblock.solvers.stack.impulse import (
+    ARM_A,
+    ARM_B,
+    BOUNCE,
+    GAP,
+    HEED,
+    IMPULSE,
+    KINETIC,
+    MU,
+    NORMAL,
+    ROLL,
+    SHIFT,
+    SLID,
+    STATIC,
+    answers,
+)
 
 _t = types()
 
 SWIFT, SLOW = 2.0, 0.5
 """A point is left out while its gap is wider than what so many times the greatest speed of its stone, and this speed, m/s, more, close in a
 step: what a stone strikes may turn it the other way round."""
+
+FAINT = 0.04
+"""Speed over that of a free fall of a step, a quarter of which the slowest impacts have that end a step."""
 
 BEFORE, FALL, WHOLE, KICKED, AHEAD, SWEPT, STRUCK, ROWS, PRESSED = range(9)
 PACE = 9
@@ -76,6 +94,8 @@ def enter(count, c, p, slot, gap, far, k, bodies, dt, pile, memory):
     row[STATIC] = k[FRICTION]
     row[KINETIC] = k[SLICK]
     row[SLID] = slot[SLIDES]
+    # what did not press is on its way: it is back late where little draws it back
+    row[HEED] = memory.pace[FALL] * (1.0 if slot[PUSH] != 0.0 or slot[PUSH + 1] != 0.0 or slot[PUSH + 2] != 0.0 else FAINT)
     row[MU] = row[KINETIC] if row[SLID] > 0.0 else row[STATIC]
     for i in range(SHIFT, SHIFT + 3):
         row[i] = 0.0

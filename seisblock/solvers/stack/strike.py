@@ -21,6 +21,7 @@ from seisblock.solvers.stack.impulse import (
     GAP,
     GIVEN,
     HEADING,
+    HEED,
     HELD,
     IMPULSE,
     NORMAL,
@@ -35,7 +36,8 @@ from seisblock.solvers.stack.row import FALL, FIRST, WHOLE
 _t = types()
 
 SPLITS = 0.25
-"""Approach, over the speed of a free fall of a step, from which an impact ends a step."""
+"""Approach, over what a gap's own acceleration changes it by in a step, from which an impact ends a step: half a step passes then until
+it is back. Of what presses it is that of a free fall."""
 
 BRIEF = 0.01
 """Part of a step within which what strikes together strikes at once."""
@@ -55,13 +57,13 @@ def _rate(a, b, row, memory):
 def strikes(count, memory):
     """Note how fast the gaps open at the step; return whether a point strikes there, and write the floors of the impact if so."""
     pace, table = memory.pace, memory.table
-    fall, brief = pace[FALL], BRIEF * pace[WHOLE]
+    brief = BRIEF * pace[WHOLE]
     found = False
     for i in range(count):
         row = table[i]
         row[RATE] = _rate(memory.who[i, 0], memory.who[i, 1], row, memory)
-        row[FLOOR] = 0.0 if row[GAP] <= brief * max(-row[RATE], fall) else -math.inf
-        if row[FLOOR] == 0.0 and row[RATE] < -SPLITS * fall:
+        row[FLOOR] = 0.0 if row[GAP] <= brief * max(-row[RATE], row[HEED]) else -math.inf
+        if row[FLOOR] == 0.0 and row[RATE] < -SPLITS * row[HEED]:
             found = True
     return found
 
@@ -87,7 +89,7 @@ def until_impact(count, before, memory):
     for i in range(count):
         row = memory.table[i]
         row[HELD] = 0.0
-        if row[RATE] < -SPLITS * memory.pace[FALL]:
+        if row[RATE] < -SPLITS * row[HEED]:
             row[FLOOR] = -math.inf
         for k in range(3):
             row[IMPULSE + k] *= before
@@ -105,7 +107,7 @@ def at_impact(count, memory):
             row[IMPULSE + k] = 0.0
     for i in range(count):
         row = memory.table[i]
-        if row[BOUNCE] >= 0.0 and row[FLOOR] == 0.0 and row[RATE] < -SPLITS * memory.pace[FALL]:
+        if row[BOUNCE] >= 0.0 and row[FLOOR] == 0.0 and row[RATE] < -SPLITS * row[HEED]:
             j = _opposite(i, count, memory)
             memory.table[j, FLOOR] = -row[BOUNCE] * row[RATE]
             memory.table[j, HELD] = 1.0
@@ -130,15 +132,16 @@ def soonest(count, half, left, memory):
     half : float, s
         For how long the velocities have gone on since the step.
     """
-    fall, brief, first = memory.pace[FALL], BRIEF * memory.pace[WHOLE], left
+    whole, first = memory.pace[WHOLE], left
+    fall, brief = memory.pace[FALL], BRIEF * whole
     for i in range(count):
         row = memory.table[i]
         row[FLOOR] = 0.0
-        if row[GAP] <= brief * max(-row[RATE], fall):
+        if row[GAP] <= brief * max(-row[RATE], row[HEED]):
             continue
         gain = (_rate(memory.who[i, 0], memory.who[i, 1], row, memory) - row[RATE]) / half
         time = _closing(row[GAP], row[RATE], gain)
-        if time < left + brief and row[RATE] + gain * time < -SPLITS * fall:
+        if time < left + brief and row[RATE] + gain * time < -SPLITS * min(fall, max(-gain * whole, row[HEED])):
             row[FLOOR] = -math.inf
             row[HEADING] = time
             first = min(first, time)
