@@ -8,7 +8,7 @@ from seisblock.solvers.stack.apart import EDGES, FACE, KIND, MOST_POINTS, cross,
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import CLINGS, EARLIER, ENTERED, OUTSIDE, PLACE, PUSH, REBOUND, REL_D, REL_W, SLIDES, SLOT
 from seisblock.solvers.stack.frames import relative
-from seisblock.solvers.stack.impulse import BOUNCE
+from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE
 from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
 from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, pressed_side, roll
 from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
@@ -21,6 +21,10 @@ FACES, BOXES = -2, -1
 
 DEEP = 1e-4
 """How deep, m, faces may lie in each other where a pair that was met as boxes is to be met face on face."""
+
+FLAT, FAINT = 1e-6, 0.04
+"""Cosine of a lean, less than 1 by so much, of stones that lie face on face; and what of a free fall's speed, over that of the others, is
+heeded of points that did not press: a stone that rocks is drawn back by little, so that what strikes slowly has been away for steps."""
 
 NEARBY = 0.02
 """How far, m, a point of a meeting is sought of which it remembers the force."""
@@ -230,7 +234,10 @@ def _meet(count, pair, bodies, dt, pile, memory):
     rebound = pile.pair_constants[pair, REBOUND]
     if rel[8] > COSINE:
         for i in range(first, count):
-            memory.table[i, BOUNCE] = rebound
+            row = memory.table[i]
+            row[BOUNCE] = rebound
+            if 1.0 - rel[8] < FLAT and row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0:
+                row[HEED] *= FAINT
     return count
 
 

@@ -40,9 +40,6 @@ SWIFT, SLOW = 2.0, 0.5
 """A point is left out while its gap is wider than what so many times the greatest speed of its stone, and this speed, m/s, more, close in a
 step: what a stone strikes may turn it the other way round."""
 
-FAINT = 0.04
-"""Speed over that of a free fall of a step, a quarter of which the slowest impacts have that end a step."""
-
 BEFORE, FALL, WHOLE, KICKED, AHEAD, SWEPT, STRUCK, ROWS, PRESSED = range(9)
 PACE = 9
 """The length of the last step, s; the speed of a free fall of a whole step, m/s, and its length, s; the time over which velocities last
@@ -94,8 +91,7 @@ def enter(count, c, p, slot, gap, far, k, bodies, dt, pile, memory):
     row[STATIC] = k[FRICTION]
     row[KINETIC] = k[SLICK]
     row[SLID] = slot[SLIDES]
-    # what did not press is on its way: it is back late where little draws it back
-    row[HEED] = memory.pace[FALL] * (1.0 if slot[PUSH] != 0.0 or slot[PUSH + 1] != 0.0 or slot[PUSH + 2] != 0.0 else FAINT)
+    row[HEED] = memory.pace[FALL]
     row[MU] = row[KINETIC] if row[SLID] > 0.0 else row[STATIC]
     for i in range(SHIFT, SHIFT + 3):
         row[i] = 0.0
