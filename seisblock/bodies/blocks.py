@@ -174,6 +174,34 @@ def wear_within(block: Block, share: float) -> float:
     return min(share, max(MOST_WORN * smaller, block.inset / block.width))
 
 
+def deepest_within(block: Block, share: float) -> float:
+    """Return the deepest that versions of a block are worn which begin with sharp edges: never less than it is itself, a share.
+
+    Examples
+    --------
+    >>> deepest_within(Block(0.2, 0.6), 0.1), round(deepest_within(Block(0.2, 0.6).worn(0.3), 0.1), 6)
+    (0.1, 0.3)
+    """
+    return max(wear_within(block, share), block.inset / block.width)
+
+
+def wear_range(block: Block, share: float) -> tuple[float, float]:
+    """Return between which shares of its width per side versions of a block are worn, from sharp edges to `share`.
+
+    A block that is itself worn by more differs from that by half of `share`, and by no more than leaves a fifth of what it stands on.
+
+    Examples
+    --------
+    >>> [[round(end, 3) for end in wear_range(Block(0.2, 0.6).worn(own), 0.1)] for own in (0.0, 0.1, 0.3, 0.48)]
+    [[0.0, 0.1], [0.0, 0.1], [0.25, 0.35], [0.464, 0.496]]
+    """
+    own, deepest = block.inset / block.width, wear_within(block, share)
+    if own <= deepest:
+        return 0.0, deepest
+    half = min(0.5 * deepest, MOST_WORN * (0.5 - abs(block.centroid_offset) / block.width - own))
+    return own - half, own + half
+
+
 def gathered(blocks: Sequence[Block]) -> Blocks:
     """Return some blocks as arrays."""
     rows = [(*block.arms, block.centre, block.gyration_squared) for block in blocks]

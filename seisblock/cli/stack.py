@@ -178,6 +178,7 @@ def stack(
         mu=body.mu,
         dowels=said(", dowels in") if body.dowels else "",
     )
+    widths = widths_of(asked, *VARIED)
     if criterion:
         if asked["runs"]:
             raise ParameterError("--criterion takes no --runs")
@@ -191,7 +192,7 @@ def stack(
         return
     if grid != 1 or resume is not None:
         raise ParameterError("--grid and --resume go with --criterion")
-    _record(source, output, body, contact, asked)
+    _record(source, output, body, contact, widths, asked)
 
 
 def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, ...], fix: tuple[str, ...]) -> Pile:
@@ -209,7 +210,7 @@ def _pile(stones: str, reinforced: bool, mu: float | None, without: tuple[str, .
     return replace(body, fixed=(*body.fixed, *fix)) if fix else body
 
 
-def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dict[str, Any]) -> None:
+def _record(source: Source, output: Output, body: Pile, contact: Any, widths: dict[str, float], asked: dict[str, Any]) -> None:
     """Follow the pile through the records."""
     from seisblock.cli.progress import progress
     from seisblock.errors import ParameterError
@@ -220,7 +221,7 @@ def _record(source: Source, output: Output, body: Pile, contact: Any, asked: dic
     from seisblock.studies.agreement import pile_agreement
     from seisblock.studies.standing.pile_probability import PileVersions, stack_probability
 
-    versions = PileVersions(**widths_of(asked, *VARIED))
+    versions = PileVersions(**widths)
     told = click.get_current_context().get_parameter_source("vary_inset") is not ParameterSource.DEFAULT
     if told and versions.inset and asked["points"] != EDGES:
         raise ParameterError("--vary-inset goes with stones on their edges: leave --contact grid={points} out", points=asked["points"])

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import click
+from click.core import ParameterSource
+
 from seisblock.cli.command import option
 from seisblock.cli.types import LENGTH, Count
 from seisblock.words import noted
@@ -55,5 +58,23 @@ def version_options(*varied: str, runs: int) -> Callable[..., Any]:
 
 
 def widths_of(given: dict[str, Any], *varied: str) -> dict[str, float]:
-    """Return how far versions differ, taken out of what was given, by the names of their fields."""
+    """Return how far versions differ, taken out of what was given, by the names of their fields.
+
+    Raises
+    ------
+    ParameterError
+        If it is said how far, of versions of which there are none.
+    """
+    _refuse_idle(*(f"vary_{name}" for name in varied), "moved", "seed")
     return {"azimuth_deg" if name == "azimuth" else name: given.pop(f"vary_{name}") for name in varied}
+
+
+def _refuse_idle(*names: str) -> None:
+    """Refuse what is said of versions where there are none."""
+    from seisblock.errors import ParameterError
+
+    context = click.get_current_context()
+    told = [name for name in names if context.get_parameter_source(name) is not ParameterSource.DEFAULT]
+    if told and not context.params["runs"]:
+        flags = [f"--{name.replace('_', '-')}" for name in told]
+        raise ParameterError("without versions there is nothing for {flags} to do: give --runs, say --runs 100", flags=flags)

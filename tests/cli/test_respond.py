@@ -241,3 +241,18 @@ def test_versions_that_come_back_end_where_they_stood(q05, q95, ends):
     """Quantiles of less than half a millimetre are no interval to tell."""
     found = Probability(40, 0.1, 0.5, (0.0, 0.3), 0.01, {"q05": q05, "q95": q95}, Versions(), 0)
     assert share(found).endswith(ends)
+
+
+@pytest.mark.parametrize(("inset", "worn"), [("0", "0 to 10 %"), ("0.3", "25 % to 35 %"), ("0.48", "46 % to 50 %")])
+def test_what_is_worn_is_varied_about_itself_and_said(inset, worn):
+    """As far as a fifth of the base is left: a stone worn almost to nothing is no error."""
+    shown = run("elcentro_1940_ns", *CABINET, "--inset", inset, "--runs", "5", "--quiet")
+    assert shown.exit_code == 0, shown.stderr
+    assert f"edges worn by {worn} of the width" in " ".join(shown.stdout.split())
+
+
+@pytest.mark.parametrize("told", [("--seed", "3"), ("--moved", "2cm"), ("--vary-size", "0.1"), ("--vary-azimuth", "5")])
+def test_what_is_said_of_no_versions_is_refused(told):
+    shown = run("elcentro_1940_ns", *CABINET, "--runs", "0", *told)
+    assert (shown.exit_code, shown.stdout) == (3, "")
+    assert f"nothing for {told[0]} to do: give --runs" in shown.stderr

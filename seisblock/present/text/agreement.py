@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import deepest_within
 from seisblock.bodies.ranges import Ranges
 from seisblock.studies.agreement import GRAVESTONES, Agreement, Opinion
 from seisblock.studies.cemetery.models import RateOpinion
@@ -100,12 +102,14 @@ def chance(share: float) -> str:
     return tell("above {share}", share=MOST) if share > MOST else f"{share:.2f}"
 
 
-def chance_lines(found: Perturbation) -> tuple[str, str]:
+def chance_lines(found: Perturbation, block: Block) -> tuple[str, str]:
     """Return how often a perturbed block fell, of what that is the share, and what was varied.
 
     Parameters
     ----------
     found : Perturbation
+    block : Block
+        The middle of the versions.
     """
     values = {"fallen": found.overturned, "runs": found.runs, "share": chance(found.probability), "of": tell(found.interval_of)}
     low, high = found.probability_interval
@@ -118,11 +122,12 @@ def chance_lines(found: Perturbation) -> tuple[str, str]:
             "falls in {fallen} of {runs} versions of body and shaking: {share}; {low} to {high} is the 95 % interval of {of}, no more."
         )
     s, known = found.spread, found.ranges or Ranges()
+    deepest = deepest_within(block, s.inset) if s.inset else 0.0
     drawn = said("size ±{size}, slenderness ±{slenderness}", size=roughly(s.size), slenderness=roughly(s.slenderness))
     varied = tell(
         "varied: {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g} deg.",
         sizes=drawn if found.ranges is None else known.sizes(s.size),
-        edges=known.edges or said("edges worn by 0 to {share} of the width", share=roughly(s.inset)),
+        edges=known.edges or said("edges worn by 0 to {share} of the width", share=roughly(deepest)),
         restitution=roughly(s.restitution),
         amplitude=roughly(s.amplitude),
         azimuth=s.azimuth_deg,

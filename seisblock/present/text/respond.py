@@ -8,6 +8,8 @@ from typing import Any
 
 from rich.text import Text
 
+from seisblock.bodies.block import Block
+from seisblock.bodies.blocks import wear_range
 from seisblock.bodies.ranges import Ranges
 from seisblock.present.directions import moved, side
 from seisblock.present.scales import Unit, acceleration_unit, length_cell, length_unit, told_length
@@ -35,7 +37,7 @@ def tables(responses: Responds, extras: Sequence[Mapping[str, Any]], *, gal: boo
         yield from opening
         yield _table([r for r, _ in part], gal=gal)
         if any("probability" in extra for _, extra in part):
-            yield line(varied(next(extra["probability"] for _, extra in part if "probability" in extra)), "dim")
+            yield line(varied(*next((extra["probability"], each.body) for each, extra in part if "probability" in extra)), "dim")
         yield line()
         for _, extra in part:
             if "directions" in extra:
@@ -175,11 +177,14 @@ def falls_to(azimuth: float, towards: str | None) -> str:
     return NOTHING if towards is None else f"{(azimuth + (180.0 if towards == '-x' else 0.0)) % 360.0:g}"
 
 
-def varied(found: Probability) -> str:
+def varied(found: Probability, block: Block) -> str:
     """Return what was varied, and what the share is worth."""
     by, known = found.versions, found.ranges or Ranges()
     sizes = said("size ±{share}", share=roughly(by.size)) if found.ranges is None else known.sizes(by.size)
-    worn = said("edges worn by 0 to {share} of the width", share=roughly(by.inset))
+    low, high = wear_range(block, by.inset)
+    worn = said("edges worn by 0 to {share} of the width", share=roughly(high))
+    if low > 0.0:
+        worn = said("edges worn by {low} to {high} of the width", low=roughly(low), high=roughly(high))
     return tell(
         "of this model's scatter alone: {sizes}, {edges}, {friction}, restitution up to +{restitution:g}, amplitude ±{amplitude}, "
         "direction ±{azimuth:g} degrees; on shaking tables 3 % of two granite rocks fell where none of 20 versions did, and 2 % stood "

@@ -157,7 +157,7 @@ def sentences(response: Response[RockOutcome], extra: Mapping[str, Any]) -> Iter
     if "margin" in extra:
         yield from (tell("{name}: {text}", name=name, text=told) for told in _margin_lines(extra["margin"]))
     if "perturbation" in extra:
-        yield from (tell("{name}: {text}", name=name, text=told) for told in chance_lines(extra["perturbation"]))
+        yield from (tell("{name}: {text}", name=name, text=told) for told in chance_lines(extra["perturbation"], response.body))
 
 
 def _fell(response: Response[RockOutcome]) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import versions, versions_within, wear_within
+from seisblock.bodies.blocks import deepest_within, versions, versions_within
 from seisblock.bodies.inset import HALF
 from seisblock.bodies.ranges import Ranges
 from seisblock.limits import check_budget
@@ -163,7 +163,7 @@ def changed_rockers(block: Block, motion: Motion, spread: Spread, draws: FloatAr
         Of :func:`draws_of`.
     """
     size, slenderness, bounce, _, _, wear, _ = draws.T
-    deepest = max(wear_within(block, spread.inset), block.inset / block.width) if spread.inset else None
+    deepest = deepest_within(block, spread.inset) if spread.inset else None
     if block.ranges is not None:
         worn = np.full(len(draws), block.inset / block.width) if deepest is None else deepest * wear
         drawn = {"tall": size, "wide": slenderness, "worn": 2.0 * wear - 1.0}

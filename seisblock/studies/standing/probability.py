@@ -14,7 +14,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import Blocks, versions_within, wear_within
+from seisblock.bodies.blocks import Blocks, versions_within, wear_range
 from seisblock.bodies.blocks import versions as resized_versions
 from seisblock.bodies.inset import HALF
 from seisblock.bodies.ranges import Ranges, within
@@ -49,8 +49,8 @@ class Versions:
     size, mu, amplitude : float
         Half widths as shares of the value.
     inset : float
-        Largest inset per side, a share of the width: versions are worn from sharp edges to this. Where the body is worn by more than
-        half of it, from its own less to its own plus half of it.
+        Largest inset per side, a share of the width: versions are worn from sharp edges to this. Where the body is itself worn by
+        more, from its own less to its own plus half of it, as far as a fifth of the base is left.
     restitution : float, 1
         How much more than the given one it may be.
     azimuth_deg : float
@@ -248,11 +248,8 @@ def changed_settings(
 
 def _bodies(block: Block, versions: Versions, draws: FloatArray) -> Blocks:
     """Return the versions of a body: their size, and how far their edges are worn."""
-    share = block.inset / block.width
-    deepest = wear_within(block, versions.inset)
-    half = deepest / 2
-    middle = half if share <= deepest else share
-    worn = np.maximum(middle + half * draws[:, 1], 0.0)
+    low, high = wear_range(block, versions.inset)
+    worn = np.maximum(0.5 * (low + high) + 0.5 * (high - low) * draws[:, 1], 0.0)
     if block.ranges is not None:
         drawn = {"tall": draws[:, 0], "wide": draws[:, 6], "worn": draws[:, 1]}
         return versions_within(block, block.ranges, **drawn, size=versions.size, inset=worn)
