@@ -221,6 +221,9 @@ def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Calla
         pair = _oriented_pair(record)
         along = chosen.acceleration
     else:
+        opposite = _recorded(record, "", azimuth + 180.0)
+        if opposite is not None and sum(c.azimuth_deg is not None for c in record.horizontals) < 2:
+            return sealed(-opposite.acceleration), None
         pair = _oriented_pair(record)
         along = _resolve(pair, azimuth)
     return along, _towards(pair, azimuth - 90.0)

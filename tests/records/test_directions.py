@@ -36,6 +36,10 @@ def test_a_recorded_azimuth_has_its_neighbour_across():
     assert motion.transverse.tolist() == OTHER.tolist()
 
 
+def test_the_opposite_of_one_horizontal_is_its_negative():
+    assert motion_of(record(("340", ONE, 340.0)), "160").horizontal.tolist() == (-ONE).tolist()
+
+
 def test_another_azimuth_still_needs_two():
     with pytest.raises(ComponentError, match="needs two horizontal components of known direction"):
         motion_of(record(("340", ONE, 340.0)), "341")

@@ -209,6 +209,11 @@ def test_options_that_do_not_go_together_are_refused(more, said):
         solve_stack(block(), cycle(1.0, 1.0), **more)
 
 
+def test_springs_refuse_a_pile_that_slides_easier_than_it_clings():
+    with pytest.raises(ParameterError, match="has a kinetic friction, and springs have one"):
+        solve_stack(block().sliding_at(0.1), cycle(1.0, 1.0), law="springs")
+
+
 @pytest.mark.parametrize("seed", [13, 24, 43, 150, 152, 164, 188])
 def test_stones_that_are_shaken_down_create_no_energy(seed):
     """Piles that made up to 600 times their own energy while corners and edges pushed stones out of each other one by one."""

@@ -50,6 +50,9 @@ def _shares(motion: Motion, found: RockingSpectrum, kind: str, worn: str) -> Ite
     cells = [[f"{found.size_m[i]:.3g}", *(_cell(found, i, j, kind) for j in columns)] for i in rows]
     title = tell("{name}: {what}; down 2R (m), across H/B", name=motion.name, what=what) + tell(worn)
     yield table(title, ["2R \\ H/B", *heads], cells)
+    if rows.size < found.size_m.size or columns.size < found.slenderness_rad.size:
+        shown = {"rows": rows.size, "sizes": found.size_m.size, "columns": columns.size, "shapes": found.slenderness_rad.size}
+        yield line(tell("shown: {rows} of {sizes} 2R, {columns} of {shapes} H/B; --csv and --json have all", **shown), "dim")
     yield line()
 
 

@@ -188,10 +188,16 @@ def _is_rigid(law: str | None, contact: PileContact | None) -> bool:
 
 def _sliding(body: Pile, rigid: bool, mu_kinetic: float | None, restitution: float | None) -> Pile:
     """Return the pile with the kinetic friction asked for, refusing springs what they do not know."""
+    if not rigid and not (mu_kinetic is None and restitution is None):
+        raise ParameterError("springs have one friction and their own dashpots: `mu_kinetic` and `restitution` go with rigid stones")
     if mu_kinetic is not None:
         body = body.sliding_at(mu_kinetic)
-    if not rigid and (body.slides_easier or mu_kinetic is not None or restitution is not None):
-        raise ParameterError("springs have one friction and their own dashpots: `mu_kinetic` and `restitution` go with rigid stones")
+    if not rigid and body.slides_easier:
+        raise ParameterError(
+            "the pile {name} has a kinetic friction, and springs have one friction for all: say `mu`, which then holds for "
+            "what slides, too, or choose rigid stones",
+            name=body.name,
+        )
     return body
 
 
