@@ -196,7 +196,7 @@ def wear_range(block: Block, share: float) -> tuple[float, float]:
     [[0.0, 0.1], [0.0, 0.1], [0.25, 0.35], [0.464, 0.496]]
     """
     own, deepest = block.inset / block.width, wear_within(block, share)
-    if own <= deepest:
+    if own <= deepest or math.isclose(own, deepest):
         return 0.0, deepest
     half = min(0.5 * deepest, MOST_WORN * (0.5 - abs(block.centroid_offset) / block.width - own))
     return own - half, own + half

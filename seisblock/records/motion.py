@@ -218,13 +218,13 @@ def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Calla
         others = [c for c in record.horizontals if c is not chosen]
         if azimuth is None or not others or any(c.azimuth_deg is None for c in others):
             return chosen.acceleration, None
-        pair = _oriented_pair(record)
+        pair = oriented_pair(record)
         along = chosen.acceleration
     else:
         opposite = _recorded(record, "", azimuth + 180.0)
         if opposite is not None and sum(c.azimuth_deg is not None for c in record.horizontals) < 2:
             return sealed(-opposite.acceleration), None
-        pair = _oriented_pair(record)
+        pair = oriented_pair(record)
         along = _resolve(pair, azimuth)
     return along, _towards(pair, azimuth - 90.0)
 
@@ -249,8 +249,15 @@ def _recorded(record: Record, component: str, azimuth: float) -> Component | Non
     return None
 
 
-def _oriented_pair(record: Record) -> tuple[Component, Component]:
-    """Return two horizontals of known and different azimuth."""
+def oriented_pair(record: Record) -> tuple[Component, Component]:
+    """Return two horizontals of known azimuth, from which any other direction follows.
+
+    Examples
+    --------
+    >>> from seisblock.readers import read
+    >>> [component.code for component in oriented_pair(read("synthetic_jma.csv"))]
+    ['NS', 'EW']
+    """
     oriented = [c for c in record.horizontals if c.azimuth_deg is not None]
     if len(oriented) < 2:
         raise ComponentError(

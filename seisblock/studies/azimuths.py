@@ -14,6 +14,7 @@ from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.limits import check_budget
 from seisblock.records import Motion, Record, motion_of
 from seisblock.records.given import Factor, vertical_gain
+from seisblock.records.motion import oriented_pair
 from seisblock.typing import FloatArray
 from seisblock.words import noted
 
@@ -90,6 +91,7 @@ def sweep(body: Block | ScannedBody, record: Record, *, step_deg: float = STEP_D
     checks.instance(body, ScannedBody if isinstance(body, ScannedBody) else Block)
     checks.instance(record, Record)
     azimuths = azimuths_of(body, step_deg)
+    oriented_pair(record)
     motion = motion_of(record, "0")
     turn = np.radians(azimuths)
     gains = np.column_stack([np.cos(turn), -np.sin(turn), np.full(turn.size, vertical_gain(motion, vertical))])

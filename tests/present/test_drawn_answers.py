@@ -222,7 +222,9 @@ def polygon_area(corners):
 
 
 def test_a_plane_is_its_cells():
-    """The slip of each slope and friction, cm, a panel per ratio of frictions."""
+    """The slip of each slope and friction, in the unit of the bar, a panel per ratio of frictions."""
+    (bar,) = {axis.get_ylabel() for axis in axes_of("plane") if axis.get_label() == "<colorbar>"}
+    units = {"largest slip (cm)": 100.0, "largest slip (m)": 1.0}[bar]
     panels = [axis for axis in axes_of("plane") if axis.collections and axis.get_label() != "<colorbar>"]
     (points,) = study(**PLANE)
     for axis, kappa in zip(panels, PLANE["kappa"], strict=True):
@@ -232,7 +234,7 @@ def test_a_plane_is_its_cells():
             for column, slope in enumerate(PLANE["slope_deg"]):
                 slip = mine[mu, slope]
                 assert (
-                    np.isnan(cells[row, column]) if slip is None else cells[row, column] == pytest.approx(100.0 * max(slip, 1e-4), rel=1e-6)
+                    np.isnan(cells[row, column]) if slip is None else cells[row, column] == pytest.approx(units * max(slip, 1e-4), rel=1e-6)
                 )
 
 

@@ -14,7 +14,7 @@ from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import gather
 from seisblock.readers.source import Location
 from seisblock.records import Motion, Preparation, Record, motion_of
-from seisblock.records.motion import ALL_AZIMUTHS
+from seisblock.records.motion import ALL_AZIMUTHS, oriented_pair
 from seisblock.records.site import earthquake_of
 from seisblock.studies.azimuths import azimuths_of
 from seisblock.studies.fragility.intensity import IntensityMeasure
@@ -124,6 +124,8 @@ def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation
     for index, record in enumerate(prepared):
         asked = components and not any(name.lower() == ALL for name in components)
         for name in components if asked else tuple(component.code for component in record.horizontals) or (ALL,):
+            if around:
+                oriented_pair(record)
             motions.append(motion_of(record, name))
             owner.append(index)
             shook = earthquake_of(record)
