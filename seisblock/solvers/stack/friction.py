@@ -30,6 +30,7 @@ from seisblock.solvers.stack.impulse import (
     PRECISION,
     SHIFT,
     SLID,
+    STANDS,
     STATIC,
     SWERVE,
     TURN,
@@ -95,10 +96,17 @@ def _lay(row, before, after):
 
 @kernel(_t.void(_t.int64, MEMORY))
 def lay_cones(count, memory):
-    """Let what slid go on sliding, and what did not cling."""
+    """Let what slid go on sliding, and what did not cling.
+
+    Stones that no longer stand have friction by the velocity at the end of the step: among them a shifted cone might press without end.
+    """
     for i in range(count):
         row = memory.table[i]
         row[TURN] = STAYS
+        if row[STANDS] == 0.0:
+            row[TURN] = GOES
+            row[MU] = row[KINETIC] if row[SLID] > 0.0 else row[STATIC]
+            continue
         if row[SLID] > 0.0:
             _lay(row, 0.5 * row[KINETIC], 0.5 * row[KINETIC])
         else:

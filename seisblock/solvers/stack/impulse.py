@@ -22,15 +22,16 @@ _t = types()
 
 ARM_A, ARM_B, NORMAL, W, WI, SPIN_A, SPIN_B, IMPULSE, FLOOR, MU, SWERVE, HEADING, HELD = 0, 3, 6, 9, 18, 27, 36, 45, 48, 49, 50, 53, 59
 GAP, RATE, BOUNCE, GIVEN, ROLL = 60, 61, 62, 63, 66
-SHIFT, STATIC, KINETIC, SLID, OLD, PACED, TURN, HEED = 69, 72, 73, 74, 75, 78, 79, 80
-ROW = 81
+SHIFT, STATIC, KINETIC, SLID, OLD, PACED, TURN, HEED, STANDS = 69, 72, 73, 74, 75, 78, 79, 80, 81
+ROW = 82
 """A contact's row: its arms from the centres of both bodies, its normal, out of the second; the velocity that a unit impulse gives (9)
 and the inverse (9); the spins that it gives (9, 9); the impulse on the first body; the least normal velocity; friction; how its velocity
 changes by turning in half a step (3); the impulse before a sweep, and the way that the sweeps take it (3, 3); whether the floor holds from
 both sides, along the normal alone; the gap, m, and how fast it opens at the step, m/s; the restitution, negative where an impact is
 plastic; the impulse that was given before the last one was looked for (3); the acceleration of a point that wanders round a rim (3); and of
 friction, the middle of its cone over what presses (3), its two coefficients, whether the point slid, in what direction (3) and how fast,
-m/s, and what it does in the step; and the speed, m/s, of which parts are heeded where it strikes."""
+m/s, and what it does in the step; the speed, m/s, of which parts are heeded where it strikes; and
+whether it is one of a stone that stands."""
 
 SPEED, TURNING, VEERING = 0, 3, 6
 SPEEDS = 9
@@ -222,7 +223,7 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
     ----------
     who : (k, 2) array of int
         The bodies of each contact.
-    table : (k, 81) array
+    table : (k, 82) array
         Contacts, with the impulses to start from.
     tolerance : float, m/s
     speeds : (m + 1, 9) array

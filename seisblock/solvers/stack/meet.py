@@ -8,7 +8,7 @@ from seisblock.solvers.stack.apart import EDGES, FACE, KIND, MOST_POINTS, cross,
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import CLINGS, EARLIER, ENTERED, OUTSIDE, PLACE, PUSH, REBOUND, REL_D, REL_W, SLIDES, SLOT
 from seisblock.solvers.stack.frames import relative
-from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE
+from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, STANDS
 from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
 from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, pressed_side, roll
 from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
@@ -236,6 +236,7 @@ def _meet(count, pair, bodies, dt, pile, memory):
         for i in range(first, count):
             row = memory.table[i]
             row[BOUNCE] = rebound
+            row[STANDS] = 1.0
             if 1.0 - rel[8] < FLAT and row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0:
                 row[HEED] *= FAINT
     return count

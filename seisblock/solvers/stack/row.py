@@ -30,6 +30,7 @@ from seisblock.solvers.stack.impulse import (
     ROLL,
     SHIFT,
     SLID,
+    STANDS,
     STATIC,
     answers,
 )
@@ -75,6 +76,7 @@ def enter(count, c, p, slot, gap, far, k, bodies, dt, pile, memory):
         row[NORMAL + i] = second[r] * slot[PLACE + 3] + second[r + 1] * slot[PLACE + 4] + second[r + 2] * slot[PLACE + 5]
     row[GAP] = gap
     row[BOUNCE] = -1.0
+    row[STANDS] = 0.0
     for i in range(ROLL, ROLL + 3):
         row[i] = 0.0
     if slot[ENTERED] == 0.0:

@@ -1,0 +1,29 @@
+"""Stones that have fallen on each other and are shaken on for minutes stay where energy lets them."""
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.pile.toml import load_pile
+from seisblock.records import Motion
+from seisblock.solvers.stack.solve import solve_stack
+
+SECONDS, DT = 150.0, 0.01
+
+
+def noise(seed, factor=1.0):
+    """Return minutes of noise between 0.3 and 8 Hz along three axes, m/s^2."""
+    dice, count = np.random.default_rng(seed), round(SECONDS / DT)
+    spectrum = np.fft.rfft(dice.normal(size=(3, count)))
+    hertz = np.fft.rfftfreq(count, DT)
+    rows = np.fft.irfft(spectrum * ((hertz > 0.3) & (hertz < 8.0)), count)
+    return Motion(factor * np.array([[6.0], [5.0], [2.4]]) * rows / np.abs(rows).max(axis=1, keepdims=True), DT)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize(("name", "factor"), [("lantern", 1.0), ("wagata", 2.0)])
+def test_fallen_stones_that_are_shaken_on_create_no_energy(name, factor, seed):
+    """Friction split within the step, asked of stones that lie on each other, once pressed without end (1e22 J)."""
+    outcome = solve_stack(load_pile(name), noise(seed, factor), law="rigid").outcome
+    assert outcome.overturned_any
+    assert outcome.created_j < 5e-4 * outcome.lost_j
