@@ -195,10 +195,21 @@ def wear_range(block: Block, share: float) -> tuple[float, float]:
     >>> [[round(end, 3) for end in wear_range(Block(0.2, 0.6).worn(own), 0.1)] for own in (0.0, 0.1, 0.3, 0.48)]
     [[0.0, 0.1], [0.0, 0.1], [0.25, 0.35], [0.464, 0.496]]
     """
-    own, deepest = block.inset / block.width, wear_within(block, share)
+    own = block.inset / block.width
+    return range_about(own, wear_within(block, share), 0.5 - abs(block.centroid_offset) / block.width - own)
+
+
+def range_about(own: float, deepest: float, left: float) -> tuple[float, float]:
+    """Return between which shares versions are worn of what is itself worn by one share, and has another one left to stand on.
+
+    Examples
+    --------
+    >>> [range_about(own, 0.1, 0.5 - own) for own in (0.0, 0.25)]
+    [(0.0, 0.1), (0.2, 0.3)]
+    """
     if own <= deepest or math.isclose(own, deepest):
         return 0.0, deepest
-    half = min(0.5 * deepest, MOST_WORN * (0.5 - abs(block.centroid_offset) / block.width - own))
+    half = min(0.5 * deepest, MOST_WORN * left)
     return own - half, own + half
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from seisblock.bodies.blocks import MOST_WORN
+from seisblock.bodies.blocks import MOST_WORN, range_about
 from seisblock.bodies.inset import HALF, Inset
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
@@ -41,9 +41,11 @@ def worn_to(body: Pile, deepest: float, draw: float) -> Pile:
 def _inset(stone: PileStone, deepest: float, draw: float) -> Inset:
     """Return how far in one stone of a version turns: one of its own is scaled, so that a length stays one."""
     own = worn_share(stone)
-    if own <= deepest:
-        return Inset(share=0.5 * deepest * (1.0 + draw))
-    factor = 1.0 + draw * min(0.5 * deepest, MOST_WORN * (HALF - own)) / own
+    low, high = range_about(own, deepest, HALF - own)
+    worn = 0.5 * (low + high) + 0.5 * (high - low) * draw
+    if low == 0.0:
+        return Inset(share=worn)
+    factor = worn / own
     return Inset(length_m=factor * stone.inset.length_m, share=factor * stone.inset.share)
 
 

@@ -122,10 +122,10 @@ def suite_of(records: Sequence[Record], components: tuple[str, ...], preparation
     if around:
         components = (NORTH,)
     for index, record in enumerate(prepared):
+        if around:
+            oriented_pair(record)
         asked = components and not any(name.lower() == ALL for name in components)
         for name in components if asked else tuple(component.code for component in record.horizontals) or (ALL,):
-            if around:
-                oriented_pair(record)
             motions.append(motion_of(record, name))
             owner.append(index)
             shook = earthquake_of(record)
