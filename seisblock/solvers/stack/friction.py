@@ -35,6 +35,7 @@ from seisblock.solvers.stack.impulse import (
     SWERVE,
     TURN,
     parting,
+    press,
     settle,
 )
 from seisblock.solvers.stack.row import FALL, FIRST, JOINTS
@@ -174,12 +175,52 @@ def _judge(count, struck, memory):
     return again
 
 
+@kernel(_t.float64(_t.int64, _t.int64, LAYOUT, MEMORY))
+def _work(count, n, pile, memory):
+    """Return the work of a step's impulses, J: against the mean of the velocities without and with them."""
+    press(count, memory.who, memory.table, n, pile.inert, -0.5, memory.speeds)
+    work = 0.0
+    for i in range(count):
+        row = memory.table[i]
+        u0, u1, u2 = parting(memory.who[i, 0], memory.who[i, 1], row, memory.speeds)
+        work += row[IMPULSE] * u0 + row[IMPULSE + 1] * u1 + row[IMPULSE + 2] * u2
+    press(count, memory.who, memory.table, n, pile.inert, 0.5, memory.speeds)
+    return work
+
+
+@kernel(_t.boolean(_t.int64, MEMORY), inline=True)
+def _shifted(count, memory):
+    """Whether the cone of a point is shifted."""
+    for i in range(count):
+        row = memory.table[i]
+        if row[SHIFT] != 0.0 or row[SHIFT + 1] != 0.0 or row[SHIFT + 2] != 0.0:
+            return True
+    return False
+
+
+@kernel(_t.void(_t.int64, MEMORY))
+def _lay_back(count, memory):
+    """Lay every cone about its normal: friction by the velocity at the end of the step."""
+    for i in range(count):
+        row = memory.table[i]
+        row[MU] = row[KINETIC] if row[SLID] > 0.0 else row[STATIC]
+        for k in range(3):
+            row[SHIFT + k] = 0.0
+
+
 @kernel(_t.int64(_t.int64, _t.int64, _t.boolean, LAYOUT, MEMORY))
 def settle_slips(count, n, struck, pile, memory):
-    """Find the impulses of a step, again where points begin to slide or cease to; return how many sweeps the last try took."""
-    sweeps = 0
+    """Find the impulses of a step, again where points begin to slide or cease to; return how many sweeps the last try took.
+
+    Impulses in cones about their normals take energy ([Moreau1988]_); in shifted ones they may give it, and press without end where a
+    point's friction lifts it (Painleve). What gives energy is not friction: the step then has friction by the velocity at its end.
+    """
+    sweeps, tolerance = 0, PRECISION * memory.pace[FALL]
     for turn in range(TRIES):
-        sweeps = settle(count, memory.who, memory.table, n, pile.inert, PRECISION * memory.pace[FALL], memory.speeds)
+        sweeps = settle(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
         if turn == TRIES - 1 or not _judge(count, struck, memory):
             break
+    if _shifted(count, memory) and _work(count, n, pile, memory) > 0.0:
+        _lay_back(count, memory)
+        sweeps = settle(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
     return sweeps
