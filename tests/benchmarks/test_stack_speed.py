@@ -63,7 +63,7 @@ def test_side_by_side_with_mujoco(stones, pga, capsys):
     assert not runs["seisblock"]().outcome.overturned_any
     assert not runs["MuJoCo 1 ms"]()
     speed = dict.fromkeys(runs, 0.0)
-    for _ in range(3):
+    for _ in range(6):
         for name, run in runs.items():
             start = process_time()
             run()

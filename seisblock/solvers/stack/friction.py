@@ -128,7 +128,7 @@ def _earlier(i, count, x, y, z, memory):
     return drag / press if press > 0.0 else 0.0
 
 
-@kernel(_t.boolean(_t.int64, _t.boolean, MEMORY))
+@kernel(_t.boolean(_t.int64, _t.boolean, MEMORY), inline=True)
 def _judge(count, struck, memory):
     """Look at what points do with the impulses that were tried, and lay their cones anew; return whether another try is wanted."""
     least, again = NOTICED * memory.pace[FALL], False
@@ -208,7 +208,7 @@ def _lay_back(count, memory):
             row[SHIFT + k] = 0.0
 
 
-@kernel(_t.int64(_t.int64, _t.int64, _t.boolean, LAYOUT, MEMORY))
+@kernel(_t.int64(_t.int64, _t.int64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def settle_slips(count, n, struck, pile, memory):
     """Find the impulses of a step, again where points begin to slide or cease to; return how many sweeps the last try took.
 

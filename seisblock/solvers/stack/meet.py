@@ -103,11 +103,15 @@ def _meet_ground(count, pair, rel, far, bodies, dt, pile, memory):
     axis[2] = 1.0
     for i in range(pile.counts[c]):
         r = pile.corners[c, i]
+        y2 = rel[11] + rel[6] * r[0] + rel[7] * r[1] + rel[8] * r[2]
+        gap = y2 - pile.boxes[p, 2]
+        if gap > far:
+            slots[i, ENTERED] = 0.0
+            continue
         y0 = rel[9] + rel[0] * r[0] + rel[1] * r[1] + rel[2] * r[2]
         y1 = rel[10] + rel[3] * r[0] + rel[4] * r[1] + rel[5] * r[2]
-        y2 = rel[11] + rel[6] * r[0] + rel[7] * r[1] + rel[8] * r[2]
         _put(slots[i], y0, y1, y2, axis)
-        entered = enter(count, c, p, slots[i], y2 - pile.boxes[p, 2], far, pile.pair_constants[pair], bodies, dt, pile, memory)
+        entered = enter(count, c, p, slots[i], gap, far, pile.pair_constants[pair], bodies, dt, pile, memory)
         count = note(count, entered, MEETINGS, pair, 0, i, slots[i], memory.who)
     return count
 
@@ -214,7 +218,7 @@ def _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory):
     return count
 
 
-@kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY))
+@kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
 def _meet(count, pair, bodies, dt, pile, memory):
     """Make rows of the points where two boxes, or a box and the ground, may touch; return how many rows there are then."""
     boxes, rel, first, ground, faces = pile.boxes, memory.work[0], count, pile.boxes.shape[0] - 1, -1

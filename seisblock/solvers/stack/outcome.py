@@ -151,7 +151,13 @@ def stone_track(pile: PileArrays, rows: FloatArray) -> Track:
 def rotated(q: FloatArray, v: FloatArray) -> FloatArray:
     """Return vectors (..., 3) turned by quaternions (..., 4)."""
     w, u = q[..., :1], q[..., 1:]
-    return v + 2.0 * np.cross(u, np.cross(u, v) + w * v)
+    return v + 2.0 * _cross(u, _cross(u, v) + w * v)
+
+
+def _cross(u: FloatArray, v: FloatArray) -> FloatArray:
+    """Return the products of vectors (..., 3); numpy's own takes ten times as long on a few rows."""
+    (a, b, c), (x, y, z) = (u[..., 0], u[..., 1], u[..., 2]), (v[..., 0], v[..., 1], v[..., 2])
+    return np.stack((b * z - c * y, c * x - a * z, a * y - b * x), axis=-1)
 
 
 def inverse(q: FloatArray) -> FloatArray:

@@ -26,7 +26,7 @@ FORESIGHT = 0.9
 """Of a whole step: what points that share a load do against each other then fades."""
 
 
-@kernel(_t.void(_t.int64, MATRIX, MATRIX, MEMORY))
+@kernel(_t.void(_t.int64, MATRIX, MATRIX, MEMORY), inline=True)
 def _prepare(n, bodies, inert, memory):
     """Write the inverse inertia of the bodies as they lie, their velocities, and how their spins change by turning."""
     for i in range(n):
@@ -124,7 +124,7 @@ def _strike(count, n, before, pile, memory):
             table[i, IMPULSE + k] = given * force
 
 
-@kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY))
+@kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def _try(bodies, a0, a1, a2, left, look, pile, memory):
     """Add the forces at the points of what does not lie still; return the length of the step."""
     n, pace, table = bodies.shape[0] - 1, memory.pace, memory.table
@@ -156,7 +156,7 @@ def _try(bodies, a0, a1, a2, left, look, pile, memory):
     return step
 
 
-@kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY))
+@kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def hold(bodies, a0, a1, a2, whole, left, look, pile, memory):
     """Add the forces that rigid contacts exert over a step, in axes that accelerate by (a0, a1, a2), gravity among it; return its length.
 
@@ -173,11 +173,12 @@ def hold(bodies, a0, a1, a2, whole, left, look, pile, memory):
     pace[WHOLE] = whole
     pace[FALL] = whole * (a0 * a0 + a1 * a1 + a2 * a2) ** 0.5
     pace[AHEAD] = FORESIGHT if pace[STRUCK] == 0.0 and pace[KICKED] == whole and 0.5 * (pace[BEFORE] + left) == whole else 0.0
-    step = _try(bodies, a0, a1, a2, left, look, pile, memory)
-    if not carried(n, bodies, a0, a1, a2, pile, memory):
+    while True:
+        step = _try(bodies, a0, a1, a2, left, look, pile, memory)
+        if carried(n, bodies, a0, a1, a2, pile, memory):
+            break
         rouse(n, bodies, memory)
-        pace[AHEAD] = 0.0
-        step = _try(bodies, a0, a1, a2, left, False, pile, memory)
+        pace[AHEAD], look = 0.0, False
     _remember(memory)
     lie_down(int(pace[ROWS]), n, pile, memory)
     return step

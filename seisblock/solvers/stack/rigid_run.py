@@ -30,7 +30,7 @@ from seisblock.solvers.stack.step import drift, energy_of, kick
 _t = types()
 
 
-@kernel(_t.boolean(READ_ONLY_MATRIX, _t.int64, _t.boolean, _t.float64, SETTINGS, LAYOUT, MEMORY, CURSOR, KEPT))
+@kernel(_t.boolean(READ_ONLY_MATRIX, _t.int64, _t.boolean, _t.float64, SETTINGS, LAYOUT, MEMORY, CURSOR, KEPT), inline=True)
 def _stride(motion, k, look, total_mass, settings, pile, memory, cursor, kept):
     """Take one step of rigid contacts, in as many parts as impacts make of it; return whether all is finite.
 

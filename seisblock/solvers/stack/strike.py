@@ -169,7 +169,7 @@ def _swerve(speeds, arm, half, swerve):
     swerve[2] += half * (x * arm[1] - y * arm[0])
 
 
-@kernel(_t.void(_t.int64, _t.float64, MEMORY))
+@kernel(_t.void(_t.int64, _t.float64, MEMORY), inline=True)
 def lay_floors(count, dt, memory):
     """Write the least normal velocities of a step: an open gap may close and no more, one closed too far opens slowly."""
     for i in range(count):
