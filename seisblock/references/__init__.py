@@ -8,8 +8,9 @@ from collections.abc import Iterable
 from seisblock.references.ground_motion import GROUND_MOTION
 from seisblock.references.literature import LITERATURE
 from seisblock.references.reference import Reference
+from seisblock.references.statistics import STATISTICS
 
-REFERENCES = {reference.key: reference for reference in (*LITERATURE, *GROUND_MOTION)}
+REFERENCES = {reference.key: reference for reference in (*LITERATURE, *STATISTICS, *GROUND_MOTION)}
 """Every reference by its key."""
 
 SOFTWARE = Reference(

@@ -19,7 +19,16 @@ from seisblock.solvers.stack.base import base_of
 from seisblock.solvers.stack.books import CREATED, LOST
 from seisblock.solvers.stack.solve import solve_stack
 from seisblock.units import STANDARD_GRAVITY as G
-from seisblock.validation.stack_round import ON_THE_RIM, RADIUS, SPEED, go_round, rate_on_the_rim, roll_down, roll_on
+from seisblock.validation.stack_round import (
+    ON_THE_RIM,
+    RADIUS,
+    SPEED,
+    go_round,
+    rate_on_the_rim,
+    rock_and_roll,
+    roll_down,
+    roll_on,
+)
 from tests.solvers.test_stack_rigid import after_one_impact, cycle, lean_of, still
 
 R = RADIUS
@@ -44,6 +53,13 @@ def test_a_spinning_stone_keeps_its_lean(height, lean):
 def test_a_spinning_disk_is_moffatts():
     """Of a thin disk the closed form is that of the paper, 4 g/(R sin)."""
     assert rate_on_the_rim(drum(1e-6), 0.1) == pytest.approx(math.sqrt(4.0 * G / (R * math.sin(0.1))), rel=1e-6)
+
+
+def test_a_drum_that_seems_to_rock_rolls_and_loses_nothing():
+    """It leans as far on the other side, which is a case of ``validate``: a drum as high as wide turns by 230 degrees, no half turn."""
+    turned, leans, _ = rock_and_roll(drum(2.0 * R))
+    assert turned == pytest.approx(math.radians(230.0), abs=0.02)
+    assert leans == pytest.approx(1.0, abs=5e-3)
 
 
 def test_a_drum_that_rolls_down_loses_nothing():
