@@ -36,7 +36,7 @@ RESTS_ON: dict[str, tuple[str, ...]] = {
     "landing with friction": ("WangMason1992", "Moreau1988"),
     "uplift": ("Okumura1987",),
     "pile": ("Furukawa2009",),
-    "rigid pile": ("Furukawa2009", "Gottschalk1996", "Jean1999", "Moreau1988", "Silcowitz2010"),
+    "rigid pile": ("Furukawa2009", "Gottschalk1996", "Jean1999", "Moreau1988", "Silcowitz2010", "TasoraAnitescu2011"),
     "all modes": ("ShentonJones1991", "Shenton1996", "Housner1963", "WangMason1992", "Moreau1988", "GenotBrogliato1999"),
     "overturning criteria": ("Furukawa2009", "Tsutsui", "Housner1963", "Zhang2001", "Ishiyama1982"),
     "gravestones as fitted": ("Furukawa2009",),

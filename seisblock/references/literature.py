@@ -120,6 +120,13 @@ LITERATURE = (
         "The Visual Computer, 26(6-8), 893-901",
     ),
     Reference(
+        "TasoraAnitescu2011",
+        "Tasora, A. and Anitescu, M.",
+        2011,
+        "A matrix-free cone complementarity approach for solving large-scale, nonsmooth, rigid body dynamics",
+        "Computer Methods in Applied Mechanics and Engineering, 200(5-8), 439-453",
+    ),
+    Reference(
         "Newmark1965",
         "Newmark, N. M.",
         1965,

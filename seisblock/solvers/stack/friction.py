@@ -27,7 +27,6 @@ from seisblock.solvers.stack.impulse import (
     NORMAL,
     OLD,
     PACED,
-    PRECISION,
     SHIFT,
     SLID,
     STANDS,
@@ -36,9 +35,9 @@ from seisblock.solvers.stack.impulse import (
     TURN,
     parting,
     press,
-    settle,
 )
 from seisblock.solvers.stack.row import FALL, FIRST, JOINTS
+from seisblock.solvers.stack.sweeps import PRECISION, settle, settle_surely
 
 _t = types()
 
@@ -218,9 +217,9 @@ def settle_slips(count, n, struck, pile, memory):
     sweeps, tolerance = 0, PRECISION * memory.pace[FALL]
     for turn in range(TRIES):
         sweeps = settle(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
-        if turn == TRIES - 1 or not _judge(count, struck, memory):
+        if sweeps == 0 or turn == TRIES - 1 or not _judge(count, struck, memory):
             break
-    if _shifted(count, memory) and _work(count, n, pile, memory) > 0.0:
+    if sweeps == 0 or (_shifted(count, memory) and _work(count, n, pile, memory) > 0.0):
         _lay_back(count, memory)
-        sweeps = settle(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
+        sweeps = settle_surely(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
     return sweeps

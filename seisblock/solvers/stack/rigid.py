@@ -14,11 +14,12 @@ from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
 from seisblock.solvers.stack.friction import NOTICED, along_face, lay_cones, look_back, settle_slips
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, GIVEN, IMPULSE, PRECISION, VEERING, press, settle
+from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, GIVEN, IMPULSE, VEERING, press
 from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
 from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
 from seisblock.solvers.stack.strike import at_impact, lay_floors, soonest, strikes, until_impact
+from seisblock.solvers.stack.sweeps import PRECISION, settle_surely
 
 _t = types()
 
@@ -112,9 +113,9 @@ def _strike(count, n, before, pile, memory):
     """Let points strike: what the forces gave until then and what the impact gives becomes the impulse given."""
     table, tolerance = memory.table, PRECISION * memory.pace[FALL]
     until_impact(count, before, memory)
-    settle(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+    settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
     at_impact(count, memory)
-    settle(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+    settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
     look_back(count, True, memory)
     for i in range(count):
         force = 1.0 / before if before > 0.0 else 0.0

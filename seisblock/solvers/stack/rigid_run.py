@@ -67,6 +67,7 @@ def _stride(motion, k, look, total_mass, settings, pile, memory, cursor, kept):
         left = left - step if step < left else 0.0
         if watch(n, bodies, (s + part) * settings.dt, kept.fates) and settings.stop_at_fall:
             place[FELL] = 1
+            balance(books, energy_of(n, bodies, inert, g) - rise_of(n, bodies, inert, g, 0.5 * step) - books[START])
     return True
 
 

@@ -103,7 +103,7 @@ def roll(spin, n0, n1, n2, sine, radius, axes, frame, step, row):
         The body in whose axes this is.
     step : float, s
         Negative where the rim is the second stone's.
-    row : (82,) array
+    row : (85,) array
     """
     if sine == 0.0:
         return
