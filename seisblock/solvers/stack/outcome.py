@@ -219,8 +219,7 @@ def stack_outcome(pile: PileArrays, end: End, *, start: float, gravity: float, s
     scale = float(masses.sum()) * gravity * tall
     if books[CREATED] > CREATED_AT_MOST * scale:
         raise SolverError(
-            "the steps of {step:.3g} s are too coarse for the pile {name}: they created {energy:.3g} J of energy; try a finer "
-            "time step, or another number of contact points",
+            "the steps of {step:.3g} s are too coarse for the pile {name}: they created {energy:.3g} J of energy; try a finer time step",
             step=step,
             name=pile.body.name,
             energy=books[CREATED],
