@@ -49,7 +49,7 @@ def test_the_document_keeps_the_contract(pulse):
     """The JSON names what fell and when, and tells tilt and slip of every stone."""
     document = answer(pulse, "--stones", "wagata.toml")
     assert document["schema"] == "seisblock/stack/3"
-    assert document["citations"] == ["Furukawa2009", "Gottschalk1996", "Jean1999", "Moreau1988", "Silcowitz2010"]
+    assert document["citations"] == ["Furukawa2009", "Gottschalk1996", "Jean1999", "Moreau1988", "Silcowitz2010", "TasoraAnitescu2011"]
     (found,) = document["results"]
     assert set(found) >= KEYS
     assert found["overturned"] == ["sao"]

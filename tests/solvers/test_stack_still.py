@@ -63,3 +63,27 @@ def test_shaken_stones_that_cannot_slide_gain_nothing(mu):
         assert response.outcome.created_j < 5e-4 * sum(stone.mass for stone in stones) * G * height
         fell += response.outcome.overturned_any
     assert fell >= 2
+
+
+@pytest.mark.parametrize(("drums", "reserve", "push"), [(1, 1.1, 0.99), (2, 1.1, 0.95), (4, 1.5, 0.9), (4, 3.0, 0.9)])
+def test_drums_that_are_held_by_static_friction_do_not_slide(drums, reserve, push):
+    """Whatever the direction: the points of a rim were turned towards the push without their forces, and kinetic friction let it go."""
+    mu, diameter = 0.5, 0.6
+    height = diameter / (mu * reserve * drums)
+    stones = tuple(
+        PileStone(
+            f"d{i}",
+            diameter,
+            diameter,
+            height,
+            shape="round",
+            on=f"d{i - 1}" if i else "ground",
+            mu=(1.2 if i else 1.0) * mu,
+            mu_kinetic=0.25,
+        )
+        for i in range(drums)
+    )
+    for azimuth in (0.0, 17.0, 45.0, 90.0, 133.0, 211.0, 300.0):
+        outcome = solve_stack(Pile("drums", stones), held(push * mu * G, math.radians(azimuth))).outcome
+        assert max(stone.residual_slip_m for stone in outcome.stones) < 1e-5
+        assert max(outcome.max_tilt_rad.values()) < 1e-4

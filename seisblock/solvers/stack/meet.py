@@ -9,8 +9,8 @@ from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import CLINGS, EARLIER, ENTERED, OUTSIDE, PLACE, PUSH, REBOUND, REL_D, REL_W, SLIDES, SLOT
 from seisblock.solvers.stack.frames import relative
 from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, STANDS
-from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
-from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, pressed_side, roll
+from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, relaid_among, shared_points
+from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, bear, face_each_other, lowest, pressed_side, roll, turned
 from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
 from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
 
@@ -98,9 +98,8 @@ def _meet_ground(count, pair, rel, far, bodies, dt, pile, memory):
     """Make rows of a box's corners that may touch the ground; return how many rows there are then."""
     c, p = pile.pairs[pair, 0], pile.pairs[pair, 1]
     slots, axis = memory.corner_slots[pair, 0], memory.work[22]
-    axis[0] = 0.0
-    axis[1] = 0.0
-    axis[2] = 1.0
+    for i in range(3):
+        axis[i] = 1.0 if i == 2 else 0.0
     for i in range(pile.counts[c]):
         r = pile.corners[c, i]
         y2 = rel[11] + rel[6] * r[0] + rel[7] * r[1] + rel[8] * r[2]
@@ -139,8 +138,7 @@ def _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory):
         at = 1
     points = overlap(rel, cores[c], corners[c], edges[c], cores[p], corners[p], edges[p], axis[FACE:], work[1], found, work[13:22])
     for i in range(points):
-        if at == 1 and found[i, 3] < 0.0:
-            # where edges cross, a face says only what may yet come to lie on it
+        if at == 1 and found[i, 3] < 0.0:  # where edges cross, a face says only what may yet come to lie on it
             continue
         slot = slots[at + i]
         _put(slot, found[i, 0], found[i, 1], found[i, 2], axis[FACE:])
@@ -155,6 +153,7 @@ def _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory):
     """Make rows of the points of a round stone's rims that may touch the ground; return how many rows there are then."""
     c, p, k = pile.pairs[pair, 0], pile.pairs[pair, 1], pile.pair_constants[pair]
     slots, axis, axes, ground = memory.corner_slots[pair, 0], memory.work[22], memory.work[4:8], bodies[bodies.shape[0] - 1]
+    middle, borne = memory.work[8], memory.work[9]
     for i in range(3):
         axis[i] = 1.0 if i == 2 else 0.0
         axes[0, i] = rel[3 * i + 2]
@@ -164,6 +163,9 @@ def _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory):
         radius, height = pile.rims[c, i, RADIUS], pile.rims[c, i, HEIGHT]
         if radius == 0.0:
             continue
+        for j in range(3):
+            middle[j] = rel[9 + j] + height * rel[3 * j + 2]
+        relaid = sine == 0.0 and turned(slots[4 * i : 4 * i + 4], middle, rel, axes[2], radius, borne)
         for q in range(4):
             direction, side = axes[2 + q % 2], radius if q < 2 else -radius
             y0 = rel[9] + side * direction[0] + height * rel[2]
@@ -171,6 +173,8 @@ def _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory):
             y2 = rel[11] + side * direction[2] + height * rel[8]
             slot = slots[4 * i + q]
             _put(slot, y0, y1, y2, axis)
+            if relaid:
+                bear(q, borne, slot)
             entered = enter(count, c, p, slot, y2 - pile.boxes[p, 2], far, k, bodies, dt, pile, memory)
             if q == 0 and entered > count:
                 roll(rel[REL_W:], 0.0, 0.0, 1.0, sine, radius, axes, ground, dt, memory.table[count])
@@ -206,10 +210,14 @@ def _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory):
     sine = lowest(up * axis[0], up * axis[1], up * axis[2], axes)
     face = (1 if side > 0.0 else 0) if box == p else (0 if side * rel[8] > 0.0 else 1)
     radius = pile.rims[box, face, RADIUS]
+    relaid = sine == 0.0 and relaid_among(points, radius, rel, before, found, work[11:14])
     for i in range(points):
         slot = slots[i]
         _put(slot, found[i, 0], found[i, 1], found[i, 2], found[i, ALONG:])
-        _recall(slot, before, MOST_FOUND)
+        if relaid:
+            bear(i, work[11], slot)
+        else:
+            _recall(slot, before, MOST_FOUND)
         entered = enter(count, c, p, slot, found[i, 3], far, k, bodies, dt, pile, memory)
         if found[i, LOWEST] > 0.0 and entered > count:
             frame, row = bodies[pile.owner[p]], memory.table[count]
