@@ -108,9 +108,11 @@ def at_impact(count, memory):
     for i in range(count):
         row = memory.table[i]
         if row[BOUNCE] >= 0.0 and row[FLOOR] == 0.0 and row[RATE] < -SPLITS * row[HEED]:
-            j = _opposite(i, count, memory)
-            memory.table[j, FLOOR] = -row[BOUNCE] * row[RATE]
-            memory.table[j, HELD] = 1.0
+            other = memory.table[_opposite(i, count, memory)]
+            # what has left already is held by nobody
+            if other[FLOOR] > -math.inf:
+                other[FLOOR] = -row[BOUNCE] * row[RATE]
+                other[HELD] = 1.0
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64), inline=True)
