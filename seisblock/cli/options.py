@@ -14,7 +14,7 @@ from seisblock import checks
 from seisblock.cli import offered
 from seisblock.cli.command import argument, option
 from seisblock.cli.meant import OneOf
-from seisblock.cli.output import Output, check_output
+from seisblock.cli.output import DPI, Output, check_output
 from seisblock.cli.quiet import quietly
 from seisblock.cli.types import SIZE, STOREY, WINDOW
 from seisblock.errors import ParameterError
@@ -163,7 +163,7 @@ _FIGURE_OPTIONS = (
         help="Width and height of the figure, 18x12, cm; or with units, 7inx5in. [default: what it needs]",
     ),
     option(
-        "--dpi", type=click.IntRange(30, 1200), default=200, show_default=True, section="Output", help="Dots per inch of a .png, 1/inch."
+        "--dpi", type=click.IntRange(30, 1200), default=DPI, show_default=True, section="Output", help="Dots per inch of a .png, 1/inch."
     ),
     option("--title", section="Output", metavar="TEXT", help="Line above the figure; empty for none. [default: station, time, processing]"),
 )

@@ -12,6 +12,9 @@ from seisblock.units import Size
 STDOUT = Path("-")
 """The name that stands for stdout."""
 
+DPI = 200
+"""Dots per inch of a figure of which nothing else is said."""
+
 
 @dataclass(frozen=True)
 class Output:
@@ -35,10 +38,12 @@ def check_output(output: Output) -> None:
     Raises
     ------
     OutputError
-        If a name does not say a format, leads nowhere, or stands for two outputs, or if an option has no figure to change.
+        If a name does not say a format, leads nowhere, or stands for two outputs, or if an option has no figure or film to change.
     """
-    if output.plot is None and (output.size is not None or output.title is not None):
-        raise OutputError("--size and --title are the figure's: give --plot, too")
+    if output.plot is None and (output.size is not None or output.title is not None or output.dpi != DPI):
+        raise OutputError("--size, --dpi and --title are the figure's: give --plot, too")
+    if output.animate is None and output.slow != 1.0:
+        raise OutputError("--slow is the film's: give --animate, too")
     if output.plot is not None and output.plot != STDOUT:
         check_figure(output.plot)
     if output.animate is not None:

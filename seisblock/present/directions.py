@@ -21,6 +21,9 @@ PHASES = {
 EIGHTH = 45.0
 """Degrees to which a direction in the plane is told where no azimuth is known."""
 
+POINTS = noted("N NNE NE ENE E ESE SE SSE S SSW SW WSW W WNW NW NNW")
+"""Points of the compass, clockwise from north."""
+
 
 def side(name: str, sign: float | str | None) -> str:
     """Return a direction: +EW or -EW of a component, the azimuth of an azimuth, +x or -x of what has no name.
@@ -89,6 +92,15 @@ def towards(degrees: float, motion: Motion) -> str:
     along, (aside_name, turn) = round(math.cos(eighth), 1), across(motion)
     aside = turn * round(math.sin(eighth), 1)
     return "".join(side(name, part) for name, part in ((motion.name, along), (aside_name, aside)) if part)
+
+
+def pointed(degrees: float, motion: Motion) -> str:
+    """Return the same with the nearest of sixteen points of the compass beside an azimuth, as in ``azimuth 214 (SW)``."""
+    told = towards(degrees, motion)
+    if motion.azimuth_deg is None:
+        return told
+    points = tell(POINTS).split()
+    return tell("{side} ({point})", side=told, point=points[round((motion.azimuth_deg - degrees) / 360.0 * len(points)) % len(points)])
 
 
 def phase(name: str, direction: str) -> str:

@@ -1,6 +1,7 @@
 """A pile is what its file says, and a pile that cannot stand is refused in one sentence."""
 
 import math
+import re
 from dataclasses import replace
 
 import pytest
@@ -164,3 +165,23 @@ def test_what_slides_may_have_less_friction_than_what_clings(tmp_path):
 def test_more_friction_once_it_slides_is_refused(make, message):
     with pytest.raises(BodyError, match=message):
         make()
+
+
+@pytest.mark.parametrize(
+    ("head", "stone", "message"),
+    [
+        ("mu_kinetic = 0.5", "", "kinetic friction, 0.5, is more than static friction, 0.438"),
+        ("", "mu_kinetic = 0.5", "kinetic friction under the stone head, 0.5, is more"),
+        ("", 'on = "roof"', "the stone head stands on 'roof'"),
+        ("", 'offset = ["2m", 0]', "the stone head floats"),
+        ("", "density = 0", "density of the stone head must be positive"),
+        ('fixed = ["roof"]', "", "the fixed stone names 'roof'"),
+    ],
+)
+def test_what_is_wrong_in_a_file_is_said_with_its_name(tmp_path, head, stone, message):
+    """A pile that cannot be names its file, whether the pile refuses it, or a stone does."""
+    file = tmp_path / "own.toml"
+    size = "width = 0.5\ndepth = 0.5\nheight = 0.2\n"
+    file.write_text(f'kind = "pile"\n{head}\n[[stone]]\nname = "foot"\n{size}[[stone]]\nname = "head"\n{size}{stone}\n')
+    with pytest.raises(BodyError, match=f"^{re.escape(str(file))}: {re.escape(message)}"):
+        load_pile(file)

@@ -41,7 +41,7 @@ def test_no_record_means_the_bundled_one():
     result = run("--window", "24:30")
     assert result.exit_code == 0
     assert "synthetic_jma.csv" in result.stderr
-    assert re.search(r"sao fell at 2\d\.\d\d s to azimuth \d+, onto", " ".join(result.stdout.split()))
+    assert re.search(r"sao fell at 2\d\.\d\d s to azimuth \d+ \([NESW]+\), onto", " ".join(result.stdout.split()))
     assert "gedai" in result.stdout
 
 

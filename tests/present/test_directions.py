@@ -59,7 +59,7 @@ def test_a_side_is_a_component_or_an_azimuth():
     assert moved("0.0 mm", "NS", -1e-6) == "0.0 mm"
     with speaking("ja"):
         assert moved("448 mm", "NS", -0.448) == "-NS へ 448 mm"
-        assert (phase("slip backward", "EW"), phase("rocks to +x", "127")) == ("-EW へすべる", "方位 127 へ傾斜")
+        assert (phase("slip backward", "EW"), phase("rocks to +x", "127")) == ("-EW へすべる", "方位 127° へ傾斜")
 
 
 def test_a_stone_falls_towards_an_azimuth_or_along_its_axes():

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from seisblock import checks
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import GRANITE, GROUND, RECTANGULAR, ROUND, PileStone
 from seisblock.bodies.ranges import ranges_of
@@ -57,6 +59,8 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     >>> load_pile("wagata").names
     ('gedai', 'mizubachi', 'chudai', 'jodai', 'sao')
     """
+    if mu is not None:
+        checks.not_negative("friction of the pile {name}", mu, error=BodyError, name=str(name))
     table = read_table(name)
     of_kind(table, "pile")
     source = source_of(table)
@@ -76,14 +80,9 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
         raise BodyError("{source} has no dowels: add reinforced = [[name, name]] to the file, or leave `reinforced` out", source=source)
     own = number(table, "mu")
     friction = mu if mu is not None else Pile.mu if own is None else own
-    pile = Pile(
-        text(table, "name", Path(source).stem),
-        tuple(stones),
-        dowels if reinforced else (),
-        texts(table, "fixed"),
-        friction,
-        mu_kinetic=None if mu is not None else number(table, "mu_kinetic"),
-    )
+    name_of, fixed, kinetic = text(table, "name", Path(source).stem), texts(table, "fixed"), number(table, "mu_kinetic")
+    with _saying(source):
+        pile = Pile(name_of, tuple(stones), dowels if reinforced else (), fixed, friction, mu_kinetic=None if mu is not None else kinetic)
     whole = pile.as_block()
     return replace(pile, ranges=ranges_of(table, {"width": whole.width, "height": whole.height, "inset": whole.inset, "mu": own}))
 
@@ -96,7 +95,7 @@ def _stone(entry: Mapping[str, Any], below: str, table: Mapping[str, Any]) -> Pi
     x, y = lengths(entry, "offset", 2) if "offset" in entry else (0.0, 0.0)
     own, common = number(entry, "density"), number(table, "density")
     shape = text(entry, "shape", RECTANGULAR)
-    return PileStone(
+    described = (
         entry["name"],
         length(entry, "width"),
         length(entry, "width" if shape == ROUND and "depth" not in entry else "depth"),
@@ -110,3 +109,14 @@ def _stone(entry: Mapping[str, Any], below: str, table: Mapping[str, Any]) -> Pi
         inset_of(entry if "inset" in entry else table),
         number(entry, "mu_kinetic"),
     )
+    with _saying(source_of(table)):
+        return PileStone(*described)
+
+
+@contextmanager
+def _saying(source: str) -> Iterator[None]:
+    """Have what is wrong with a pile, or with a stone of it, said with the file in front."""
+    try:
+        yield
+    except BodyError as error:
+        raise BodyError("{source}: {why}", source=source, why=error.said) from None

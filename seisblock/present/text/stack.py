@@ -9,11 +9,11 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.bodies.pile.pile import Pile
-from seisblock.bodies.pile.stone import GROUND
 from seisblock.bodies.pile.wear import worn_share
 from seisblock.present.directions import towards
 from seisblock.present.scales import Unit, length_cell, length_unit, told_length
 from seisblock.present.text.agreement import agreement_line
+from seisblock.present.text.falls import told_falls
 from seisblock.present.text.tables import NOTHING, answered, fixed, line, seconds, table
 from seisblock.records import Motion
 from seisblock.results import Response
@@ -22,7 +22,7 @@ from seisblock.solvers.stack.outcome import StackOutcome, StoneFate
 from seisblock.solvers.stack.solve import EDGES, RIGID
 from seisblock.studies.agreement import Agreement
 from seisblock.studies.standing.pile_probability import PileProbability, StoneChance
-from seisblock.words import Said, roughly, said, strung, tell
+from seisblock.words import Said, roughly, said, tell
 
 NOTICEABLE_TILT, NOTICEABLE_SLIP = 2e-3, 2e-4
 """What shows in a figure, rad and m."""
@@ -53,9 +53,10 @@ def _details(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal:
     found: Agreement | None = extra["agreement"]
     unit = length_unit((stone.residual_slip_m for stone in response.outcome.stones if stone.state != "fallen"), gal=gal)
     slip = tell("slip ({unit})", unit=unit.name)
-    columns = [tell("stone"), tell("state"), tell("fell at (s)"), tell("max tilt (deg)"), slip, tell("turn (deg)")]
-    title = tell("{name}: {what}", name=f"+x = {response.motion.name}", what=tell(response.body.name))
-    yield table(title, columns, (_row(stone, unit) for stone in reversed(response.outcome.stones)))
+    side = tell("to") if response.motion.azimuth_deg is None else tell("to (deg)")
+    columns = [tell("stone"), tell("state"), tell("at (s)"), side, tell("tilt (deg)"), slip, tell("turn (deg)")]
+    title = tell("{name}: {what}; tilt: the largest", name=f"+x = {response.motion.name}", what=tell(response.body.name))
+    yield table(title, columns, (_row(stone, unit, response.motion) for stone in reversed(response.outcome.stones)))
     yield line(standing(response))
     if "probability" in extra:
         yield from _versions(extra["probability"], response.body, gal=gal)
@@ -65,35 +66,32 @@ def _details(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal:
     yield line()
 
 
-def _row(stone: StoneFate, unit: Unit) -> list[str]:
+def _row(stone: StoneFate, unit: Unit, motion: Motion) -> list[str]:
     """Return what became of one stone; where a fallen one lies is no slip, and which way it faces no turn."""
     fell = stone.state == "fallen"
     return [
         tell(stone.name),
         tell(stone.state),
         seconds(stone.fell_at_s),
+        _side(stone, motion),
         fixed(math.degrees(stone.max_tilt_rad), 2),
         NOTHING if fell else length_cell(stone.residual_slip_m, unit),
         NOTHING if fell else fixed(math.degrees(stone.residual_turn_rad), 2),
     ]
 
 
-def _fall(stone: StoneFate, motion: Motion) -> str:
-    """Return in words when a stone fell, to which side, and where it came to lie."""
-    where = {"stone": tell(stone.name), "side": towards(stone.fell_towards_deg or 0.0, motion), "time": stone.fell_at_s}
-    if stone.fell_onto is None:
-        return tell("{stone} fell at {time:.2f} s to {side}, and is still in the air.", **where)
-    if stone.fell_onto == GROUND:
-        return tell("{stone} fell at {time:.2f} s to {side}, onto the ground.", **where)
-    return tell("{stone} fell at {time:.2f} s to {side}, onto {other}.", **where, other=tell(stone.fell_onto))
+def _side(stone: StoneFate, motion: Motion) -> str:
+    """Return to which azimuth a stone fell, or to which side of the record's axes where north is not known."""
+    if stone.fell_towards_deg is None:
+        return NOTHING
+    return towards(stone.fell_towards_deg, motion) if stone.fell_azimuth_deg is None else f"{round(stone.fell_azimuth_deg) % 360}"
 
 
 def verdict(response: Response[StackOutcome]) -> str:
     """Return what happened in words."""
     outcome = response.outcome
-    if outcome.overturned_any and outcome.time_s is not None:
-        falls = sorted((stone for stone in outcome.stones if stone.state == "fallen"), key=lambda stone: stone.fell_at_s or 0.0)
-        return strung(_fall(stone, response.motion) for stone in falls)
+    if outcome.overturned_any:
+        return told_falls(response)
     if moved := [tell(stone.name) for stone in outcome.stones if stone.state != "standing"]:
         return tell("Every stone stands; moved: {stones}.", stones=moved)
     return tell("Every stone stands where it was.")
