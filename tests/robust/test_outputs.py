@@ -392,6 +392,8 @@ REFUSED = {
     "a folder that is not there": (["--csv", "nowhere/out.csv"], "there is no directory nowhere"),
     "two files of one name": (["--csv", "a.png", "--plot", "./a.png"], "one file"),
     "a size of no figure": (["--size", "18x12"], "give --plot, too"),
+    "dots of no figure": (["--dpi", "100"], "give --plot, too"),
+    "a slow motion of no film": (["--slow", "4"], "give --animate, too"),
 }
 
 
