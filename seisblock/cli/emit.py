@@ -105,7 +105,7 @@ def _to_stdout(write: Callable[[Path], None]) -> None:
 def _draw(figure: Callable[[], Figure], target: Path, output: Output) -> None:
     """Write a figure to a file, or its .png to stdout, of the size and under the title asked for."""
     from seisblock.present.figures.canvas import save, save_png
-    from seisblock.present.figures.fonts import MISSING, drawable, drawn
+    from seisblock.present.figures.fonts import BOXES, MISSING, drawable, drawn, has_boxes
     from seisblock.present.figures.size import fitted
 
     if target == STDOUT and sys.stdout.isatty():
@@ -116,9 +116,11 @@ def _draw(figure: Callable[[], Figure], target: Path, output: Output) -> None:
         made = fitted(drawn(figure), size=output.size, dpi=output.dpi, title=output.title)
         if target != STDOUT:
             save(made, target)
-            return
-    end()
-    save_png(made, sys.stdout.buffer)
+    if has_boxes(made):
+        say(BOXES)
+    if target == STDOUT:
+        end()
+        save_png(made, sys.stdout.buffer)
 
 
 def _animate(animation: Callable[[Path, Filming], None], output: Output) -> None:

@@ -134,3 +134,16 @@ def test_a_file_may_be_called_anything(tmp_path):
     answer = CliRunner().invoke(main, ["measure", str(record), "--plot", str(tmp_path / "out.png")])
     assert answer.exit_code == 0, answer.stderr
     assert (tmp_path / "out.png").stat().st_size > 10_000
+
+
+def test_names_that_no_font_holds_are_said_in_a_sentence(installed, monkeypatch, tmp_path, recwarn):
+    """A figure in English with a Japanese name of a stone: one sentence, and no warning of matplotlib's for each letter."""
+    monkeypatch.setattr(fonts, "PACKAGE", "no_such_package_of_fonts")
+    monkeypatch.setattr(fonts, "FontManager", lambda: fontManager)
+    installed()
+    pile = tmp_path / "pile.toml"
+    pile.write_text('kind = "pile"\n[[stone]]\nname = "竿"\nwidth = "25cm"\ndepth = "25cm"\nheight = "70cm"\n', encoding="utf-8")
+    told = CliRunner().invoke(main, ["stack", "--window", "24:25", "--stones", str(pile), "--plot", str(tmp_path / "out.png")])
+    assert told.exit_code == 0
+    assert "names in Japanese are boxes" in " ".join(told.stderr.split())
+    assert [str(warning.message) for warning in recwarn if "Glyph" in str(warning.message)] == []

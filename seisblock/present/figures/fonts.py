@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import logging
+import warnings
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -59,6 +60,12 @@ MISSING = noted(
     "no font with Japanese letters was found: the figure is in English; install one, say fonts-noto-cjk, or pip install matplotlib-fontja"
 )
 """What to say when there is none."""
+
+BOXES = noted(
+    "no font with Japanese letters was found: names in Japanese are boxes in the figure; install one, say fonts-noto-cjk, or pip install "
+    "matplotlib-fontja"
+)
+"""What to say when a figure in English has names that no font holds."""
 
 
 @dataclass(frozen=True)
@@ -122,6 +129,11 @@ def has_letters(text: str) -> bool:
     return not is_wide(text) or japanese_font() is not None
 
 
+def has_boxes(figure: Figure) -> bool:
+    """Return whether a figure has letters that no font holds."""
+    return not all(has_letters(text.get_text()) for text in figure.findobj(Text) if isinstance(text, Text))
+
+
 def drawn(build: Callable[[], Figure]) -> Figure:
     """Return a figure, built in the language in which it can be drawn.
 
@@ -138,7 +150,7 @@ def drawn(build: Callable[[], Figure]) -> Figure:
 def set_letters(figure: Figure, spoken: str) -> Iterator[None]:
     """Give every text of a figure a font that holds it, and take names for what they are: a dollar sign begins no formula.
 
-    Inside the block matplotlib keeps to itself which weights a family lacks: the nearest has been chosen.
+    Inside the block matplotlib keeps to itself which weights a family lacks, the nearest has been chosen, and which letters.
 
     Parameters
     ----------
@@ -161,7 +173,9 @@ def set_letters(figure: Figure, spoken: str) -> Iterator[None]:
     before = remarks.level
     remarks.setLevel(logging.ERROR)
     try:
-        yield
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", message="Glyph .* missing from font")
+            yield
     finally:
         remarks.setLevel(before)
 
