@@ -14,7 +14,7 @@ from seisblock import checks
 from seisblock.cli import offered
 from seisblock.cli.command import argument, option
 from seisblock.cli.meant import OneOf
-from seisblock.cli.output import DPI, Output, check_output
+from seisblock.cli.output import DPI, SLOW, Output, check_output
 from seisblock.cli.quiet import quietly
 from seisblock.cli.types import SIZE, STOREY, WINDOW
 from seisblock.errors import ParameterError
@@ -173,7 +173,7 @@ _FILM_OPTIONS = (
     option(
         "--slow",
         type=float,
-        default=1.0,
+        default=SLOW,
         callback=_positive,
         metavar="FACTOR",
         section="Output",

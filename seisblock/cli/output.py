@@ -12,8 +12,8 @@ from seisblock.units import Size
 STDOUT = Path("-")
 """The name that stands for stdout."""
 
-DPI = 200
-"""Dots per inch of a figure of which nothing else is said."""
+DPI, SLOW = 200, 1.0
+"""Dots per inch of a figure, and how many times slower than it was a film runs, of which nothing else is said."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Output:
     quiet: bool
     gal: bool = True
     animate: Path | None = None
-    slow: float = 1.0
+    slow: float = SLOW
 
 
 def check_output(output: Output) -> None:
@@ -42,7 +42,7 @@ def check_output(output: Output) -> None:
     """
     if output.plot is None and (output.size is not None or output.title is not None or output.dpi != DPI):
         raise OutputError("--size, --dpi and --title are the figure's: give --plot, too")
-    if output.animate is None and output.slow != 1.0:
+    if output.animate is None and output.slow != SLOW:
         raise OutputError("--slow is the film's: give --animate, too")
     if output.plot is not None and output.plot != STDOUT:
         check_figure(output.plot)

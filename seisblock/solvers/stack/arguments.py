@@ -71,7 +71,7 @@ class PileMemory(NamedTuple):
         Inverse inertia of the bodies as they lie; velocities, spins, and how these change by turning.
     pace : (9,) array
         Of the steps.
-    lying, beds : (m + 1, 3), (m + 1, 17, 14) arrays
+    lying, beds : (m + 1, 3), (m + 1, 17, 17) arrays
         Stones that lie still, and the points on which they do.
     """
 

@@ -33,6 +33,7 @@ from seisblock.solvers.stack.impulse import (
     STATIC,
     SWERVE,
     TURN,
+    lay_plainly,
     parting,
     press,
 )
@@ -102,15 +103,11 @@ def lay_cones(count, memory):
     """
     for i in range(count):
         row = memory.table[i]
-        row[TURN] = STAYS
-        if row[STANDS] == 0.0:
-            row[TURN] = GOES
-            row[MU] = row[KINETIC] if row[SLID] > 0.0 else row[STATIC]
-            continue
-        if row[SLID] > 0.0:
+        row[TURN] = STAYS if row[STANDS] > 0.0 else GOES
+        if row[STANDS] > 0.0 and row[SLID] > 0.0:
             _lay(row, 0.5 * row[KINETIC], 0.5 * row[KINETIC])
         else:
-            row[MU] = row[STATIC]
+            lay_plainly(row)
 
 
 @kernel(_t.float64(_t.int64, _t.int64, _t.float64, _t.float64, _t.float64, MEMORY))
@@ -197,16 +194,6 @@ def _shifted(count, memory):
     return False
 
 
-@kernel(_t.void(_t.int64, MEMORY))
-def _lay_back(count, memory):
-    """Lay every cone about its normal: friction by the velocity at the end of the step."""
-    for i in range(count):
-        row = memory.table[i]
-        row[MU] = row[KINETIC] if row[SLID] > 0.0 else row[STATIC]
-        for k in range(3):
-            row[SHIFT + k] = 0.0
-
-
 @kernel(_t.int64(_t.int64, _t.int64, _t.boolean, LAYOUT, MEMORY), inline=True)
 def settle_slips(count, n, struck, pile, memory):
     """Find the impulses of a step, again where points begin to slide or cease to; return how many sweeps the last try took.
@@ -220,6 +207,7 @@ def settle_slips(count, n, struck, pile, memory):
         if sweeps == 0 or turn == TRIES - 1 or not _judge(count, struck, memory):
             break
     if sweeps == 0 or (_shifted(count, memory) and _work(count, n, pile, memory) > 0.0):
-        _lay_back(count, memory)
+        for i in range(count):
+            lay_plainly(memory.table[i])
         sweeps = settle_surely(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
     return sweeps

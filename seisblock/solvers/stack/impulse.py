@@ -107,6 +107,14 @@ def parting(a, b, row, speeds):
     )
 
 
+@kernel(_t.void(VECTOR), inline=True)
+def lay_plainly(row):
+    """Lay a point's cone about its normal: kinetic friction where it slid, else static."""
+    row[MU] = row[KINETIC] if row[SLID] > 0.0 else row[STATIC]
+    for k in range(SHIFT, SHIFT + 3):
+        row[k] = 0.0
+
+
 @kernel(_t.void(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
 def press(n, who, table, ground, inert, part, speeds):
     """Let a part of the impulses of `n` contacts act on the bodies."""

@@ -36,11 +36,11 @@ WIDE = 1e-3
 MIDDLE, UP, SPREAD = 0, 3, 6
 """A bed's first row: its middle from the stone's centre (3), m; its normal, into the stone (3); the inverse of its second moments (6)."""
 
-AWAY, SHARE, ROUGH, OF, SIDE, PRESS, FREE = 0, 3, 6, 7, 11, 12, 13
-BED = 14
+AWAY, SHARE, ROUGH, OF, SIDE, PRESS, FREE, WAS = 0, 3, 6, 7, 11, 12, 13, 14
+BED = 17
 """A point's row: from the middle of the bed (3), m; the force on the stone (3), N; friction; the slot that remembers its force (4); whether
-the stone is the first or, -1, the second of that slot; what presses, N, as long as it is not known whether the bed carries; and its part in
-what four points do against each other without anybody feeling it."""
+the stone is the first or, -1, the second of that slot; what presses, N, as long as it is not known whether the bed carries; its part in
+what four points do against each other without anybody feeling it; and the force of the step before (3), N."""
 
 
 @kernel(_t.boolean(_t.int64, _t.int64, _t.int64, MEMORY))
@@ -196,6 +196,10 @@ def _spread(points, f0, f1, f2, t0, t1, t2, bed):
 def carried(n, bodies, a0, a1, a2, pile, memory):
     """Add the forces that keep what lies where it is, with what was added before; return whether all beds can carry them."""
     kicked = memory.pace[KICKED]
+    for i in range(n):
+        for k in range(1, memory.lying[i, POINTS] + 1):
+            for m in range(3):
+                memory.beds[i, k, WAS + m] = memory.beds[i, k, SHARE + m]
     for i in range(n - 1, -1, -1):
         points, s = memory.lying[i, POINTS], memory.lying[i, SUPPORT]
         if points == 0:
@@ -226,7 +230,7 @@ def carried(n, bodies, a0, a1, a2, pile, memory):
 
 @kernel(_t.void(_t.int64, MATRIX, MEMORY))
 def rouse(n, bodies, memory):
-    """Let all stones be solved for, from the forces that they lay with; clear what was added in vain."""
+    """Let all stones be solved for, from the forces of the last step in which they lay; clear what was added in vain."""
     for i in range(n + 1):
         for k in range(F, T + 3):
             bodies[i, k] = 0.0
@@ -236,7 +240,7 @@ def rouse(n, bodies, memory):
             j, o, q = int(point[OF + 1]), int(point[OF + 2]), int(point[OF + 3])
             slot = memory.joint_slots[j, o, q] if point[OF] == JOINTS else memory.corner_slots[j, o, q]
             for m in range(3):
-                slot[PUSH + m] = point[SIDE] * point[SHARE + m]
+                slot[PUSH + m] = point[SIDE] * point[WAS + m]
                 slot[EARLIER + m] = slot[PUSH + m]
         memory.lying[i, POINTS] = 0
         memory.lying[i, WAIT] = -PATIENCE

@@ -6,11 +6,12 @@ from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.apart import EDGES, FACE, KIND, MOST_POINTS, cross, furthest, overlap
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
-from seisblock.solvers.stack.contact import CLINGS, EARLIER, ENTERED, OUTSIDE, PLACE, PUSH, REBOUND, REL_D, REL_W, SLIDES, SLOT
+from seisblock.solvers.stack.contact import CLINGS, ENTERED, OUTSIDE, PLACE, REBOUND, REL_D, REL_W, SLOT
 from seisblock.solvers.stack.frames import relative
 from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, STANDS
-from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, relaid_among, shared_points
-from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, bear, face_each_other, lowest, pressed_side, roll, turned
+from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
+from seisblock.solvers.stack.remember import TURNED, gather, keep, left, put, recall, share_out
+from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, pressed_side, roll
 from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
 from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
 
@@ -25,9 +26,6 @@ DEEP = 1e-4
 FLAT, FAINT = 1e-6, 0.04
 """Cosine of a lean, less than 1 by so much, of stones that lie face on face; and what of a free fall's speed, over that of the others, is
 heeded of points that did not press: a stone that rocks is drawn back by little, so that what strikes slowly has been away for steps."""
-
-NEARBY = 0.02
-"""How far, m, a point of a meeting is sought of which it remembers the force."""
 
 
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
@@ -62,37 +60,6 @@ def _enter_joint(count, j, rel, bodies, dt, pile, memory):
     return count
 
 
-@kernel(_t.void(VECTOR, _t.float64, _t.float64, _t.float64, VECTOR), inline=True)
-def _put(slot, y0, y1, y2, axis):
-    """Note a point and its normal in a slot."""
-    slot[PLACE] = y0
-    slot[PLACE + 1] = y1
-    slot[PLACE + 2] = y2
-    for i in range(3):
-        slot[PLACE + 3 + i] = axis[i]
-
-
-@kernel(_t.void(VECTOR, MATRIX, _t.int64), inline=True)
-def _recall(slot, before, most):
-    """Let a point remember the force of the one that was nearest to it."""
-    found, least = -1, NEARBY**2
-    for i in range(most):
-        old = before[i]
-        if old[ENTERED] > 0.0:
-            away = (old[PLACE] - slot[PLACE]) ** 2 + (old[PLACE + 1] - slot[PLACE + 1]) ** 2 + (old[PLACE + 2] - slot[PLACE + 2]) ** 2
-            if away < least:
-                found, least = i, away
-    slot[ENTERED] = 0.0
-    if found >= 0:
-        old = before[found]
-        slot[ENTERED] = 1.0
-        slot[SLIDES] = old[SLIDES]
-        for i in range(3):
-            slot[PUSH + i] = old[PUSH + i]
-            slot[EARLIER + i] = old[EARLIER + i]
-        old[ENTERED] = 0.0
-
-
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _meet_ground(count, pair, rel, far, bodies, dt, pile, memory):
     """Make rows of a box's corners that may touch the ground; return how many rows there are then."""
@@ -109,7 +76,7 @@ def _meet_ground(count, pair, rel, far, bodies, dt, pile, memory):
             continue
         y0 = rel[9] + rel[0] * r[0] + rel[1] * r[1] + rel[2] * r[2]
         y1 = rel[10] + rel[3] * r[0] + rel[4] * r[1] + rel[5] * r[2]
-        _put(slots[i], y0, y1, y2, axis)
+        put(slots[i], y0, y1, y2, axis)
         entered = enter(count, c, p, slots[i], gap, far, pile.pair_constants[pair], bodies, dt, pile, memory)
         count = note(count, entered, MEETINGS, pair, 0, i, slots[i], memory.who)
     return count
@@ -121,18 +88,15 @@ def _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory):
     cores, corners, counts, edges, work = pile.cores, pile.corners, pile.counts, pile.edges, memory.work
     c, p, k = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair]
     slots, before, axis, found = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], work[22], work[4:13]
-    for i in range(MOST_POINTS):
-        for j in range(SLOT):
-            before[i, j] = slots[i, j]
-        slots[i, ENTERED] = 0.0
+    keep(MOST_POINTS, slots, before)
     gap = furthest(rel, cores[c], corners[c], counts[c], cores[p], corners[p], counts[p], far, axis)
     if gap > far:
         return count
     at = 0
     if axis[KIND] >= EDGES:
         if cross(rel, cores[c], cores[p], axis, found[0]):
-            _put(slots[0], found[0, 0], found[0, 1], found[0, 2], axis)
-            _recall(slots[0], before, MOST_POINTS)
+            put(slots[0], found[0, 0], found[0, 1], found[0, 2], axis)
+            recall(slots[0], before, MOST_POINTS)
             entered = enter(count, c, p, slots[0], gap, far, k, bodies, dt, pile, memory)
             count = note(count, entered, MEETINGS, pair, 0, 0, slots[0], memory.who)
         at = 1
@@ -141,8 +105,8 @@ def _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory):
         if at == 1 and found[i, 3] < 0.0:  # where edges cross, a face says only what may yet come to lie on it
             continue
         slot = slots[at + i]
-        _put(slot, found[i, 0], found[i, 1], found[i, 2], axis[FACE:])
-        _recall(slot, before, MOST_POINTS)
+        put(slot, found[i, 0], found[i, 1], found[i, 2], axis[FACE:])
+        recall(slot, before, MOST_POINTS)
         entered = enter(count, c, p, slot, found[i, 3], far, k, bodies, dt, pile, memory)
         count = note(count, entered, MEETINGS, pair, 0, at + i, slot, memory.who)
     return count
@@ -152,8 +116,8 @@ def _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory):
 def _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory):
     """Make rows of the points of a round stone's rims that may touch the ground; return how many rows there are then."""
     c, p, k = pile.pairs[pair, 0], pile.pairs[pair, 1], pile.pair_constants[pair]
-    slots, axis, axes, ground = memory.corner_slots[pair, 0], memory.work[22], memory.work[4:8], bodies[bodies.shape[0] - 1]
-    middle, borne = memory.work[8], memory.work[9]
+    slots, before, ground = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], bodies[bodies.shape[0] - 1]
+    axis, axes, loads = memory.work[22], memory.work[4:8], memory.work[8:10]
     for i in range(3):
         axis[i] = 1.0 if i == 2 else 0.0
         axes[0, i] = rel[3 * i + 2]
@@ -163,19 +127,22 @@ def _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory):
         radius, height = pile.rims[c, i, RADIUS], pile.rims[c, i, HEIGHT]
         if radius == 0.0:
             continue
-        for j in range(3):
-            middle[j] = rel[9 + j] + height * rel[3 * j + 2]
-        relaid = sine == 0.0 and turned(slots[4 * i : 4 * i + 4], middle, rel, axes[2], radius, borne)
+        rim, old = slots[4 * i : 4 * i + 4], before[4 * i : 4 * i + 4]
+        flat = sine == 0.0 and gather(rim, ground, loads)
         for q in range(4):
+            for j in range(SLOT):
+                old[q, j] = rim[q, j]
             direction, side = axes[2 + q % 2], radius if q < 2 else -radius
             y0 = rel[9] + side * direction[0] + height * rel[2]
             y1 = rel[10] + side * direction[1] + height * rel[5]
             y2 = rel[11] + side * direction[2] + height * rel[8]
-            slot = slots[4 * i + q]
-            _put(slot, y0, y1, y2, axis)
-            if relaid:
-                bear(q, borne, slot)
-            entered = enter(count, c, p, slot, y2 - pile.boxes[p, 2], far, k, bodies, dt, pile, memory)
+            put(rim[q], y0, y1, y2, axis)
+        if flat and not (left(4, rim, old, TURNED * radius) and share_out(4, rim, loads, ground)):
+            for q in range(4):
+                recall(rim[q], old, 4)
+        for q in range(4):
+            slot = rim[q]
+            entered = enter(count, c, p, slot, slot[PLACE + 2] - pile.boxes[p, 2], far, k, bodies, dt, pile, memory)
             if q == 0 and entered > count:
                 roll(rel[REL_W:], 0.0, 0.0, 1.0, sine, radius, axes, ground, dt, memory.table[count])
             count = note(count, entered, MEETINGS, pair, 0, 4 * i + q, slot, memory.who)
@@ -196,10 +163,7 @@ def _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory):
         for i in range(points):
             if found[i, 3] < -DEEP:
                 return -1
-    for i in range(MOST_FOUND):
-        for j in range(SLOT):
-            before[i, j] = slots[i, j]
-        slots[i, ENTERED] = 0.0
+    keep(MOST_FOUND, slots, before)
     # the rim that rolls is the partner's where the carrier's face is the one it rolls on
     box = p if axis[3] > 0.0 else c
     side = 1.0 if rel[REL_D + 2] > 0.0 else -1.0
@@ -210,18 +174,18 @@ def _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory):
     sine = lowest(up * axis[0], up * axis[1], up * axis[2], axes)
     face = (1 if side > 0.0 else 0) if box == p else (0 if side * rel[8] > 0.0 else 1)
     radius = pile.rims[box, face, RADIUS]
-    relaid = sine == 0.0 and relaid_among(points, radius, rel, before, found, work[11:14])
+    frame, loads = bodies[pile.owner[p]], work[11:13]
+    for i in range(points):
+        put(slots[i], found[i, 0], found[i, 1], found[i, 2], found[i, ALONG:])
+    flat = sine == 0.0 and left(points, slots, before, TURNED * radius) and gather(before[:MOST_FOUND], frame, loads)
+    relaid = flat and share_out(points, slots, loads, frame)
     for i in range(points):
         slot = slots[i]
-        _put(slot, found[i, 0], found[i, 1], found[i, 2], found[i, ALONG:])
-        if relaid:
-            bear(i, work[11], slot)
-        else:
-            _recall(slot, before, MOST_FOUND)
+        if not relaid:
+            recall(slot, before, MOST_FOUND)
         entered = enter(count, c, p, slot, found[i, 3], far, k, bodies, dt, pile, memory)
         if found[i, LOWEST] > 0.0 and entered > count:
-            frame, row = bodies[pile.owner[p]], memory.table[count]
-            roll(rel[REL_W:], up * axis[0], up * axis[1], up * axis[2], sine, radius, axes, frame, up * dt, row)
+            roll(rel[REL_W:], up * axis[0], up * axis[1], up * axis[2], sine, radius, axes, frame, up * dt, memory.table[count])
         count = note(count, entered, MEETINGS, pair, 0, i, slot, memory.who)
     return count
 

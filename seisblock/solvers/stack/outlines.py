@@ -13,7 +13,7 @@ from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.apart import FAVOUR, OVERHANG
 from seisblock.solvers.stack.arguments import LAYOUT
 from seisblock.solvers.stack.contact import REL_D
-from seisblock.solvers.stack.round import RADIUS, TURNED, lowest, turned
+from seisblock.solvers.stack.round import RADIUS, lowest
 
 _t = types()
 
@@ -151,6 +151,9 @@ def _beyond(angle, view, under, upon, work):
 def _cross_rims(count, side, view, under, upon, work, found):
     """Keep the points where the rims of two round faces cross, seen from above: sought on arcs, then by the rule of false position."""
     y, along, tangent, normal = work[4], work[5], work[6], work[7]
+    beside = math.sqrt((view[REL_D] + upon[3] * view[2]) ** 2 + (view[REL_D + 1] + upon[3] * view[5]) ** 2)
+    if beside < max(OVERHANG, abs(upon[0] - under[0])):  # one lies within the other, or they are one
+        return count
     arc = 2.0 * math.pi / ARCS
     first = _beyond(-0.5 * arc, view, under, upon, work)
     for i in range(ARCS):
@@ -270,17 +273,3 @@ def shared_points(c, p, rel, pile, axis, work, found):
                 found[q, i] = rel[REL_D + i] + rel[3 * i] * a0 + rel[3 * i + 1] * a1 + rel[3 * i + 2] * a2
                 found[q, ALONG + i] = -(rel[3 * i] * n0 + rel[3 * i + 1] * n1 + rel[3 * i + 2] * n2)
     return count
-
-
-@kernel(_t.boolean(_t.int64, _t.float64, VECTOR, MATRIX, MATRIX, MATRIX), inline=True)
-def relaid_among(points, radius, rel, before, found, work):
-    """Whether a flat rim, whose four points were found first, is laid elsewhere than the forces of the last step; write what they bear."""
-    if points < 4 or found[0, LOWEST] == 0.0:
-        return False
-    borne, middle, u = work[0], work[1], work[2]
-    size = 0.0
-    for k in range(3):
-        middle[k] = 0.5 * (found[0, k] + found[2, k])
-        u[k] = (found[0, k] - found[2, k]) / (2.0 * radius)
-        size += u[k] * u[k]
-    return abs(size - 1.0) < TURNED and turned(before, middle, rel, u, radius, borne)

@@ -16,7 +16,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
-from seisblock.solvers.stack.contact import EARLIER, ENTERED, PLACE, PUSH, REL_D, SLIDES
+from seisblock.solvers.stack.contact import ENTERED, PLACE, PUSH, REL_D
 from seisblock.solvers.stack.frames import R
 from seisblock.solvers.stack.impulse import ROLL
 from seisblock.solvers.stack.step import APPROACH, COSINE
@@ -32,13 +32,6 @@ FLAT = 1e-10
 
 CENTRED = 0.05
 """How far from the middle, over its radius, a stone presses to no side."""
-
-TURNED = 1e-3
-"""How far, over the radius, the points of a flat rim may be turned and go on with the forces that they had."""
-
-WHOLE, EARLIER_WHOLE, PART, SLIPS = 0, 3, 6, 7
-"""What a flat rim bore: the forces of the last step (3) and of the one before (3), the part of them that its first point now bears, and
-whether a point slid."""
 
 FASTEST = 0.5
 """Angle, rad, by which the lowest point may wander round the stone in half a step and still be asked where it will be then."""
@@ -81,7 +74,7 @@ def pressed_side(slots, rel, radius, x):
     for i in range(slots.shape[0]):
         slot = slots[i]
         if slot[ENTERED] > 0.0:
-            press = abs(slot[PUSH] * rel[2] + slot[PUSH + 1] * rel[5] + slot[PUSH + 2] * rel[8])
+            press = slot[PUSH] * rel[2] + slot[PUSH + 1] * rel[5] + slot[PUSH + 2] * rel[8]
             whole += press
             p0 += press * (slot[PLACE] - rel[REL_D])
             p1 += press * (slot[PLACE + 1] - rel[REL_D + 1])
@@ -89,60 +82,10 @@ def pressed_side(slots, rel, radius, x):
     along = p0 * rel[2] + p1 * rel[5] + p2 * rel[8]
     p0, p1, p2 = p0 - along * rel[2], p1 - along * rel[5], p2 - along * rel[8]
     centred = p0 * p0 + p1 * p1 + p2 * p2 <= (CENTRED * radius * whole) ** 2
-    x[0] = rel[0] if centred else p0
-    x[1] = rel[3] if centred else p1
-    x[2] = rel[6] if centred else p2
-
-
-@kernel(_t.boolean(MATRIX, VECTOR, VECTOR, VECTOR, _t.float64, VECTOR))
-def turned(slots, middle, rel, u, radius, borne):
-    """Whether the points of a flat rim are laid elsewhere than the forces of the last step; write what they bear then.
-
-    Two opposite points bear force and moment as the old ones did, where the first lies to the side on which these pressed.
-
-    Parameters
-    ----------
-    slots : (k, n) array
-        The points of the last step.
-    middle, rel, u : (3,), (18,), (3,) arrays
-        Middle of the rim, the pair, and the direction of the rim's first point now.
-    radius : float, m
-    borne : (18,) array
-    """
-    for k in range(SLIPS + 1):
-        borne[k] = 0.0
-    whole, along, away = 0.0, 0.0, math.inf
-    for i in range(slots.shape[0]):
-        slot = slots[i]
-        if slot[ENTERED] == 0.0:
-            continue
-        press = abs(slot[PUSH] * rel[2] + slot[PUSH + 1] * rel[5] + slot[PUSH + 2] * rel[8])
-        d0, d1, d2 = slot[PLACE] - middle[0], slot[PLACE + 1] - middle[1], slot[PLACE + 2] - middle[2]
-        e0, e1, e2 = d0 - radius * u[0], d1 - radius * u[1], d2 - radius * u[2]
-        away = min(away, e0 * e0 + e1 * e1 + e2 * e2)
-        if press == 0.0:
-            continue
-        whole += press
-        along += press * (d0 * u[0] + d1 * u[1] + d2 * u[2])
-        borne[SLIPS] = max(borne[SLIPS], slot[SLIDES])
-        for k in range(3):
-            borne[WHOLE + k] += slot[PUSH + k]
-            borne[EARLIER_WHOLE + k] += slot[EARLIER + k]
-    if whole == 0.0 or away < (TURNED * radius) ** 2:
-        return False
-    borne[PART] = min(max(0.5 + 0.5 * along / (whole * radius), 0.0), 1.0)
-    return True
-
-
-@kernel(_t.void(_t.int64, VECTOR, VECTOR), inline=True)
-def bear(q, borne, slot):
-    """Let one of the four points of a flat rim bear its part."""
-    part = borne[PART] if q == 0 else 1.0 - borne[PART] if q == 2 else 0.0
-    slot[ENTERED] = 1.0
-    slot[SLIDES] = borne[SLIPS]
-    for k in range(3):
-        slot[PUSH + k] = part * borne[WHOLE + k]
-        slot[EARLIER + k] = part * borne[EARLIER_WHOLE + k]
+    side = math.copysign(1.0, whole)
+    x[0] = rel[0] if centred else side * p0
+    x[1] = rel[3] if centred else side * p1
+    x[2] = rel[6] if centred else side * p2
 
 
 @kernel(_t.void(VECTOR, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, MATRIX, VECTOR, _t.float64, VECTOR))

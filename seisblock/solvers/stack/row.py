@@ -25,14 +25,13 @@ from seisblock.solvers.stack.impulse import (
     HEED,
     IMPULSE,
     KINETIC,
-    MU,
     NORMAL,
     ROLL,
-    SHIFT,
     SLID,
     STANDS,
     STATIC,
     answers,
+    lay_plainly,
 )
 
 _t = types()
@@ -94,9 +93,7 @@ def enter(count, c, p, slot, gap, far, k, bodies, dt, pile, memory):
     row[KINETIC] = k[SLICK]
     row[SLID] = slot[SLIDES]
     row[HEED] = memory.pace[FALL]
-    row[MU] = row[KINETIC] if row[SLID] > 0.0 else row[STATIC]
-    for i in range(SHIFT, SHIFT + 3):
-        row[i] = 0.0
+    lay_plainly(row)
     for i in range(3):
         row[IMPULSE + i] = slot[PUSH + i] + memory.pace[AHEAD] * (slot[PUSH + i] - slot[EARLIER + i])
     return count + 1

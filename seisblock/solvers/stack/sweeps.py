@@ -157,26 +157,20 @@ def _relax(a, b, ground, inert, row, least, speeds):
     return (abs(q0) + abs(q1) + abs(q2)) * max(row[W], max(row[W + 4], row[W + 8]))
 
 
-@kernel(_t.void(_t.int64, _t.int64, MATRIX, MATRIX), inline=True)
-def _set_out(n, bodies, table, speeds):
-    """Keep velocities and impulses as they are before the sweeps."""
-    for i in range(bodies):
-        for k in range(6):
-            speeds[i, SET_OUT + k] = speeds[i, k]
-    for i in range(n):
-        for k in range(3):
-            table[i, BEGAN + k] = table[i, IMPULSE + k]
+@kernel(_t.void(VECTOR, _t.int64, _t.int64, _t.int64), inline=True)
+def _copy(row, source, target, count):
+    """Copy numbers of a row from one place to another."""
+    for k in range(count):
+        row[target + k] = row[source + k]
 
 
-@kernel(_t.void(_t.int64, _t.int64, MATRIX, MATRIX), inline=True)
-def _return(n, bodies, table, speeds):
-    """Restore velocities and impulses to what they were before the sweeps."""
+@kernel(_t.void(_t.int64, _t.int64, MATRIX, MATRIX, _t.boolean), inline=True)
+def _keep(n, bodies, table, speeds, back):
+    """Keep velocities and impulses as they are before the sweeps, or give them `back`."""
     for i in range(bodies):
-        for k in range(6):
-            speeds[i, k] = speeds[i, SET_OUT + k]
+        _copy(speeds[i], SET_OUT if back else 0, 0 if back else SET_OUT, 6)
     for i in range(n):
-        for k in range(3):
-            table[i, IMPULSE + k] = table[i, BEGAN + k]
+        _copy(table[i], BEGAN if back else IMPULSE, IMPULSE if back else BEGAN, 3)
 
 
 @kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
@@ -194,7 +188,7 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
         Velocities and spins with the impulses to start from; on return, with those that were found.
     """
     before, worst = 0.0, 0.0
-    _set_out(n, ground, table, speeds)
+    _keep(n, ground, table, speeds, False)
     for sweep in range(SWEEPS):
         worst = 0.0
         for i in range(n):
@@ -228,7 +222,7 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
             push(who[i, 0], who[i, 1], ground, inert, row, p0, p1, p2, speeds)
     if worst < UNSETTLED * tolerance:
         return SWEEPS
-    _return(n, ground, table, speeds)
+    _keep(n, ground, table, speeds, True)
     return 0
 
 
