@@ -12,6 +12,7 @@ compiled when a wheel is built; English loads none.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -33,6 +34,12 @@ _COMMAS = {"en": ", ", "ja": "、"}
 
 _BLANKS = {"en": " ", "ja": ""}
 """What stands between two sentences."""
+
+_SEAM = "\0"
+"""Where a value begins and ends in a template, while it is filled in."""
+
+_BETWEEN_WIDE = re.compile(rf"(?<=[\u3040-\u9fff]) (?={_SEAM}[\u3040-\u9fff])|(?<=[\u3040-\u9fff]{_SEAM}) (?=[\u3040-\u9fff])")
+"""A blank between a template and a value: it parts Japanese from Latin letters and numbers, and goes where both are Japanese."""
 
 MOST_SHOWN = 1200
 """Longest message, in letters."""
@@ -219,7 +226,10 @@ def _told(text: Said, spoken: str) -> str:
 
 def _filled(template: str, values: Mapping[str, Any], spoken: str) -> str:
     """Return a template with its values; without values nothing is a field."""
-    return _Filler(spoken).vformat(template, (), values) if values else template
+    if not values:
+        return template
+    text = _Filler(spoken).vformat(template, (), values)
+    return _BETWEEN_WIDE.sub("", text).replace(_SEAM, "")
 
 
 class _Filler(Formatter):
@@ -235,7 +245,8 @@ class _Filler(Formatter):
 
     def format_field(self, value: Any, format_spec: str) -> str:
         """Return a value in a format, in which ``%`` writes a share as :func:`percent` does."""
-        return percent(value, format_spec[:-1]) if format_spec.endswith("%") else str(super().format_field(value, format_spec))
+        shown = percent(value, format_spec[:-1]) if format_spec.endswith("%") else str(super().format_field(value, format_spec))
+        return shown if self.spoken == "en" else f"{_SEAM}{shown}{_SEAM}"
 
     def _shown(self, value: Any) -> Any:
         """Return a text or a sequence as text, anything else as it is."""

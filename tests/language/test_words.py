@@ -14,6 +14,7 @@ from seisblock import words
 from seisblock.cli import main
 from seisblock.cli.language import asked_in
 from seisblock.errors import BodyError, OutputError, RecordNotFoundError, SeisblockError
+from seisblock.present.directions import side
 from seisblock.words import Said, language, noted, plain_text, said, speaking, tell
 
 PO = """
@@ -184,3 +185,15 @@ def test_the_language_ends_with_its_block_and_its_command():
 def test_the_catalogue_is_where_the_package_says():
     """The file that translators edit."""
     assert Path(words.LOCALES, "ja", "LC_MESSAGES", "seisblock.po").is_file()
+
+
+@pytest.mark.parametrize(
+    ("direction", "sentence"),
+    [("30", "25.90 秒に方位 30° 側へ転倒"), ("EW", "25.90 秒に +EW 側へ転倒")],
+)
+def test_a_blank_parts_japanese_from_latin_letters_only(direction, sentence):
+    """The same template takes an azimuth, whose name is Japanese, without a blank before it, and a component with one."""
+    with speaking("ja"):
+        assert tell("overturns to {side} at {time:.2f} s", side=side(direction, 1.0), time=25.9) == sentence
+        assert tell("{path} to {towards}", path="石", towards=side(direction, 1.0)).endswith("へ石")
+        assert tell("{a} {b}", a="益城", b="宮園") == "益城 宮園", "blanks of a name, and between two values, stay"

@@ -20,13 +20,20 @@ from tests.present.long_record import DT, PAVILION, SAMPLES, SOLVED, motion, rec
 VERTICES = 5
 """Of a bar, whose last is its first."""
 
+
+def until_it_falls(found, name):
+    """Return the tilt of a stone, and nothing from its fall on."""
+    (fell,) = (stone.fell_at_s for stone in found.outcome.stones if stone.name == name)
+    return np.where(found.time <= fell, found[f"{name}_tilt"], np.nan)
+
+
 DRAWN = {
     "respond": lambda r: {"x (cm)": 100.0 * r["displacement"], "θ/α": r["rotation"] / min(r.body.slendernesses)},
     "rock": lambda r: {"θ/α": r["rotation"] / r.outcome.slenderness_rad, "a (gal)": 100.0 * r["ground_acceleration"]},
     "slide": lambda r: {"x − z (cm)": 100.0 * r["displacement"], "velocity (kine)": 100.0 * (r["ground_velocity"] + r["velocity"])},
     "jump": lambda r: {"θ (deg)": np.degrees(r["rotation"]), "x of G (cm)": 100.0 * r["displacement"]},
     "uplift": lambda r: {f"u{'₁₂₃₄'[i]} (cm)": 100.0 * r[f"uplift_{i + 1}"] for i in range(4)},
-    "stack": lambda r: {"tilt θ (deg)": np.degrees(r["sao_tilt"]), "slip s (cm)": 100.0 * r["base_slip"]},
+    "stack": lambda r: {"tilt θ (deg)": np.degrees(until_it_falls(r, "sao")), "slip s (cm)": 100.0 * r["base_slip"]},
 }
 """What each model's figure shows of its response, by the label of the panel's axis."""
 
@@ -65,7 +72,8 @@ def test_each_point_in_view_is_drawn(model):
     for text, values in DRAWN[model](found).items():
         (axis,) = [axis for axis in figure.axes if axis.get_ylabel() == text]
         lines = [line for line in axis.get_lines() if len(line.get_xdata()) > 2]
-        assert min(deviation(axis, line, found.time, values) for line in lines) < 0.01
+        told = np.isfinite(values)
+        assert min(deviation(axis, line, found.time[told], values[told]) for line in lines) < 0.01
 
 
 def test_the_drawing_on_file_is_the_response(tmp_path):

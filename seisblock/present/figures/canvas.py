@@ -253,10 +253,12 @@ def _far(low: float, high: float, what: str, unit: str) -> str:
 
 
 def legend(axis: Axes, **placement: Any) -> None:
-    """Add a small key above the panel, where it hides nothing, when there is something to name."""
+    """Add a small key above the panel, where it hides nothing, when there is something to name; its lines are of even length."""
     handles = axis.get_legend_handles_labels()[0]
     if handles:
         where = {"loc": "lower right", "bbox_to_anchor": (1.0, ABOVE), "borderaxespad": 0.0, "ncols": 5, "fontsize": 7, **placement}
+        lines = -(-len(handles) // where["ncols"])
+        where["ncols"] = -(-len(handles) // lines)
         axis.legend(framealpha=0.85, edgecolor="none", **where)
         _remember(axis.get_figure(root=True), axis, handles, where)
 

@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from seisblock.present.directions import towards
 from seisblock.present.figures import canvas
 from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import columns_of, strong_stretch
 from seisblock.present.scales import Unit, acceleration_unit, length_unit
+from seisblock.present.text.falls import told_falls
 from seisblock.present.text.stack import NOTICEABLE_SLIP, NOTICEABLE_TILT, Stacks
+from seisblock.present.wrap import wrapped
 from seisblock.results import Response
 from seisblock.solvers.stack.outcome import StackOutcome
 from seisblock.typing import FloatArray
 from seisblock.words import tell
 
 SHADES = ("#c0392b", "#1f5a8c", "#7d7d7d", "#b8860b", "#4f7f4f", "#7a4f8c", "#111111")
-DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1, 2)), (0, (1, 1)), (0, (8, 2, 2, 2)), "-")
-"""Colours and dashes of the stones from above downwards; the dashes tell them apart in grey."""
+DASHES = ("-", (0, (6, 2)), (0, (2, 1.5)), (0, (6, 2, 1, 2)), (0, (1, 1)), (0, (8, 2, 2, 2)))
+"""Colours and dashes of the stones from above downwards, by :func:`style_of`; the dashes tell them apart in grey."""
+
+LINE = 84
+"""Longest line of what fell, columns: as wide as a panel of two beside each other."""
 
 FALLING = 0.2
 """How long before its fall a stone no longer slides but turns away, s."""
@@ -53,38 +57,46 @@ def _column(panels: Sequence[Any], called: str, response: Response[StackOutcome]
         if acts and values.any():
             curve(panels[0], motion.time, values / unit, color=colour, linewidth=0.7, label=name)
     for index, name in enumerate(reversed(response.body.names)):
-        style: dict[str, Any] = {"color": SHADES[index % len(SHADES)], "linestyle": DASHES[index % len(DASHES)], "label": tell(name)}
-        curve(panels[1], response.time, np.degrees(response[f"{name}_tilt"]), **style)
+        colour, dashes = style_of(index)
+        style: dict[str, Any] = {"color": colour, "linestyle": dashes, "label": tell(name)}
+        curve(panels[1], response.time, np.degrees(tilt_of(response, name)), **style)
         curve(panels[2], response.time, slip_of(response, name) / far.size, **style)
     for panel, quantity, factor in ((panels[1], "tilt", math.degrees(1.0)), (panels[2], "slip", 1.0 / far.size)):
         top = factor * largest(response, quantity)
         panel.set_ylim(-0.05 * top, 1.1 * top)
         for event in response.events:
             panel.axvline(event.time_s, color="0.3", linewidth=0.8, linestyle=(0, (2, 2)))
-    if response.events:
-        told = panels[1].text(0.01, 0.95, "\n".join(falls(response)), transform=panels[1].transAxes, fontsize=7, va="top", linespacing=1.4)
-        told.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0})
+    if response.events:  # above the panel, where it hides neither a curve nor when a stone falls
+        fate = "\n".join(wrapped(told_falls(response), LINE))
+        panels[1].set_title(fate, fontsize=7, loc="left", linespacing=1.4, parse_math=False)
     canvas.legend(panels[0])
-    canvas.legend(panels[1])
+    canvas.legend(panels[2])  # between the two whose curves it names
     canvas.panel_title(panels[0], f"+x = {called}: {tell(response.body.name)}")
     labels = tell("a ({unit})", unit=unit_name), tell("tilt θ (deg)"), tell("slip s ({unit})", unit=far.name)
     for panel, text in zip(panels, labels, strict=True):
         canvas.label(panel, y=text)
 
 
-def falls(response: Response[StackOutcome]) -> Iterator[str]:
-    """Yield which stone falls, when and to which side, in the order of time."""
-    fallen = [(stone.fell_at_s, stone) for stone in response.outcome.stones if stone.fell_at_s is not None]
-    for at, stone in sorted(fallen, key=lambda each: each[0]):
-        side = towards(stone.fell_towards_deg or 0.0, response.motion)
-        yield tell("{stone} falls at {time:.2f} s to {side}", stone=tell(stone.name), time=at, side=side)
+def style_of(index: int) -> tuple[str, Any]:
+    """Return colour and dashes of a stone, counted from above: seven of the one and six of the other, so that no two of 42 share both."""
+    return SHADES[index % len(SHADES)], DASHES[index % len(DASHES)]
+
+
+def tilt_of(response: Response[StackOutcome], name: str) -> FloatArray:
+    """Return the tilt of a stone against time, (n,), rad; nothing from its fall on."""
+    return _until_it_falls(response, name, "tilt", 0.0)
 
 
 def slip_of(response: Response[StackOutcome], name: str) -> FloatArray:
     """Return the slip of a stone against time, (n,), m; nothing from where it turns away to fall."""
+    return _until_it_falls(response, name, "slip", FALLING)
+
+
+def _until_it_falls(response: Response[StackOutcome], name: str, quantity: str, before: float) -> FloatArray:
+    """Return a quantity of a stone against time, (n,), and nothing from so long before its fall on, s."""
     fell = next(stone.fell_at_s for stone in response.outcome.stones if stone.name == name)
-    values = response[f"{name}_slip"]
-    return values if fell is None else np.where(response.time < fell - FALLING, values, np.nan)
+    values = response[f"{name}_{quantity}"]
+    return values if fell is None else np.where(response.time <= fell - before, values, np.nan)
 
 
 def largest(response: Response[StackOutcome], quantity: str) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from seisblock.bodies.pile.pile import Pile
 from seisblock.present.figures.heading import heading_of
-from seisblock.present.figures.stack import DASHES, SHADES, largest, slip_of, stretch
+from seisblock.present.figures.stack import largest, slip_of, stretch, style_of, tilt_of
 from seisblock.present.films.animation import REAL_TIME, Filming
 from seisblock.present.films.film import Film, Line, Strip, ground_strip, titled
 from seisblock.present.films.projector import animate_film
@@ -58,13 +58,13 @@ def _fate(fallen: tuple[str, ...]) -> str:
 
 
 def _lines(response: Response[StackOutcome], quantity: str, factor: float) -> tuple[Line, ...]:
-    """Return one curve per stone, in the colours and dashes of the figure; a slip ends where its stone falls."""
+    """Return one curve per stone, in the colours and dashes of the figure; each ends where its stone falls."""
     lines = []
     for index, stone in enumerate(reversed(response.outcome.stones)):
-        values = (slip_of(response, stone.name) if quantity == "slip" else response[f"{stone.name}_{quantity}"]) * factor
-        dashes = DASHES[index % len(DASHES)]
+        values = (slip_of if quantity == "slip" else tilt_of)(response, stone.name) * factor
+        colour, dashes = style_of(index)
         style = () if isinstance(dashes, str) else dashes[1]
-        lines.append(Line(response.time, values, SHADES[index % len(SHADES)], tell(stone.name), style))
+        lines.append(Line(response.time, values, colour, tell(stone.name), style))
     return tuple(lines)
 
 
