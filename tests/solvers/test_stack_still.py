@@ -118,3 +118,17 @@ def test_shaken_drums_below_static_friction_do_not_slide():
         stones = piled(count * (ROUND,), WIDTH / (MU * dice.uniform(1.05, 1.4) * count), 0.4)
         outcome = solve_stack(Pile("drums", stones), Motion(low * shaking, 0.01)).outcome
         assert max(stone.residual_slip_m for stone in outcome.stones) < 1e-5
+
+
+def test_steps_that_do_not_come_to_rest_are_told():
+    """A stone bears one three hundred times as heavy: it creeps in coarse steps, which say so; one ten times as heavy rests."""
+    push, slips = 0.1 * G, {}
+    for ratio, step in ((10.0, None), (300.0, None), (300.0, 5e-4)):
+        stones = (PileStone("a", 0.6, 0.6, 0.6), PileStone("b", 0.5, 0.5, 0.7, on="a", density=ratio * 2650.0))
+        shaking = noise(np.random.default_rng(3), push, seconds=6.0)
+        response = solve_stack(Pile("pile", stones, mu=0.7), shaking, step=step)
+        slips[ratio, step] = max(stone.residual_slip_m for stone in response.outcome.stones)
+        told = any("did not come to rest" in str(warning) for warning in response.warnings)
+        assert told == (ratio > 10.0)
+    assert slips[10.0, None] < 1e-5
+    assert slips[300.0, 5e-4] < 0.2 * slips[300.0, None]

@@ -34,10 +34,11 @@ FATE = 6
 """A body's row: least cosine of its tilt, time of its fall (s, negative: none), direction of its upward axis at the fall; and when it has
 fallen: the cosine of its tilt, or the height of its centre, below which it counts as such."""
 
-WORK, LOST, MOST_LOST, CREATED, IMPULSE, START = 0, 1, 2, 3, 4, 7
-BOOKS = 8
+WORK, LOST, MOST_LOST, CREATED, IMPULSE, START, SOLVED, UNSETTLED = 0, 1, 2, 3, 4, 7, 8, 9
+BOOKS = 10
 """Work of the ground, J; energy lost; its largest value; largest fall below that, which only an error makes; the impulse (3), N s,
-of the ground's contact and of the frame; and the energy held at the start, J."""
+of the ground's contact and of the frame; the energy held at the start, J; and of steps of rigid stones, how many were solved, and in how
+many of them sweeps did not come to rest."""
 
 
 @kernel(_t.boolean(_t.int64, MATRIX, VECTOR, _t.float64), inline=True)

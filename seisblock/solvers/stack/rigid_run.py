@@ -10,7 +10,9 @@ from seisblock.dynamics.status import NOT_FINITE, PAUSED
 from seisblock.solvers.stack.arguments import BASE, CURSOR, FELL, KEPT, LAYOUT, MEMORY, SAMPLE, SETTINGS, STEP
 from seisblock.solvers.stack.books import (
     IMPULSE,
+    SOLVED,
     START,
+    UNSETTLED,
     WORK,
     balance,
     end_sample,
@@ -23,9 +25,10 @@ from seisblock.solvers.stack.books import (
 )
 from seisblock.solvers.stack.frames import MASS, F
 from seisblock.solvers.stack.rigid import hold
-from seisblock.solvers.stack.row import BEFORE
+from seisblock.solvers.stack.row import BEFORE, ROWS, SWEPT
 from seisblock.solvers.stack.run import LOOK_EVERY
 from seisblock.solvers.stack.step import drift, energy_of, kick
+from seisblock.solvers.stack.sweeps import SWEEPS
 
 _t = types()
 
@@ -45,6 +48,9 @@ def _stride(motion, k, look, total_mass, settings, pile, memory, cursor, kept):
         part = (k + (whole - left) / whole) / settings.steps
         a0, a1, a2 = ground_at(motion, s - place[BASE], part)
         step = hold(bodies, a0, a1, a2 + g, whole, left, look and left == whole, pile, memory)
+        if memory.pace[ROWS] > 0.0:
+            books[SOLVED] += 1.0
+            books[UNSETTLED] += 1.0 if memory.pace[SWEPT] >= SWEEPS else 0.0
         kicked = 0.5 * (memory.pace[BEFORE] + step)
         memory.pace[BEFORE] = step
         books[IMPULSE] -= kicked * (bodies[n, F] + total_mass * a0)

@@ -18,17 +18,22 @@ from seisblock.records.motion import Motion
 from seisblock.references import papers
 from seisblock.results import Event, Histories, Phase, Response, Status
 from seisblock.solvers.stack.arrays import PLASTIC, pile_arrays
+from seisblock.solvers.stack.books import SOLVED, UNSETTLED
 from seisblock.solvers.stack.course import Course
 from seisblock.solvers.stack.outcome import End, StackOutcome, channels, stack_outcome
 from seisblock.solvers.stack.rest import rigid_steps, steps_per_sample
+from seisblock.typing import FloatArray
 from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted, said
+from seisblock.words import Said, noted, said
 
 RIGID, SPRINGS = "rigid", "springs"
 """Laws of contact."""
 
 FINER = 5
 """How many times finer steps answer where rigid stones created energy."""
+
+MOST_UNSETTLED, MANY_STEPS = 0.5, 100
+"""Part of the steps whose sweeps may end before they come to rest, of so many at least."""
 
 EDGES = 2
 """Points along each side of a joint that stands on its edges."""
@@ -157,6 +162,22 @@ def solve_stack(
         },
         status=end.status,
         citations=papers("rigid pile" if rigid else "pile"),
+        warnings=_doubts(end.kept.books, motion),
+    )
+
+
+def _doubts(books: FloatArray, motion: Motion) -> tuple[Said, ...]:
+    """Return what there is to say against a run most of whose steps did not come to rest: slips are then too large."""
+    share = books[UNSETTLED] / max(books[SOLVED], MANY_STEPS)
+    if share <= MOST_UNSETTLED:
+        return ()
+    return (
+        said(
+            "{name}: the forces between the stones did not come to rest in {share:.0f} % of the steps, as where a stone bears one "
+            "a hundred times as heavy: slips may be too large; give a finer `step`",
+            name=motion.name or "x",
+            share=100.0 * share,
+        ),
     )
 
 
