@@ -7,13 +7,29 @@ import pytest
 from scipy.optimize import linprog
 from scipy.spatial.transform import Rotation
 
+from seisblock.bodies.inset import Inset
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.solvers.stack.apart import EDGES, FACE, KIND, MOST_POINTS, cross, furthest, overlap
+from seisblock.solvers.stack.apart import CARRIERS, EDGES, KIND
 from seisblock.solvers.stack.arrays import pile_arrays
+from seisblock.solvers.stack.hull_pairs import edges_cross, faces_overlap, gap_between
+from seisblock.solvers.stack.step import SCRATCH
+from seisblock.solvers.stack.worn_faces import MOST_WORN
 
-PAIR = Pile("pair", (PileStone("low", 0.6, 0.4, 0.3), PileStone("high", 0.3, 0.5, 0.8, on="low")))
 FAR = 100.0
+
+
+def pair(share):
+    """Return a stone on a larger one, worn where they stand, as arrays; the upper one is worn on both its faces, as it carries a lid."""
+    stones = (
+        PileStone("low", 0.6, 0.4, 0.3, inset=Inset(share=share)),
+        PileStone("high", 0.3, 0.5, 0.8, on="low", inset=Inset(share=share)),
+        PileStone("lid", 0.7, 0.6, 0.1, on="high", inset=Inset(share=share)),
+    )
+    return pile_arrays(Pile("pair", stones), None, 2)
+
+
+SHARES = [0.0, 0.05, 0.3]
 
 
 def seen(turn, centre):
@@ -25,13 +41,22 @@ def seen(turn, centre):
 
 def widest(pile, rel):
     axis = np.zeros(8)
-    gap = furthest(rel, pile.boxes[1], pile.corners[1], pile.counts[1], pile.boxes[0], pile.corners[0], pile.counts[0], FAR, axis)
-    return gap, axis
+    return gap_between(rel, 1, 0, FAR, pile.layout, np.zeros((SCRATCH, 18)), axis), axis
+
+
+def meeting(pile, rel, gap, axis):
+    """Return where both stones may touch, and the gaps there."""
+    found, spare, work = np.zeros((MOST_WORN, 18)), np.zeros((MOST_WORN, 18)), np.zeros((SCRATCH, 18))
+    if axis[KIND] >= EDGES:
+        points = int(edges_cross(rel, 1, 0, pile.layout, axis, work, found[0]))
+        return found[:points, :3], np.full(points, gap)
+    points = faces_overlap(rel, 1, 0, pile.layout, axis, work, 0.0, found, spare)
+    return found[:points, :3], found[:points, 3]
 
 
 def corners_of(pile, rel):
     """Return the corners of the lower and of the upper stone in the axes of the lower one."""
-    return pile.corners[0, : pile.counts[0]], pile.corners[1, : pile.counts[1]] @ rel[:9].reshape(3, 3).T + rel[9:12]
+    return pile.corners[0, : pile.counts[0], :3], pile.corners[1, : pile.counts[1], :3] @ rel[:9].reshape(3, 3).T + rel[9:12]
 
 
 def places(count, seed):
@@ -49,67 +74,84 @@ def have_a_point_in_common(one, other):
     return linprog(np.zeros(sums.shape[1]), A_eq=sums, b_eq=[0, 0, 0, 1, 1]).status == 0
 
 
+def out_of(planes, y):
+    """Return how far a point lies beyond the outermost of some faces."""
+    return (planes[:, :3] @ y - planes[:, 3]).max()
+
+
+def faces_of(pile, box):
+    """Return the faces' planes of a box."""
+    return pile.corners[box, : pile.counts[box] - 2, 3:]
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_planes_of_a_stone_bound_its_corners(share):
+    """Every corner lies on three faces, where bevels end on four, and inside all others: the planes enclose the hull of the corners."""
+    pile = pair(share)
+    assert pile.counts[:3].tolist() == ([8, 8, 8] if share == 0.0 else [12, 16, 8])
+    for box in range(2):
+        beyond = pile.corners[box, : pile.counts[box], :3] @ faces_of(pile, box)[:, :3].T - faces_of(pile, box)[:, 3]
+        assert beyond.max() < 1e-12
+        assert np.sum(np.abs(beyond) < 1e-12, axis=1).tolist() == [3] * 8 + [4] * (pile.counts[box] - 8)
+        np.testing.assert_allclose(np.linalg.norm(faces_of(pile, box)[:, :3], axis=1), 1.0, atol=1e-12)
+
+
 @pytest.mark.kernel
-@pytest.mark.parametrize("points", [2, 5])
-def test_a_gap_is_that_of_the_corners_along_its_axis(points):
+@pytest.mark.parametrize("share", SHARES)
+def test_a_gap_is_that_of_the_corners_along_its_axis(share):
     """Of boxes with sharp and with worn faces, from inside each other to apart."""
-    pile = pile_arrays(PAIR, None, points)
+    pile = pair(share)
     for rel in places(20, 1):
         gap, axis = widest(pile, rel)
         low, high = corners_of(pile, rel)
         assert np.linalg.norm(axis[:3]) == pytest.approx(1.0, abs=1e-12)
-        # a worn face is held by the plane of the whole one
-        reached = (low @ axis[:3]).max() if axis[KIND] >= 3 or points == 2 else pile.boxes[0, int(axis[KIND])]
-        assert gap <= (high @ axis[:3]).min() - reached + 1e-12
-        if axis[KIND] < 3 or points == 2:
-            assert gap == pytest.approx((high @ axis[:3]).min() - reached, abs=1e-12)
+        assert gap == pytest.approx((high @ axis[:3]).min() - (low @ axis[:3]).max(), abs=1e-12)
 
 
-def test_boxes_without_a_gap_overlap_and_others_do_not():
+@pytest.mark.parametrize("share", SHARES)
+def test_boxes_without_a_gap_overlap_and_others_do_not(share):
     """The sign of the widest gap is what a linear programme finds of common points."""
-    pile = pile_arrays(PAIR, None, 2)
+    pile = pair(share)
     found = [(widest(pile, rel)[0] < 0.0, have_a_point_in_common(*corners_of(pile, rel))) for rel in places(60, 2)]
     assert all(overlapping == common for overlapping, common in found)
     assert 10 < sum(common for _, common in found) < 50
 
 
-def test_a_box_that_just_touches_does_so_where_its_points_say():
+@pytest.mark.parametrize("share", SHARES[1:])
+def test_worn_boxes_moved_until_they_just_touch_overlap_no_sooner(share):
+    """A tenth of a millimetre apart along the widest gap they have no point in common; a tenth deeper they may."""
+    pile, deeper = pair(share), 0
+    for rel in places(60, 7):
+        gap, axis = widest(pile, rel)
+        rel[9:12] -= (gap - 1e-4) * axis[:3]
+        assert widest(pile, rel)[0] > 0.0
+        assert not have_a_point_in_common(*corners_of(pile, rel))
+        rel[9:12] -= 2e-4 * axis[:3]
+        common = have_a_point_in_common(*corners_of(pile, rel))
+        assert common == (widest(pile, rel)[0] < 0.0)
+        deeper += common
+    assert deeper > 30
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_a_box_that_just_touches_does_so_where_its_points_say(share):
     """Moved along the axis until the gap is closed, the points of the meeting are on the surfaces of both boxes, inside neither."""
-    pile = pile_arrays(PAIR, None, 2)
+    pile = pair(share)
     kinds, touched = set(), 0
     for rel in places(60, 3):
         gap, axis = widest(pile, rel)
         rel[9:12] -= gap * axis[:3]
         gap, axis = widest(pile, rel)
-        kinds.add(min(int(axis[KIND]) // 3, 2))
-        found = np.zeros((MOST_POINTS, 18))
-        if axis[KIND] >= EDGES:
-            points, gaps = (1, np.array([gap])) if cross(rel, pile.boxes[1], pile.boxes[0], axis, found[0]) else (0, np.zeros(0))
-        else:
-            view, spare = np.zeros(18), np.zeros((MOST_POINTS, 18))
-            points = overlap(
-                rel,
-                pile.boxes[1],
-                pile.corners[1],
-                pile.edges[1],
-                pile.boxes[0],
-                pile.corners[0],
-                pile.edges[0],
-                axis[FACE:],
-                view,
-                found,
-                spare,
-            )
-            gaps = found[:points, 3]
-        touching = found[:points, :3][np.abs(gaps) < 1e-9]
+        kinds.add("edges" if axis[KIND] >= EDGES else "carrier" if axis[KIND] >= CARRIERS else "partner")
+        points, gaps = meeting(pile, rel, gap, axis)
+        touching = points[np.abs(gaps) < 1e-9]
         touched += len(touching) > 0
         if have_a_point_in_common(*corners_of(pile, rel)):
             assert len(touching)
         for y in touching:
             own = rel[:9].reshape(3, 3).T @ (y - rel[9:12])
-            outside = (np.abs(y) - pile.boxes[0, :3]).max(), (np.abs(own) - pile.boxes[1, :3]).max()
-            assert outside == pytest.approx((0.0, 0.0), abs=2e-5)
-    assert kinds == {0, 1, 2}
+            assert (out_of(faces_of(pile, 0), y), out_of(faces_of(pile, 1), own)) == pytest.approx((0.0, 0.0), abs=2e-5)
+    assert kinds == {"partner", "carrier", "edges"}
     assert touched > 20
 
 
@@ -121,11 +163,8 @@ def test_a_stone_that_lies_flat_has_the_corners_of_what_both_faces_share(yaw, co
     rel = seen(Rotation.from_rotvec([0.0, 0.0, yaw]), [0.0, 0.0, 0.2])
     gap, axis = widest(pile, rel)
     assert gap == pytest.approx(0.0, abs=1e-12)
-    found, spare, view = np.zeros((MOST_POINTS, 18)), np.zeros((MOST_POINTS, 18)), np.zeros(18)
-    points = overlap(
-        rel, pile.boxes[1], pile.corners[1], pile.edges[1], pile.boxes[0], pile.corners[0], pile.edges[0], axis[FACE:], view, found, spare
-    )
-    assert points == count
-    np.testing.assert_allclose(found[:points, 2], 0.1, atol=1e-12)
+    points, _ = meeting(pile, rel, gap, axis)
+    assert len(points) == count
+    np.testing.assert_allclose(points[:, 2], 0.1, atol=1e-12)
     far = 0.2 * math.sqrt(2.0) if count == 4 else 0.2 / math.cos(math.pi / 8)
-    np.testing.assert_allclose(np.hypot(found[:points, 0], found[:points, 1]), far, atol=2e-5)
+    np.testing.assert_allclose(np.hypot(points[:, 0], points[:, 1]), far, atol=2e-5)

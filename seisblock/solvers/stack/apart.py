@@ -1,4 +1,4 @@
-"""Along which axis two boxes are furthest apart, and where they would meet along it.
+"""Along which axis two boxes with sharp edges are furthest apart, and where they would meet along it.
 
 Convex bodies stay apart as long as they stay apart along one axis: a normal of a face of either, or a perpendicular to an edge of each
 ([Gottschalk1996]_ section 5). The one along which the gap is widest is taken, anew in each step. Where it changes, the gap along the new
@@ -13,16 +13,17 @@ from __future__ import annotations
 import math
 
 from seisblock._jit import kernel, types
-from seisblock.dynamics.arrays import INTEGER_TABLE, MATRIX, VECTOR
+from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.contact import REL_D
 
 _t = types()
 
 KIND = 3
-"""Where an axis, whose first three numbers are the normal out of the partner, keeps its kind: 0 to 2, a face of the partner; 3 to 5, of the
-carrier; from 6 on, 3 times an edge of the partner and an edge of the carrier."""
+"""Where an axis, whose first three numbers are the normal out of the partner, keeps its kind."""
 
-CARRIERS, EDGES = 3, 6
+CARRIERS, EDGES = 14, 28
+"""The first kind that is a face of the carrier, those of the partner standing before; and the first that is an edge of the partner and
+one of the carrier."""
 
 FACE = 4
 """Where the axis of the widest gap along a normal of a face stands behind the axis of the widest of all."""
@@ -36,22 +37,13 @@ PARALLEL = 1e-8
 OVERHANG = 1e-5
 """How far, m, beyond the border of a face, or the end of an edge, a point may lie and count as on it."""
 
-PLAIN = 8
-"""Corners of a box whose faces are not worn."""
-
 MOST_POINTS = 9
-POSTS = 8
 
 
-@kernel(_t.float64(_t.float64, _t.float64, _t.float64, VECTOR, MATRIX, _t.int64), inline=True)
-def reach(x, y, z, half, corners, count):
+@kernel(_t.float64(_t.float64, _t.float64, _t.float64, VECTOR), inline=True)
+def _reach(x, y, z, half):
     """Return how far a box reaches along a direction in its own axes."""
-    if count <= PLAIN:
-        return abs(x) * half[0] + abs(y) * half[1] + abs(z) * half[2]
-    most = -math.inf
-    for i in range(count):
-        most = max(most, x * corners[i, 0] + y * corners[i, 1] + z * corners[i, 2])
-    return most
+    return abs(x) * half[0] + abs(y) * half[1] + abs(z) * half[2]
 
 
 @kernel(_t.void(_t.float64, _t.float64, _t.float64, _t.int64, VECTOR), inline=True)
@@ -62,18 +54,16 @@ def _take(x, y, z, kind, axis):
     axis[KIND] = kind
 
 
-@kernel(_t.float64(VECTOR, VECTOR, MATRIX, _t.int64, VECTOR, MATRIX, _t.int64, _t.float64, VECTOR))
-def furthest(rel, own, corners, count, half, others, n_others, enough, axis):
+@kernel(_t.float64(VECTOR, VECTOR, VECTOR, _t.float64, VECTOR))
+def furthest(rel, own, half, enough, axis):
     """Return the widest gap between two boxes, m, negative where they overlap, and write its axis.
 
     Parameters
     ----------
     rel : (18,) array
         The carrier as the partner sees it.
-    own, corners, count : (3,) array, m; (16, 3) array, m; int
-        Half sizes of the carrier, and its corners.
-    half, others, n_others : (3,) array, m; (16, 3) array, m; int
-        The same of the partner.
+    own, half : (3,) arrays, m
+        Half sizes of the carrier, and of the partner.
     enough : float, m
         A gap along a face's normal beyond which edges need not be looked at.
     axis : (8,) array
@@ -84,7 +74,7 @@ def furthest(rel, own, corners, count, half, others, n_others, enough, axis):
     for i in range(3):
         d = rel[REL_D + i]
         side = 1.0 if d > 0.0 else -1.0
-        gap = side * d - half[i] - reach(-side * rel[3 * i], -side * rel[3 * i + 1], -side * rel[3 * i + 2], own, corners, count)
+        gap = side * d - half[i] - _reach(rel[3 * i], rel[3 * i + 1], rel[3 * i + 2], own)
         if gap > widest:
             widest = gap
             _take(side if i == 0 else 0.0, side if i == 1 else 0.0, side if i == 2 else 0.0, i, axis)
@@ -92,7 +82,7 @@ def furthest(rel, own, corners, count, half, others, n_others, enough, axis):
         x, y, z = rel[j], rel[3 + j], rel[6 + j]
         d = x * d0 + y * d1 + z * d2
         side = 1.0 if d > 0.0 else -1.0
-        gap = side * d - own[j] - reach(side * x, side * y, side * z, half, others, n_others)
+        gap = side * d - own[j] - _reach(x, y, z, half)
         if gap > widest + FAVOUR:
             widest = gap
             _take(side * x, side * y, side * z, CARRIERS + j, axis)
@@ -118,7 +108,7 @@ def furthest(rel, own, corners, count, half, others, n_others, enough, axis):
             a = x * rel[0] + y * rel[3] + z * rel[6]
             b = x * rel[1] + y * rel[4] + z * rel[7]
             c = x * rel[2] + y * rel[5] + z * rel[8]
-            gap = scale * d - reach(x, y, z, half, others, n_others) - reach(-a, -b, -c, own, corners, count)
+            gap = scale * d - _reach(x, y, z, half) - _reach(a, b, c, own)
             if gap > widest + FAVOUR:
                 widest = gap
                 _take(x, y, z, EDGES + 3 * i + j, axis)
@@ -154,21 +144,6 @@ def cross(rel, own, half, axis, y):
     return abs(place) < own[j] + OVERHANG and abs(other) < half[i] + OVERHANG
 
 
-@kernel(_t.void(MATRIX, INTEGER_TABLE, _t.int64, _t.float64, _t.int64, VECTOR), inline=True)
-def _corner(corners, edges, axis, side, q, y):
-    """Write one of the four corners of a box's face, in the box's axes."""
-    if axis == 2:
-        at = q + (4 if side > 0.0 else 0)
-    else:
-        # the faces -y, +x, +y, -x lie between the posts 0 and 1, 1 and 2, 2 and 3, 3 and 0
-        post = (1 if side > 0.0 else 3) if axis == 0 else (2 if side > 0.0 else 0)
-        if q == 1 or q == 2:
-            post = (post + 1) % 4
-        at = edges[POSTS + post, 0 if q < 2 else 1]
-    for k in range(3):
-        y[k] = corners[at, k]
-
-
 @kernel(_t.int64(_t.int64, MATRIX, _t.int64, _t.float64, _t.float64, MATRIX))
 def _clip(n, found, k, side, limit, left):
     """Cut a polygon off beyond side y_k = limit; return how many corners are left."""
@@ -188,17 +163,14 @@ def _clip(n, found, k, side, limit, left):
     return count
 
 
-@kernel(_t.int64(VECTOR, VECTOR, MATRIX, INTEGER_TABLE, VECTOR, MATRIX, INTEGER_TABLE, VECTOR, VECTOR, MATRIX, MATRIX))
-def overlap(rel, own, corners, edges, half, others, other_edges, axis, view, found, spare):
+@kernel(_t.int64(VECTOR, VECTOR, VECTOR, VECTOR, VECTOR, MATRIX, MATRIX))
+def overlap(rel, own, half, axis, view, found, spare):
     """Write where two faces lie over each other: x, y, z in the partner's axes, and the gap there; return how many points.
 
     Parameters
     ----------
     rel : (18,) array
-    own, corners, edges : (3,) array, m; (16, 3) array, m; (12, 2) array of int
-        Of the carrier.
-    half, others, other_edges : (3,) array, m; (16, 3) array, m; (12, 2) array of int
-        Of the partner.
+    own, half : (3,) arrays, m
     axis : (4,) array
         A normal of a face.
     view, found, spare : (18,), (9, 18), (9, 18) arrays
@@ -206,6 +178,7 @@ def overlap(rel, own, corners, edges, half, others, other_edges, axis, view, fou
     """
     mine = axis[KIND] >= CARRIERS
     i = int(axis[KIND]) - CARRIERS if mine else int(axis[KIND])
+    bed, upon = (own, half) if mine else (half, own)
     # the box that lies on the face, as the box that has the face sees it
     for p in range(3):
         for q in range(3):
@@ -217,32 +190,22 @@ def overlap(rel, own, corners, edges, half, others, other_edges, axis, view, fou
         if abs(view[3 * i + k]) > abs(view[3 * i + shown]):
             shown = k
     facing = -side if view[3 * i + shown] > 0.0 else side
-    y = view[12:]
+    y, one, two = view[12:], 1 if shown == 0 else 0, 1 if shown == 2 else 2
+    turn = 1.0 if shown == 2 else facing if shown == 0 else -facing
     for q in range(4):
-        if mine:
-            _corner(others, other_edges, shown, facing, q, y)
-        else:
-            _corner(corners, edges, shown, facing, q, y)
+        y[shown] = facing * upon[shown]
+        y[one] = turn * upon[one] if q == 1 or q == 2 else -turn * upon[one]
+        y[two] = upon[two] if q > 1 else -upon[two]
         for p in range(3):
             found[q, p] = view[REL_D + p] + view[3 * p] * y[0] + view[3 * p + 1] * y[1] + view[3 * p + 2] * y[2]
     count = 4
     for k in range(3):
-        if k == i:
-            continue
-        low, high = math.inf, -math.inf
-        for q in range(4):
-            if mine:
-                _corner(corners, edges, i, side, q, y)
-            else:
-                _corner(others, other_edges, i, side, q, y)
-            low = min(low, y[k])
-            high = max(high, y[k])
-        count = _clip(count, found, k, 1.0, high + OVERHANG, spare)
-        count = _clip(count, spare, k, -1.0, OVERHANG - low, found)
-    level = own[i] if mine else half[i]
+        if k != i:
+            count = _clip(count, found, k, 1.0, bed[k] + OVERHANG, spare)
+            count = _clip(count, spare, k, -1.0, bed[k] + OVERHANG, found)
     for q in range(count):
         a0, a1, a2 = found[q, 0], found[q, 1], found[q, 2]
-        found[q, 3] = side * found[q, i] - level
+        found[q, 3] = side * found[q, i] - bed[i]
         if mine:
             for p in range(3):
                 found[q, p] = rel[REL_D + p] + rel[3 * p] * a0 + rel[3 * p + 1] * a1 + rel[3 * p + 2] * a2

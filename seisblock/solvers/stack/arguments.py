@@ -20,8 +20,9 @@ class PileLayout(NamedTuple):
         Joints between boxes: integers, constants, and points on the carrier's face.
     pairs, pair_constants : (p, 2), (p, 8) arrays
         Boxes that may meet, and the constants of one of their corners.
-    corners, counts, edges : (b, 16, 3), (b,), (b, 12, 2) arrays
-        Corners of each box, how many, and the pairs of corners that make its edges.
+    corners, counts, edges : (b, 16, 7), (b,), (b, 12, 2) arrays
+        Corners of each box, how many, and the pairs of corners that make its edges. Behind the corners stand outward normal and offset,
+        m, of its faces: those between rings of four corners, from below, then the lower and the upper one.
     boxes, owner : (b, 6), (b,) arrays
         Half sizes and places of the boxes, and the bodies they belong to; the ground last.
     cores, rims : (b, 3), (b, 4, 2) arrays, m

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
-from seisblock.solvers.stack.apart import EDGES, FACE, KIND, MOST_POINTS, cross, furthest, overlap
+from seisblock.solvers.stack.apart import EDGES, FACE, KIND
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import CLINGS, ENTERED, OUTSIDE, PLACE, REBOUND, REL_D, REL_W, SLOT
 from seisblock.solvers.stack.frames import relative
+from seisblock.solvers.stack.hull_pairs import bevel_meets, edges_cross, faces_overlap, gap_between, most_points
 from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, STANDS
 from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
 from seisblock.solvers.stack.remember import TURNED, gather, keep, left, put, recall, share_out
@@ -85,28 +86,27 @@ def _meet_ground(count, pair, rel, far, bodies, dt, pile, memory):
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, _t.float64, MATRIX, _t.float64, LAYOUT, MEMORY))
 def _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory):
     """Make rows of the points where two boxes may touch; return how many rows there are then."""
-    cores, corners, counts, edges, work = pile.cores, pile.corners, pile.counts, pile.edges, memory.work
-    c, p, k = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair]
-    slots, before, axis, found = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], work[22], work[4:13]
-    keep(MOST_POINTS, slots, before)
-    gap = furthest(rel, cores[c], corners[c], counts[c], cores[p], corners[p], counts[p], far, axis)
+    c, p, k, work = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.work
+    slots, before, axis, found = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], work[29], work[4:20]
+    at, most = 0, most_points(c, p, pile)
+    keep(most, slots, before)
+    gap = gap_between(rel, c, p, far, pile, work, axis)
     if gap > far:
         return count
-    at = 0
     if axis[KIND] >= EDGES:
-        if cross(rel, cores[c], cores[p], axis, found[0]):
+        if edges_cross(rel, c, p, pile, axis, work, found[0]):
             put(slots[0], found[0, 0], found[0, 1], found[0, 2], axis)
-            recall(slots[0], before, MOST_POINTS)
+            recall(slots[0], before, most)
             entered = enter(count, c, p, slots[0], gap, far, k, bodies, dt, pile, memory)
             count = note(count, entered, MEETINGS, pair, 0, 0, slots[0], memory.who)
         at = 1
-    points = overlap(rel, cores[c], corners[c], edges[c], cores[p], corners[p], edges[p], axis[FACE:], work[1], found, work[13:22])
+    points = faces_overlap(rel, c, p, pile, axis, work, far, found, work[20:29])
     for i in range(points):
         if at == 1 and found[i, 3] < 0.0:  # where edges cross, a face says only what may yet come to lie on it
             continue
         slot = slots[at + i]
         put(slot, found[i, 0], found[i, 1], found[i, 2], axis[FACE:])
-        recall(slot, before, MOST_POINTS)
+        recall(slot, before, most)
         entered = enter(count, c, p, slot, found[i, 3], far, k, bodies, dt, pile, memory)
         count = note(count, entered, MEETINGS, pair, 0, at + i, slot, memory.who)
     return count
@@ -221,15 +221,15 @@ def _meet(count, pair, bodies, dt, pile, memory):
 @kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
 def _meet_joint(count, j, bodies, dt, pile, memory):
     """Make rows of the points of a joint, and of what hangs over its border."""
-    boxes, work = pile.boxes, memory.work
-    joint, k = pile.joints[j], pile.constants[j]
+    joint, k, boxes, work = pile.joints[j], pile.constants[j], pile.boxes, memory.work
     c, p, rel, total = joint[CARRIER], joint[PARTNER], work[0], work[1]
     relative(c, p, bodies, boxes, pile.owner, work[2:4], rel)
     acts = seated(k[SIGMA], rel, boxes[c], boxes[p])
     total[OUTSIDE] = 0.0
     if acts == 1:
         count = _enter_joint(count, j, rel, bodies, dt, pile, memory)
-    memory.handled[joint[PAIR]] = acts if total[OUTSIDE] == 0.0 else -1
+    leans = acts == 1 and bevel_meets(rel, c, p, k[SIGMA], far_in(rel, boxes[c], dt), pile)
+    memory.handled[joint[PAIR]] = -1 if leans or total[OUTSIDE] > 0.0 else acts
     return count
 
 

@@ -1,0 +1,70 @@
+"""Stones with worn edges fall on, off and over each other, and gain no energy from their bevels."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from seisblock.bodies.inset import Inset
+from seisblock.bodies.pile.pile import Pile
+from seisblock.bodies.pile.stone import PileStone
+from seisblock.records import Motion
+from seisblock.solvers.stack.solve import solve_stack
+from seisblock.units import STANDARD_GRAVITY as G
+from tests.solvers.shaken_piles import shaken
+
+SHARES = (0.05, 0.1, 0.2, 0.3)
+
+
+def worn(pile, share):
+    """Return a pile all of whose stones are worn by a share of their widths."""
+    return replace(pile, stones=tuple(replace(stone, inset=Inset(share=share)) for stone in pile.stones))
+
+
+def created(pile, outcome):
+    """Return the energy that came from nowhere, over the weight of a pile times its height."""
+    free = [stone for stone in pile.stones if stone.name not in pile.fixed]
+    return outcome.created_j / (sum(stone.mass for stone in free) * G * sum(stone.height for stone in free))
+
+
+@pytest.mark.parametrize("seed", [47, 103, 119, 152])
+def test_a_bevel_that_meets_an_edge_creates_no_energy(seed):
+    """Runs that were refused while the normals and edges of bevels were none along which stones stay apart."""
+    pile, shaking = shaken(seed)
+    pile = worn(pile, SHARES[seed % 4])
+    outcome = solve_stack(pile, shaking, law="rigid").outcome
+    assert outcome.overturned_any
+    assert created(pile, outcome) < 1e-4
+
+
+@pytest.mark.slow
+def test_two_hundred_worn_piles_create_no_energy():
+    """At most 1e-4 of its weight times its height in any of them, most of which fall."""
+    fell = []
+    for seed in range(200):
+        pile, shaking = shaken(seed)
+        pile = worn(pile, SHARES[seed % 4])
+        outcome = solve_stack(pile, shaking, law="rigid").outcome
+        assert created(pile, outcome) < 1e-4
+        fell.append(outcome.overturned_any)
+    assert 120 < sum(fell) < 170
+
+
+@pytest.mark.parametrize("seed", [1, 6, 35, 45])
+def test_a_stone_on_a_grid_of_points_leans_on_its_bevel(seed):
+    """Its grid alone held it until it leaned by 45 degrees, when the border above the bevel had long come in."""
+    pile, shaking = shaken(seed)
+    outcome = solve_stack(pile, shaking, law="rigid", points=5).outcome
+    assert created(pile, outcome) < 1e-4
+
+
+@pytest.mark.parametrize("push", [38.0, 42.0, 45.0])
+def test_a_slab_that_rocks_on_flat_bevels_lands_on_all_its_corners(push):
+    """Pushed along its diagonal it leans on the edge between two bevels, and comes down on both of them and on its base at once."""
+    time = np.arange(0.0, 3.0, 0.005)
+    along = np.where(time < 0.25, push * np.sin(2.0 * np.pi * time / 0.25), 0.0)
+    stones = PileStone("base", 1.5, 1.5, 0.3), PileStone("slab", 0.6, 0.6, 0.12, on="base", inset=Inset(share=0.3))
+    pile = Pile("slab on a base", stones, mu=3.0, fixed=("base",))
+    outcome = solve_stack(pile, Motion(np.array([along, along, 0.0 * along]), 0.005), law="rigid").outcome
+    assert outcome.max_tilt_rad["slab"] > 0.14
+    assert created(pile, outcome) < 1e-4
