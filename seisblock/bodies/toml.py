@@ -44,9 +44,13 @@ def read_table(name: str | Path) -> dict[str, Any]:
     if path.is_dir():
         raise BodyError("{name} is a directory: give a TOML file that describes a body", name=name)
     data = contents(path, str(name), BodyError)
+    if not data.strip():
+        raise BodyError("{name} is empty: give a TOML file that describes a body", name=name)
     try:
         table = tomllib.loads(data.decode("utf-8-sig"))
-    except (ValueError, RecursionError) as error:  # no UTF-8, no TOML, a date that is none, lists in lists in lists
+    except UnicodeDecodeError as error:
+        raise BodyError("{name} is no text in UTF-8: give a TOML file that describes a body, saved as UTF-8", name=name) from error
+    except (ValueError, RecursionError) as error:  # no TOML, a date that is none, lists in lists in lists
         raise BodyError("{name} is not a TOML description of a body: {reason}", name=str(name), reason=str(error)) from error
     return {**table, "source": str(name)}
 

@@ -87,9 +87,9 @@ def test_a_file_does_not_name_itself(tmp_path):
         load_block(path)
 
 
-@pytest.mark.parametrize("text", ["a = " + "[" * 5000, "a = 2020-13-45", "\udcff"], ids=["nested", "date", "bytes"])
+@pytest.mark.parametrize("text", ["a = " + "[" * 5000, "a = 2020-13-45"], ids=["nested", "date"])
 def test_no_toml(text, tmp_path):
-    """Lists in lists in lists, a date that is none, bytes that are no text."""
+    """Lists in lists in lists, a date that is none."""
     path = tmp_path / "body.toml"
     path.write_bytes(text.encode("utf-8", "surrogateescape"))
     with pytest.raises(BodyError, match="is not a TOML description"):
@@ -121,3 +121,21 @@ def test_a_pile_of_thousands_is_refused_at_once(tmp_path):
     with pytest.raises(BodyError, match="5000 stones of a pile, and 200 are allowed"):
         load_pile(path)
     assert time.process_time() - start < 5.0
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (b"", "is empty: give a TOML file"),
+        (b"\n  \n", "is empty: give a TOML file"),
+        ('kind = "pile"\nname = "墓石"\n'.encode("shift_jis"), "is no text in UTF-8: .* saved as UTF-8"),
+        (bytes(range(128, 256)), "is no text in UTF-8"),
+    ],
+)
+def test_a_file_without_text_is_said_to_be_one(tmp_path, content, reason):
+    """Neither an empty file nor one saved in another encoding is told in words of the decoder."""
+    path = tmp_path / "body.toml"
+    path.write_bytes(content)
+    with pytest.raises(BodyError, match=reason) as found:
+        load_pile(path)
+    assert "codec" not in str(found.value)
