@@ -2,7 +2,7 @@
 
 With the paper's friction of 0.438 nothing below H/B 2.75 falls: sao and jodai slide as one before they turn. Where they cannot slide,
 a(f) of the pile is 1440, 1430 and 1734 gal at 0.5, 1 and 1.5 Hz: 5, 2 and 8 % above (10) with p = 1362.9 gal, which two verdicts of
-table 5 ask for, and 19 % and more above the printed 1162.9; at 2, 2.5 and 3 Hz 3216, 4329 and 4638, or 51, 42 and 7 % above the
+table 5 ask for, and 19 % and more above the printed 1162.9; at 2, 2.5 and 3 Hz 3216, 4290 and 4832, or 51, 41 and 12 % above the
 mended one. There stones fall after several impacts, and one body of sao and jodai loses more at each than the sao alone: angular
 momentum leaves 0.73 of its turning at H/B 2.6, of the sao's 0.87. The paper has the same rise with frequency in both; with 0.95
 left the composite has 1401, 1428, 1447, 1724, 3258 and 4372 gal for 1365, 1406, 1612, 2136, 3039, 4315.
