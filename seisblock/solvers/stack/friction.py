@@ -43,7 +43,7 @@ from seisblock.solvers.stack.sweeps import PRECISION, settle, settle_surely
 _t = types()
 
 NOTICED = 3e-3
-"""Speed, over that of a free fall of a step, beyond which a point slides; sweeps end below a third of it."""
+"""Speed, over that of a free fall of a step, beyond which a point slides; sweeps end below a sixth of it."""
 
 SATURATED = 1.0 - 1e-6
 """Part of what friction can do that it does where a point slides."""

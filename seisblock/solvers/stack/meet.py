@@ -12,7 +12,7 @@ from seisblock.solvers.stack.hull_pairs import bevel_meets, edges_cross, faces_o
 from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, STANDS
 from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
 from seisblock.solvers.stack.remember import TURNED, gather, keep, left, put, recall, share_out
-from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, pressed_side, roll
+from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, pressed_sides, roll
 from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
 from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
 
@@ -121,7 +121,7 @@ def _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory):
     for i in range(3):
         axis[i] = 1.0 if i == 2 else 0.0
         axes[0, i] = rel[3 * i + 2]
-    pressed_side(slots, rel, pile.boxes[c, 0], axes[1])
+    pressed_sides(slots, rel, pile.boxes[c, 0], axes[1])
     sine = lowest(0.0, 0.0, 1.0, axes)
     for i in range(RIMS):
         radius, height = pile.rims[c, i, RADIUS], pile.rims[c, i, HEIGHT]
@@ -157,7 +157,7 @@ def _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory):
     """
     c, p, k, work = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.work
     slots, before, axes, axis, found = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], work[7:11], work[19], work[20:]
-    pressed_side(slots, rel, min(pile.boxes[c, 0], pile.boxes[p, 0]), axis[4:])
+    pressed_sides(slots, rel, min(pile.boxes[c, 0], pile.boxes[p, 0]), axis[4:])
     points = shared_points(c, p, rel, pile, axis, work[4:19], found)
     if memory.handled[pair] == BOXES:
         for i in range(points):

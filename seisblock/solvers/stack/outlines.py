@@ -105,10 +105,10 @@ def _points(count, side, view, under, upon, work, found):
 
     Parameters
     ----------
-    work : (6, 18) array
-        The four axes of :func:`lowest`, and scratch.
+    work : (7, 18) array
+        The four axes of :func:`lowest`, two rows of scratch, and the direction of the first point of the rim below, x and y.
     """
-    u, y, normal = work[2], work[4], work[5]
+    y, normal = work[4], work[5]
     normal[0], normal[1], normal[2] = 0.0, 0.0, side
     for q in range(4):
         direction, across = work[2 + q % 2], upon[0] if q < 2 else -upon[0]
@@ -122,11 +122,11 @@ def _points(count, side, view, under, upon, work, found):
             count = _keep(count, side * (y[2] - under[3]), y, normal, is_lowest, found)
     for i in range(3):
         normal[i] = view[3 * i + 2] if side * view[8] > 0.0 else -view[3 * i + 2]
-    flat = math.sqrt(u[0] * u[0] + u[1] * u[1])
+    e0, e1 = work[6, 0], work[6, 1]
     for q in range(4):
         e, f = (1.0 if q == 0 else -1.0 if q == 2 else 0.0), (1.0 if q == 1 else -1.0 if q == 3 else 0.0)
         if under[0] > 0.0:
-            y[0], y[1] = under[0] * (e * u[0] - f * u[1]) / flat, under[0] * (e * u[1] + f * u[0]) / flat
+            y[0], y[1] = under[0] * (e * e0 - f * e1), under[0] * (e * e1 + f * e0)
         else:
             y[0], y[1] = (under[1] if q == 0 or q == 3 else -under[1]), (under[2] if q < 2 else -under[2])
         y[2] = _lifted(y[0], y[1], view, upon[3])
@@ -228,9 +228,9 @@ def shared_points(c, p, rel, pile, axis, work, found):
     c, p : int
         The carrier and the partner.
     rel : (18,) array
-    axis : (8,) array
+    axis : (10,) array
         The normal of the face that shows most, out of the partner, in its axes, and 1 behind it where it is that of the carrier's; and from
-        the fifth on the direction to take where there is no lean.
+        the fifth on the directions to take where there is no lean, of the carrier's rim (3) and of the partner's (3).
     work : (15, 18) array
         Scratch: the view, both outlines, the four axes of :func:`lowest`, and eight rows more.
     found : (16, 18) array
@@ -256,10 +256,16 @@ def shared_points(c, p, rel, pile, axis, work, found):
             view[i] = rel[i]
     for i in range(3):
         axes[0, i] = view[3 * i + 2]
-        axes[1, i] = rel[i] * axis[4] + rel[3 + i] * axis[5] + rel[6 + i] * axis[6] if flipped else axis[4 + i]
         axis[i] = -side * rel[3 * i + 2] if flipped else (side if i == 2 else 0.0)
     axis[3] = 1.0 if flipped else 0.0
-    lowest(0.0, 0.0, side, axes)
+    above, below, first = (axis[7:], axis[4:], axes[6]) if flipped else (axis[4:], axis[7:], axes[6])
+    for i in range(3):
+        axes[1, i] = rel[i] * above[0] + rel[3 + i] * above[1] + rel[6 + i] * above[2] if flipped else above[i]
+        first[i] = rel[i] * below[0] + rel[3 + i] * below[1] + rel[6 + i] * below[2] if flipped else below[i]
+    if lowest(0.0, 0.0, side, axes) > 0.0:
+        first[0], first[1] = axes[2, 0], axes[2, 1]
+    size = math.sqrt(first[0] * first[0] + first[1] * first[1])
+    first[0], first[1] = first[0] / size, first[1] / size
     count = _points(0, side, view, under, upon, axes, found)
     if under[0] > 0.0 and upon[0] > 0.0:
         count = _cross_rims(count, side, view, under, upon, axes, found)

@@ -68,8 +68,11 @@ def lowest(n0, n1, n2, axes):
 
 
 @kernel(_t.void(MATRIX, VECTOR, _t.float64, VECTOR))
-def pressed_side(slots, rel, radius, x):
-    """Write the direction, seen from the carrier's centre, in which the forces of the last step pressed on it; its own x if in none."""
+def pressed_sides(slots, rel, radius, x):
+    """Write the directions, seen from the carrier's axis and from the partner's, in which the forces of the last step pressed.
+
+    The carrier's is its own x if in none, and the partner's then the carrier's.
+    """
     p0, p1, p2, whole = 0.0, 0.0, 0.0, 0.0
     for i in range(slots.shape[0]):
         slot = slots[i]
@@ -79,13 +82,16 @@ def pressed_side(slots, rel, radius, x):
             p0 += press * (slot[PLACE] - rel[REL_D])
             p1 += press * (slot[PLACE + 1] - rel[REL_D + 1])
             p2 += press * (slot[PLACE + 2] - rel[REL_D + 2])
+    if whole != 0.0:
+        p0, p1, p2 = p0 / whole, p1 / whole, p2 / whole
+    away = (CENTRED * radius) ** 2
+    x[3], x[4], x[5] = rel[REL_D] + p0, rel[REL_D + 1] + p1, 0.0
     along = p0 * rel[2] + p1 * rel[5] + p2 * rel[8]
-    p0, p1, p2 = p0 - along * rel[2], p1 - along * rel[5], p2 - along * rel[8]
-    centred = p0 * p0 + p1 * p1 + p2 * p2 <= (CENTRED * radius * whole) ** 2
-    side = math.copysign(1.0, whole)
-    x[0] = rel[0] if centred else side * p0
-    x[1] = rel[3] if centred else side * p1
-    x[2] = rel[6] if centred else side * p2
+    x[0], x[1], x[2] = p0 - along * rel[2], p1 - along * rel[5], p2 - along * rel[8]
+    if x[0] * x[0] + x[1] * x[1] + x[2] * x[2] <= away:
+        x[0], x[1], x[2] = rel[0], rel[3], rel[6]
+    if whole == 0.0 or x[3] * x[3] + x[4] * x[4] <= away:
+        x[3], x[4], x[5] = x[0], x[1], 0.0
 
 
 @kernel(_t.void(VECTOR, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, MATRIX, VECTOR, _t.float64, VECTOR))

@@ -42,15 +42,13 @@ from seisblock.solvers.stack.impulse import (
 
 _t = types()
 
-SWEEPS = 200
-PRECISION = 1e-3
+SWEEPS = 1000
+PRECISION = 5e-4
 """Most sweeps of a step; and the change of a velocity in a sweep, over that of a free fall in a step, at which they end."""
 
-UNSETTLED = 10.0
-"""Change of a velocity in the last sweep, over that at which they end, from which they have not come to rest."""
-
-PATIENCE = 5
-"""How many times as many sweeps may look for impulses of the least energy."""
+UNSETTLED, RUNAWAY = 10.0, 1e6
+"""Change of a velocity in the last sweep, over that at which they end, from which they have not come to rest; and in any sweep, over that in
+the first one, from which they never will."""
 
 AIMS = 3
 """How often the direction of sliding is corrected at a point before the next one's turn."""
@@ -187,7 +185,7 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
     speeds : (m + 1, 15) array
         Velocities and spins with the impulses to start from; on return, with those that were found.
     """
-    before, worst = 0.0, 0.0
+    before, worst, most = 0.0, 0.0, math.inf
     _keep(n, ground, table, speeds, False)
     for sweep in range(SWEEPS):
         worst = 0.0
@@ -198,6 +196,10 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
             worst = max(worst, _relax(who[i, 0], who[i, 1], ground, inert, row, False, speeds))
         if worst < tolerance:
             return sweep + 1
+        if sweep == 0:
+            most = RUNAWAY * worst
+        elif worst > most:
+            break
         size = 0.0
         for i in range(n):
             row = table[i]
@@ -233,13 +235,13 @@ def _settle_least(n, who, table, ground, inert, tolerance, speeds):
     for i in range(n):
         for k in range(3):
             table[i, IMPULSE + k] = 0.0
-    for sweep in range(PATIENCE * SWEEPS):
+    for sweep in range(SWEEPS):
         worst = 0.0
         for i in range(n):
             worst = max(worst, _relax(who[i, 0], who[i, 1], ground, inert, table[i], True, speeds))
         if worst < tolerance:
             return sweep + 1
-    return PATIENCE * SWEEPS
+    return SWEEPS
 
 
 @kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
