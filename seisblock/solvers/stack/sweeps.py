@@ -47,8 +47,8 @@ PRECISION = 5e-4
 """Most sweeps of a step; and the change of a velocity in a sweep, over that of a free fall in a step, at which they end."""
 
 UNSETTLED, RUNAWAY = 10.0, 1e6
-"""Change of a velocity in the last sweep, over that at which they end, from which they have not come to rest; and in any sweep, over that in
-the first one, from which they never will."""
+"""Change of a velocity in the last sweep, over that at which they end, from which they have not come to rest; and in any sweep, over that
+in the first one, from which they never will."""
 
 AIMS = 3
 """How often the direction of sliding is corrected at a point before the next one's turn."""
