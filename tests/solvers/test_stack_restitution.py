@@ -29,3 +29,27 @@ def test_each_impact_leaves_the_ratio_that_was_given(ratio):
         np.testing.assert_allclose(np.array(speeds[1:]) / speeds[:-1], ratio, atol=0.02)
         rocks_on = tilt[found.time > 2.0].max(initial=0.0) > 0.02 * alpha
         assert rocks_on or leans[-1] * ratio**2 < 0.04 * alpha
+
+
+def shaking(dice, peak, seconds=20.0, dt=0.01):
+    """Return noise about 1.5 Hz along three axes, m/s^2, the vertical half of it."""
+    count = round(seconds / dt)
+    hertz = np.fft.rfftfreq(count, dt)
+    rows = np.fft.irfft(np.fft.rfft(dice.normal(size=(3, count))) * (hertz > 0.3) * np.exp(-((hertz / 2.5) ** 2)), count)
+    return Motion(peak * np.array([[1.0], [1.0], [0.5]]) * rows / np.abs(rows).max(axis=1, keepdims=True), dt)
+
+
+def test_a_ratio_that_was_given_creates_no_energy():
+    """Newton's law across a joint and friction may: 1.6e-3 of its weight times its height at any step, for which a pile was refused."""
+    dice, fell = np.random.default_rng(6), 0
+    for _ in range(24):
+        width = dice.uniform(0.3, 0.9)
+        depth = width * dice.uniform(0.6, 1.4)
+        tall = [width * dice.uniform(0.5, 1.2), width * dice.uniform(1.0, 2.5)]
+        stones = (PileStone("low", width, depth, tall[0]), PileStone("high", 0.9 * width, 0.9 * depth, tall[1], on="low"))
+        pile, ratio = Pile("two", stones, mu=dice.uniform(0.8, 1.5)), dice.uniform(0.3, 0.9)
+        response = solve_stack(pile, shaking(dice, 2.0 * min(width, depth) / sum(tall) * G), restitution=ratio)
+        assert not response.warnings
+        assert response.outcome.created_j < 1e-4 * sum(stone.mass for stone in stones) * G * sum(tall)
+        fell += response.outcome.overturned_any
+    assert fell >= 6

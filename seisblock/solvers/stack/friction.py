@@ -172,8 +172,8 @@ def _judge(count, struck, memory):
 
 
 @kernel(_t.float64(_t.int64, _t.int64, LAYOUT, MEMORY))
-def _work(count, n, pile, memory):
-    """Return the work of a step's impulses, J: against the mean of the velocities without and with them."""
+def work_done(count, n, pile, memory):
+    """Return the work of the impulses in the rows, J: against the mean of the velocities without and with them."""
     press(count, memory.who, memory.table, n, pile.inert, -0.5, memory.speeds)
     work = 0.0
     for i in range(count):
@@ -206,7 +206,7 @@ def settle_slips(count, n, struck, pile, memory):
         sweeps = settle(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
         if sweeps == 0 or turn == TRIES - 1 or not _judge(count, struck, memory):
             break
-    if sweeps == 0 or (_shifted(count, memory) and _work(count, n, pile, memory) > 0.0):
+    if sweeps == 0 or (_shifted(count, memory) and work_done(count, n, pile, memory) > 0.0):
         for i in range(count):
             lay_plainly(memory.table[i])
         sweeps = settle_surely(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)

@@ -13,12 +13,12 @@ from seisblock.dynamics.arrays import MATRIX
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
-from seisblock.solvers.stack.friction import NOTICED, along_face, lay_cones, look_back, settle_slips
+from seisblock.solvers.stack.friction import NOTICED, along_face, lay_cones, look_back, settle_slips, work_done
 from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, GIVEN, IMPULSE, VEERING, press
 from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
 from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
-from seisblock.solvers.stack.strike import at_impact, lay_floors, soonest, strikes, until_impact
+from seisblock.solvers.stack.strike import at_impact, lay_floors, let_go, soonest, strikes, until_impact
 from seisblock.solvers.stack.sweeps import PRECISION, settle_surely
 
 _t = types()
@@ -110,12 +110,17 @@ def _go_on(count, n, time, a0, a1, a2, pile, memory):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.float64, LAYOUT, MEMORY))
 def _strike(count, n, before, pile, memory):
-    """Let points strike: what the forces gave until then and what the impact gives becomes the impulse given."""
+    """Let points strike: what the forces gave until then and what the impact gives becomes the impulse given.
+
+    A given ratio of velocities across a joint and friction may together give energy; such an impact is plastic.
+    """
     table, tolerance = memory.table, PRECISION * memory.pace[FALL]
     until_impact(count, before, memory)
     settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
     at_impact(count, memory)
     settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+    if work_done(count, n, pile, memory) > 0.0 and let_go(count, memory):
+        settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
     look_back(count, True, memory)
     for i in range(count):
         force = 1.0 / before if before > 0.0 else 0.0

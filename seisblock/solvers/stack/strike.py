@@ -115,6 +115,19 @@ def at_impact(count, memory):
                 other[HELD] = 1.0
 
 
+@kernel(_t.boolean(_t.int64, MEMORY))
+def let_go(count, memory):
+    """Let no point be held, so that the impact is plastic; return whether one was."""
+    found = False
+    for i in range(count):
+        row = memory.table[i]
+        if row[HELD] > 0.0:
+            row[HELD] = 0.0
+            row[FLOOR] = 0.0
+            found = True
+    return found
+
+
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64), inline=True)
 def _closing(gap, rate, gain):
     """Return when a gap that opens at a rate, which grows by a gain, will have closed, s."""

@@ -13,7 +13,8 @@ never add any ([TasoraAnitescu2011]_). What slides in such a step is pushed away
 
 Restitution. An impact is plastic at the points that strike; those that leave are free. One block on its edges then turns about the far
 edge with what angular momentum about it leaves, Housner's ratio. Where a joint is given a ratio of its own, its points that leave do so
-with that part of the velocity with which the points opposite them strike: Newton's law across the joint.
+with that part of the velocity with which the points opposite them strike: Newton's law across the joint. Where that and friction together
+would give energy, the impact is plastic.
 """
 
 from __future__ import annotations
