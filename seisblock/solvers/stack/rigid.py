@@ -117,9 +117,10 @@ def _strike(count, n, before, pile, memory):
     table, tolerance = memory.table, PRECISION * memory.pace[FALL]
     until_impact(count, before, memory)
     settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
-    at_impact(count, memory)
+    held = at_impact(count, memory)
     settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
-    if work_done(count, n, pile, memory) > 0.0 and let_go(count, memory):
+    if held and work_done(count, n, pile, memory) > 0.0:
+        let_go(count, memory)
         settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
     look_back(count, True, memory)
     for i in range(count):

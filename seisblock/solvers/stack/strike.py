@@ -96,9 +96,10 @@ def until_impact(count, before, memory):
             row[SWERVE + k] = 0.0
 
 
-@kernel(_t.void(_t.int64, MEMORY))
+@kernel(_t.boolean(_t.int64, MEMORY))
 def at_impact(count, memory):
-    """Note what was given until the impact, and let what stands opposite of what strikes leave with its part."""
+    """Note what was given until the impact, and let what stands opposite of what strikes leave with its part; return whether any does."""
+    held = False
     strikes(count, memory)
     for i in range(count):
         row = memory.table[i]
@@ -113,19 +114,18 @@ def at_impact(count, memory):
             if other[FLOOR] > -math.inf:
                 other[FLOOR] = -row[BOUNCE] * row[RATE]
                 other[HELD] = 1.0
+                held = True
+    return held
 
 
-@kernel(_t.boolean(_t.int64, MEMORY))
+@kernel(_t.void(_t.int64, MEMORY))
 def let_go(count, memory):
-    """Let no point be held, so that the impact is plastic; return whether one was."""
-    found = False
+    """Let no point be held, so that the impact is plastic."""
     for i in range(count):
         row = memory.table[i]
         if row[HELD] > 0.0:
             row[HELD] = 0.0
             row[FLOOR] = 0.0
-            found = True
-    return found
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64), inline=True)
