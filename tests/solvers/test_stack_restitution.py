@@ -12,7 +12,7 @@ from seisblock.solvers.stack.solve import solve_stack
 from seisblock.units import STANDARD_GRAVITY as G
 
 
-@pytest.mark.parametrize("ratio", [0.5, 0.8, 0.95])
+@pytest.mark.parametrize("ratio", [0.5, 0.8, 0.95, 1.0])
 def test_each_impact_leaves_the_ratio_that_was_given(ratio):
     """Twenty blocks of any size: a third stopped dead at one impact or other, held by the corners that had left."""
     dice = np.random.default_rng(1)

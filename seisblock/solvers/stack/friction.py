@@ -171,15 +171,19 @@ def _judge(count, struck, memory):
     return again
 
 
-@kernel(_t.float64(_t.int64, _t.int64, LAYOUT, MEMORY))
-def work_done(count, n, pile, memory):
-    """Return the work of the impulses in the rows, J: against the mean of the velocities without and with them."""
+@kernel(_t.float64(_t.int64, _t.int64, _t.float64, LAYOUT, MEMORY))
+def work_done(count, n, tolerance, pile, memory):
+    """Return the work of the impulses in the rows, J, at least: against the mean of the velocities without and with them.
+
+    Velocities are known to a tolerance, m/s: an impact that keeps its energy does not give any.
+    """
     press(count, memory.who, memory.table, n, pile.inert, -0.5, memory.speeds)
     work = 0.0
     for i in range(count):
         row = memory.table[i]
         u0, u1, u2 = parting(memory.who[i, 0], memory.who[i, 1], row, memory.speeds)
-        work += row[IMPULSE] * u0 + row[IMPULSE + 1] * u1 + row[IMPULSE + 2] * u2
+        p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
+        work += p0 * u0 + p1 * u1 + p2 * u2 - tolerance * math.sqrt(p0 * p0 + p1 * p1 + p2 * p2)
     press(count, memory.who, memory.table, n, pile.inert, 0.5, memory.speeds)
     return work
 
@@ -206,7 +210,7 @@ def settle_slips(count, n, struck, pile, memory):
         sweeps = settle(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
         if sweeps == 0 or turn == TRIES - 1 or not _judge(count, struck, memory):
             break
-    if sweeps == 0 or (_shifted(count, memory) and work_done(count, n, pile, memory) > 0.0):
+    if sweeps == 0 or (_shifted(count, memory) and work_done(count, n, 0.0, pile, memory) > 0.0):
         for i in range(count):
             lay_plainly(memory.table[i])
         sweeps = settle_surely(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)

@@ -19,7 +19,7 @@ from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
 from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
 from seisblock.solvers.stack.strike import at_impact, lay_floors, let_go, soonest, strikes, until_impact
-from seisblock.solvers.stack.sweeps import PRECISION, settle_surely
+from seisblock.solvers.stack.sweeps import PRECISION, UNSETTLED, settle_surely
 
 _t = types()
 
@@ -119,7 +119,7 @@ def _strike(count, n, before, pile, memory):
     settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
     held = at_impact(count, memory)
     settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
-    if held and work_done(count, n, pile, memory) > 0.0:
+    if held and work_done(count, n, UNSETTLED * tolerance, pile, memory) > 0.0:
         let_go(count, memory)
         settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
     look_back(count, True, memory)
