@@ -74,6 +74,21 @@ def positive(what: str, value: Any, /, unit: str = "", *, error: Refusal = Param
     return _in_range(what, number, unit, error, names, least=SMALLEST)
 
 
+def nonzero(what: str, value: Any, /, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
+    """Return a finite number that is not zero; parameters as for :func:`finite`.
+
+    Examples
+    --------
+    >>> nonzero("the scale factor", 0)
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: the scale factor must not be zero
+    """
+    number = finite(what, value, unit, error=error, **names)
+    if number == 0.0:
+        raise error("{what} must not be zero", what=said(what, **names))
+    return _in_range(what, number, unit, error, names, least=SMALLEST)
+
+
 def not_negative(what: str, value: Any, /, unit: str = "", *, error: Refusal = ParameterError, **names: Any) -> float:
     """Return a finite number that is zero or more; parameters as for :func:`finite`."""
     number = _number(what, value, error, names)
@@ -116,6 +131,20 @@ def fraction(what: str, value: Any, /, *, error: Refusal = ParameterError, **nam
 def gravity(value: Any) -> float:
     """Return an acceleration of gravity, m/s^2: positive."""
     return positive("gravity", value, "m/s^2")
+
+
+def azimuth(value: Any, /, *, error: Refusal = ParameterError) -> float:
+    """Return a direction within a turn either way, degrees; parameters as for :func:`finite`.
+
+    Examples
+    --------
+    >>> azimuth(-90)
+    -90.0
+    >>> azimuth(1e300)
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: the azimuth must lie in [-360, 360], found 1e+300 degrees
+    """
+    return within("the azimuth", value, "[-360, 360]", "degrees", error=error)
 
 
 def instance(value: Any, kind: type[Kind]) -> Kind:
@@ -221,7 +250,7 @@ def _number(what: str, value: Any, error: Refusal, names: dict[str, Any]) -> flo
 
 def _in_range(what: str, number: float, unit: str, error: Refusal, names: dict[str, Any], *, least: float = 0.0) -> float:
     """Return a number of which squares and cubes can be taken."""
-    if abs(number) > LARGEST or 0.0 < number < least:
+    if abs(number) > LARGEST or 0.0 < abs(number) < least:
         what = said(what, **names)
         text = said("{what} lies outside all that can be computed with, found {found}", what=what, found=_found(number, unit))
         raise error(text)

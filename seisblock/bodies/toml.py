@@ -19,13 +19,15 @@ LONGEST_SHOWN = 200
 """How much of what stands in a file a message shows at most."""
 
 
-def read_table(name: str | Path) -> dict[str, Any]:
+def read_table(name: str | Path, *, kind: str | None = None) -> dict[str, Any]:
     """Return the TOML table of a body, from a path or the name of a bundled body.
 
     Parameters
     ----------
     name : str or Path
         A file, or for example ``chozusha``.
+    kind : str or None
+        What kind is wanted: where there is no such file, no bundled body of another kind is offered.
 
     Raises
     ------
@@ -36,7 +38,7 @@ def read_table(name: str | Path) -> dict[str, Any]:
     if not _is_there(path):
         bundled = sample_directory() / (path.name if path.suffix == ".toml" else f"{path.name}.toml")
         if path.parent != Path() or not _is_there(bundled):
-            known = sorted(p.stem for p in sample_directory().glob("*.toml") if p.stem != "MANIFEST")
+            known = sorted(p.stem for p in sample_directory().glob("*.toml") if p.stem != "MANIFEST" and kind in (None, _kind(p)))
             raise BodyError(
                 "no body file {name}, and no bundled body of that name; bundled are {known}", name=str(name)[:LONGEST_SHOWN], known=known
             )
@@ -53,6 +55,11 @@ def read_table(name: str | Path) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:  # no TOML, a date that is none, lists in lists in lists
         raise BodyError("{name} is not a TOML description of a body: {reason}", name=str(name), reason=str(error)) from error
     return {**table, "source": str(name)}
+
+
+def _kind(path: Path) -> str:
+    """Return the kind of a bundled body."""
+    return str(tomllib.loads(path.read_text(encoding="utf-8"))["kind"])
 
 
 def _is_there(path: Path) -> bool:

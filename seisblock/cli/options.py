@@ -57,12 +57,15 @@ def checked(check: Callable[[str, float], float]) -> Callable[[click.Context, cl
     return refuse
 
 
-_positive, _finite = checked(checks.positive), checked(checks.finite)
+_positive, _nonzero = checked(checks.positive), checked(checks.nonzero)
 
 
 def _components(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...]:
-    """Accept the option repeated, and lists with commas."""
-    return tuple(part.strip() for text in value for part in text.split(",") if part.strip())
+    """Accept the option repeated, and lists with commas; a list of nothing is refused."""
+    names = [[part.strip() for part in text.split(",") if part.strip()] for text in value]
+    if not all(names):
+        raise click.BadParameter(tell("it is empty: name a component, or degrees clockwise from north"), ctx, param)
+    return tuple(name for each in names for name in each)
 
 
 def _record(told: str) -> Callable[[Function], Function]:
@@ -83,7 +86,7 @@ _RECORD_OPTIONS = (
         section="Record",
         help="Component, or azimuth in degrees clockwise from north; may be repeated. [default: all that apply]",
     ),
-    option("--scale", type=float, callback=_finite, section="Record", help="Factor on all components. [default: 1]"),
+    option("--scale", type=float, callback=_nonzero, section="Record", help="Factor on all components. [default: 1]"),
     option(
         "--target-pga",
         type=float,

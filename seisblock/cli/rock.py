@@ -151,7 +151,7 @@ def along(source: Source, azimuth: tuple[str, ...]) -> Source:
     """Return the record options with azimuths taken for components."""
     if not azimuth:
         return source
-    names = tuple(part.strip() for text in azimuth for part in text.split(",") if part.strip())
+    names = tuple(part.strip() for text in azimuth for part in text.split(","))
     for name in names:
         try:
             float(name)

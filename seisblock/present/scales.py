@@ -17,6 +17,9 @@ SMALL = 0.00995
 LARGE = 9.995
 """Lengths from this on are told in m, m, and to 10 cm in a sentence."""
 
+UNREADABLE = 1e6
+"""Lengths from this on are told as a power of ten, m: nobody counts the digits of 1000 km."""
+
 IN_WORDS = {"mm": 2, "cm": 1, "m": 3}
 IN_TABLES = {"mm": 2, "cm": 2, "m": 4}
 """Decimals of a length, by its unit: in a sentence, and in a table, where one compares."""
@@ -81,10 +84,12 @@ def told_length(length: float, unit: Unit | None = None, *, gal: bool = True) ->
     --------
     >>> told_length(0.2153), told_length(-0.0047), told_length(0.0047, length_unit([0.2], gal=True)), told_length(0.2153, gal=False)
     ('21.5 cm', '-4.70 mm', '0.5 cm', '0.215 m')
-    >>> told_length(118.681)
-    '118.7 m'
+    >>> told_length(118.681), told_length(-3.9e301)
+    ('118.7 m', '-3.9e+301 m')
     """
     size, name = unit or length_unit([length], gal=gal)
+    if abs(length) >= UNREADABLE:
+        return f"{length / size:.3g} {name}"
     decimals = IN_WORDS[name] if abs(length) < LARGE else 1
     return f"{round(length / size, decimals) + 0.0:.{decimals}f} {name}"
 
@@ -96,8 +101,12 @@ def length_cell(length: float | None, unit: Unit) -> str:
     --------
     >>> length_cell(-0.21534, length_unit([-0.21534], gal=True)), length_cell(None, length_unit([], gal=True))
     ('-21.53', '-')
+    >>> length_cell(3.9e301, length_unit([3.9e301], gal=True))
+    '3.9e+301'
     """
     if length is None:
         return "-"
+    if abs(length) >= UNREADABLE:
+        return f"{length / unit.size:.3g}"
     decimals = IN_TABLES[unit.name]
     return f"{round(length / unit.size, decimals) + 0.0:.{decimals}f}"

@@ -205,6 +205,8 @@ def motion_of(record: Record, component: str) -> Motion:
 def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Callable[[slice], FloatArray] | None]:
     """Return the acceleration along a direction and, when known, what makes parts of that 90 degrees counter-clockwise of it."""
     azimuth = _as_azimuth(component)
+    if azimuth is not None and not any(c.code == component for c in record.horizontals):
+        checks.azimuth(azimuth, error=ComponentError)
     recorded = None if azimuth is None else _recorded(record, component, azimuth)
     if azimuth is None or recorded is not None:
         chosen = record.component(component) if recorded is None else recorded

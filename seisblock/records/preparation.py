@@ -57,7 +57,7 @@ class Preparation:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "components", (self.components,) if isinstance(self.components, str) else tuple(self.components))
-        checks.finite("the scale factor", self.scale)
+        checks.nonzero("the scale factor", self.scale)
         if self.highpass_hz is not None:
             checks.positive("the corner of the high-pass", self.highpass_hz, "Hz")
         if self.target_pga is not None:

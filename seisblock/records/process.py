@@ -186,7 +186,7 @@ def pick(record: Record, name: str) -> Component:
         azimuth = float(name)
     except ValueError:
         return record.component(name)  # raises, and lists the codes
-    return towards(record, azimuth)
+    return towards(record, checks.azimuth(azimuth, error=ComponentError))
 
 
 def largest_horizontal(record: Record) -> Component:

@@ -167,8 +167,10 @@ def _comes_to_rest(before: FloatArray, held: float) -> bool:
 
 
 def _of_rows(record: Record) -> Iterator[Doubt]:
-    """Yield the doubts about rows beside each other: one that is still while others shake, one that is a copy of another."""
+    """Yield the doubts about rows beside each other: all that are still, one that is while others shake, one that is a copy of another."""
     shaken = [c for c in record.components if c.acceleration.any()]
+    if not shaken:
+        yield Doubt("held", said("every sample of every component is 0: nothing moves on such ground"))
     for still in (c.code for c in record.components if shaken and c not in shaken):
         yield Doubt("held", said("{component}: every sample is 0 while others shake: a channel that was dead", component=still), still)
     for one, other in combinations(shaken, 2):

@@ -5,6 +5,7 @@ import pytest
 
 from seisblock.errors import ComponentError
 from seisblock.records import Component, Record, motion_of
+from seisblock.records.process import pick
 
 ONE, OTHER = np.array([1.0, -2.0, 3.0]), np.array([0.5, 0.25, -4.0])
 
@@ -13,11 +14,21 @@ def record(*components):
     return Record(tuple(Component(code, row, azimuth_deg=azimuth) for code, row, azimuth in components), 0.01)
 
 
-@pytest.mark.parametrize("asked", ["340", "340.0", "-20", "700"])
+@pytest.mark.parametrize("asked", ["340", "340.0", "-20"])
 def test_one_horizontal_is_enough_for_its_own_azimuth(asked):
     motion = motion_of(record(("340", ONE, 340.0)), asked)
     assert motion.horizontal.tolist() == ONE.tolist()
     assert not motion.transverse.any()
+
+
+@pytest.mark.parametrize("asked", ["700", "-361", "1e300"])
+def test_an_azimuth_beyond_a_turn_is_none(asked):
+    """It is a slip of the hand, or no direction at all: the sine of 1e300 degrees is what rounding leaves of it."""
+    both = record(("NS", ONE, 0.0), ("EW", OTHER, 90.0))
+    for take in (motion_of, pick):
+        with pytest.raises(ComponentError, match=r"the azimuth must lie in \[-360, 360\]"):
+            take(both, asked)
+    assert motion_of(record(("700", ONE, None)), "700").horizontal.tolist() == ONE.tolist()
 
 
 def test_a_horizontal_of_another_name_is_found_by_its_azimuth():

@@ -61,7 +61,7 @@ def load_pile(name: str | Path, *, reinforced: bool = False, mu: float | None = 
     """
     if mu is not None:
         checks.not_negative("friction of the pile {name}", mu, error=BodyError, name=str(name))
-    table = read_table(name)
+    table = read_table(name, kind="pile")
     of_kind(table, "pile")
     source = source_of(table)
     refuse_unknown(table, _PILE_KEYS)

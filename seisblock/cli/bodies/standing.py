@@ -84,7 +84,7 @@ def choose_standing(asked: Mapping[str, Any]) -> StandingChoice:
     chosen = choose_block({**asked, "restitution": None})
     mu, kinetic, origin = asked.get("mu"), asked.get("mu_kinetic"), said("as given")
     body = chosen.body
-    if asked.get("surface"):
+    if asked.get("surface") is not None:
         if mu is not None:
             raise BodyError("give either --mu or --surface, not both")
         found = surface(asked["surface"])

@@ -12,6 +12,9 @@ from seisblock.words import noted, tell
 ROCKS, SLIDES = noted("rocks from {threshold} on{factor}"), noted("slides from {threshold} on{factor}")
 """How a body that kept still would begin to move."""
 
+UNREADABLE = 1e6
+"""Factor from which nobody counts its digits."""
+
 
 def onset(how: str, towards: tuple[float, float], motion: Motion, *, gravity: float, vertical: float = 0.0, gal: bool = True) -> str:
     """Return from which acceleration of the ground a body moves, and how many times the record that is.
@@ -70,11 +73,11 @@ def factor_of(towards: tuple[float, float], motion: Motion, *, gravity: float, v
 
 
 def times(factor: float) -> str:
-    """Return a factor to three digits, whole from 100 on; never as a power of ten.
+    """Return a factor to three digits, whole from 100 on, as a power of ten from a million on.
 
     Examples
     --------
-    >>> times(1.25), times(340.2), times(1053.7)
-    ('1.25', '340', '1054')
+    >>> times(1.25), times(340.2), times(1053.7), times(8.7e300)
+    ('1.25', '340', '1054', '8.7e+300')
     """
-    return f"{factor:.3g}" if factor < 100.0 else f"{factor:.0f}"
+    return f"{factor:.0f}" if 100.0 <= factor < UNREADABLE else f"{factor:.3g}"

@@ -1,0 +1,89 @@
+"""Values of options that nobody can mean: refused in one sentence, in the language asked for."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+
+SHORT = ("synthetic_jma.csv", "--window", "25.5:26.5")
+BLOCK = ("--width", "24cm", "--height", "72cm")
+
+
+def run(*words):
+    """Return exit code, answer and the last line on stderr."""
+    done = CliRunner().invoke(main, words)
+    assert done.exception is None or isinstance(done.exception, SystemExit)
+    return done.exit_code, done.stdout, done.stderr.strip().rpartition("\n")[2]
+
+
+@pytest.mark.parametrize("option", ["--component", "--azimuth"])
+@pytest.mark.parametrize("value", ["1e300", "-361", "700"])
+def test_an_azimuth_beyond_a_turn(option, value):
+    """No direction is looked for in what rounding leaves of a number."""
+    code, answer, said = run("rock", *SHORT, *BLOCK, f"{option}={value}")
+    assert (code, answer) == (3, "") and "the azimuth must lie in [-360, 360], found" in said
+
+
+@pytest.mark.parametrize("value", ["-360", "-90", "0", "360"])
+def test_an_azimuth_within_a_turn(value):
+    """Both ways round."""
+    assert run("rock", *SHORT, *BLOCK, f"--azimuth={value}", "--quiet")[0] == 0
+
+
+@pytest.mark.parametrize("option", ["--component", "--azimuth"])
+@pytest.mark.parametrize("value", ["", ",", "NS,,", " "])
+def test_a_list_of_no_directions(option, value):
+    """An empty variable of a script does not ask for every component."""
+    code, answer, said = run("rock", *SHORT, *BLOCK, f"{option}={value}")
+    if (option, value) == ("--component", "NS,,"):
+        assert code == 0
+    else:
+        assert (code, answer) == (2, "") and option in said
+
+
+def test_a_surface_without_a_name():
+    """It does not stand for the friction of the body."""
+    code, answer, said = run("respond", *SHORT, "--block", "gravestone", "--surface=", "--runs", "0")
+    assert (code, answer) == (3, "") and "no friction is known of ''" in said
+
+
+@pytest.mark.parametrize(
+    ("value", "why"), [("0", "it must not be zero"), ("-0.0", "it must not be zero"), ("1e-300", "it lies outside all")]
+)
+def test_a_scale_that_leaves_no_motion(value, why):
+    """Everything would stand."""
+    code, answer, said = run("slide", *SHORT, "--mu", "0.2", f"--scale={value}")
+    assert (code, answer) == (2, "") and why in said
+    assert "0 であってはなりません" in run("--lang", "ja", "slide", *SHORT, "--mu", "0.2", "--scale=0")[2]
+
+
+def test_a_scale_that_turns_the_record_round():
+    """Is one."""
+    assert run("slide", *SHORT, "--mu", "0.2", "--scale=-1", "--quiet")[0] == 0
+
+
+def test_no_number_of_a_hundred_digits():
+    """Nobody counts them."""
+    slow = run("slide", *SHORT, "--mu", "0.2", "--scale=1e-50", "--quiet", "--component", "NS")[1]
+    assert "slides from 196.1 gal on, 2.1e+49 times this record's" in slow and not re.search(r"\d{15}", slow)
+    smooth = run("slide", *SHORT, "--mu", "0.2", "--mu-kinetic=1e-60", "--quiet", "--component", "NS")[1]
+    assert "e+" in smooth and not re.search(r"\d{15}", smooth)
+
+
+def test_a_pile_that_is_not_there():
+    """Bundled bodies that are no piles are not offered in its place."""
+    code, answer, said = run("stack", "--stones", "missing.toml")
+    assert (code, answer) == (3, "") and said.endswith("bundled are column, lantern, statue, wagata")
+
+
+def test_a_record_of_nothing_but_zeros(tmp_path):
+    """What stands on it says nothing."""
+    path = tmp_path / "still.csv"
+    path.write_text("time,NS (gal),EW (gal),UD (gal)\n" + "".join(f"{i / 100:.2f},0,0,0\n" for i in range(200)))
+    done = CliRunner().invoke(main, ["slide", str(path), "--mu", "0.2"])
+    assert done.exit_code == 0 and "every sample of every component is 0" in done.stderr
+    assert run("slide", str(path), "--mu", "0.2", "--strict")[0] == 3
