@@ -12,6 +12,9 @@ from seisblock.units import parse_length
 HALF = 0.5
 """At this share of the width per side nothing is left to stand on."""
 
+LEAST = 1e-9
+"""Below this share of the width per side an edge is sharp: of a gravestone, a third of an atom."""
+
 _PLAIN = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(%?)\s*+\Z")
 
 
@@ -44,7 +47,10 @@ class Inset:
             checks.not_negative("an inset, how far in from each side a block turns,", value)
 
     def of(self, width: float) -> float:
-        """Return the inset of a base of this width (m) per side, m; refused where nothing would be left to stand on."""
+        """Return the inset of a base of this width (m) per side, m; refused where nothing would be left to stand on.
+
+        Less than a billionth of the width is none.
+        """
         depth = self.length_m + self.share * width
         if not depth < HALF * width:
             raise ParameterError(
@@ -53,7 +59,7 @@ class Inset:
                 depth=depth,
                 width=width,
             )
-        return depth
+        return depth if depth >= LEAST * width else 0.0
 
 
 SHARP = Inset()

@@ -59,7 +59,13 @@ METHODS = ("stripes", "ida", "cloud")
     help="Instead of one body: a table of bodies (.csv: name, width, height in m, mu, ...), a file that describes one, or a bundled body; "
     "may be repeated.",
 )
-@option("--mu", type=float, section="Body", metavar="MU", help="Static friction coefficient of bodies that tell none, 1.")
+@option(
+    "--mu",
+    type=float,
+    section="Body",
+    metavar="MU",
+    help="Static friction coefficient of the body, or of those of --bodies that tell none, 1.",
+)
 @option("--restitution", type=float, section="Body", metavar="E", help="Restitution, a ratio of velocities, 1. [default: the solver's own]")
 @option("--solver", type=click.Choice(SOLVERS), default="respond", show_default=True, help="Which model follows the bodies.")
 @option(

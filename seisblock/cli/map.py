@@ -29,9 +29,6 @@ SIZES = ("block", "width", "height")
 RUNS = 50
 """Plausible versions behind a probability, where nothing else is asked for."""
 
-OWN = ("mu", "mu_kinetic", "surface", "restitution", "rocking_restitution", "tenon")
-"""Options of a body that one solver has and another has not."""
-
 
 @click.command(
     cls=Command,
@@ -118,6 +115,8 @@ def map(  # noqa: A001 - the command's name
     from seisblock.studies.stations.surveys import judge_surveys, read_surveys
 
     refuse_windows(source)
+    if source.component and source.target_pga is None:
+        raise click.UsageError(tell("map looks in every direction: --component only says of what --target-pga is the peak"))
     refuse_collisions(*(path for path in (geojson, html) if path is not None))
     surveyed = None if survey is None else read_surveys(survey)
     subject = _subject(cemetery, given, solver, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
@@ -204,7 +203,7 @@ def _followed(solver: str, given: dict[str, Any], *, vertical: bool | None, runs
     """Return a body that another solver than ``respond`` follows; what that solver does not have is refused by name."""
     from dataclasses import replace
 
-    from seisblock.cli.bodies.listed import listed_body
+    from seisblock.cli.bodies.listed import OWN, listed_body
     from seisblock.studies.batch.models import batch_model
     from seisblock.studies.batch.run import unheard
     from seisblock.studies.stations.effects import StandingBody
@@ -214,7 +213,7 @@ def _followed(solver: str, given: dict[str, Any], *, vertical: bool | None, runs
     model = batch_model(solver)
     of_body = {name: given[name] for name in ("surface", "frequency_vertical") if given[name] is not None}
     model.refuse_unknown({name: given[name] for name in (*told, *of_body) if name not in model.columns})
-    listed = listed_body(given, solver)
+    listed = listed_body({**given, **{name: None for name in OWN if name not in told}}, solver)
     listed = replace(listed, told={**listed.told, **of_body})
     options = {name: given[name] for name in told if name not in of_body}
     placed = model.place(listed, {**options, "gravity": gravity})

@@ -194,4 +194,6 @@ def _checked(values: ArrayLike, what: str, unit: str, *, zero: bool = False) -> 
             unit=unit,
             found=array[~good].flat[0],
         )
+    if array.size:
+        checks.finite(what, float(array.max()), unit)
     return array

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
@@ -87,3 +88,57 @@ def test_a_record_of_nothing_but_zeros(tmp_path):
     done = CliRunner().invoke(main, ["slide", str(path), "--mu", "0.2"])
     assert done.exit_code == 0 and "every sample of every component is 0" in done.stderr
     assert run("slide", str(path), "--mu", "0.2", "--strict")[0] == 3
+
+
+@pytest.mark.parametrize("value", ["1e-300", "1e-20", "9e-10", "1e-300cm"])
+def test_an_edge_that_is_hardly_worn(value):
+    """A bevel that vanishes against its stone is none: nothing is divided by it."""
+    sharp, worn = (run("stack", *SHORT, "--component", "NS", "--inset", inset, "--quiet") for inset in ("0", value))
+    assert sharp[0] == worn[0] == 0 and sharp[1].splitlines()[0] == worn[1].splitlines()[0]
+
+
+def test_a_frequency_of_nothing_on_earth(recwarn):
+    """One sentence, and no warning of the machine's own numbers."""
+    code, answer, said = run("overturn-rate", "--cemetery", "aoyama.csv", "--pga", "300", "--frequency", "1e300")
+    assert (code, answer) == (3, "") and "frequency lies outside all that can be computed with, found 1e+300 Hz" in said
+    assert not recwarn.list
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "why"),
+    [
+        ("--mu", "-1", "mu must be zero or more, found -1"),
+        ("--mu", "nan", "mu must be zero or more, found nan"),
+        ("--mu-kinetic", "1e300", "lies outside all"),
+        ("--restitution", "-1", "must lie in [0, 1), found -1"),
+        ("--rocking-restitution", "1e300", "must lie in [0, 1], found 1e+300"),
+        ("--tenon", "-1", "must be zero or more, found -1 m"),
+        ("--seed", "-1", "the seed must be a whole number"),
+    ],
+)
+def test_a_map_of_no_answers(option, value, why):
+    """What no station can answer is refused at once; it was told of each station, with exit code 0."""
+    code, answer, said = run("map", "--block", "gravestone", f"{option}={value}")
+    assert (code, answer) == (3, "") and why in said
+
+
+def test_a_component_of_a_map():
+    """Every direction is looked in: it was taken and left."""
+    code, answer, said = run("map", "--block", "gravestone", "--component", "NS", "--runs", "0")
+    assert (code, answer) == (2, "") and "map looks in every direction" in said
+    assert run("map", "--component", "280", "--target-pga", "300", "--quiet")[0] == 0
+
+
+def slid(*words):
+    """Return the entry of the station at which an object slides."""
+    done = CliRunner().invoke(main, ["map", "--json", "--solver", "slide", *words])
+    assert done.exit_code == 0, done.stderr
+    return json.loads(done.stdout)["results"][0]
+
+
+def test_what_is_asked_for_goes_before_what_a_file_says():
+    """`--mu` beside a body that brings its own: the body's was taken, without a word."""
+    named, plain = slid("--block", "gravestone", "--mu", "0.1"), slid("--mu", "0.1")
+    assert named["max_slip_m"] == plain["max_slip_m"] > 0.0
+    assert slid("--block", "gravestone")["max_slip_m"] < named["max_slip_m"]
+    assert slid("--block", "gravestone", "--surface", "teflon/steel")["max_slip_m"] == slid("--surface", "teflon/steel")["max_slip_m"]

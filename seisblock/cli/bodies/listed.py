@@ -14,6 +14,9 @@ from seisblock.words import said
 SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset")
 """Options that describe a body which has no name."""
 
+OWN = ("mu", "mu_kinetic", "surface", "restitution", "rocking_restitution", "tenon")
+"""Options of a body that one solver has and another has not; what is asked for goes before what the body's file says."""
+
 
 def listed_body(asked: Mapping[str, Any], solver: str) -> ListedBody:
     """Return the one body that sizes or a name describe.
@@ -21,7 +24,7 @@ def listed_body(asked: Mapping[str, Any], solver: str) -> ListedBody:
     Parameters
     ----------
     asked : mapping
-        ``block`` and ``side``, or sizes, SI; None where not given.
+        ``block`` and ``side``, or sizes, SI, and what else is to hold of that body; None where not given.
     solver : str
         ``slide`` needs neither.
 
@@ -35,9 +38,12 @@ def listed_body(asked: Mapping[str, Any], solver: str) -> ListedBody:
     >>> listed_body({"width": 0.3, "height": 1.2}, "rock").name
     'block 0.3 x 1.2 m'
     """
-    told = {key: asked[key] for key in SIZES if asked.get(key) is not None}
+    from seisblock.studies.batch.models import batch_model
+
+    taken = (*SIZES, *(name for name in OWN if name in batch_model(solver).columns))
+    told = {key: asked[key] for key in taken if asked.get(key) is not None}
     if asked.get("block"):
-        sizes = [key for key in told if key != "inset"]
+        sizes = [key for key in told if key != "inset" and key in SIZES]
         if sizes:
             raise ParameterError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
         side = {} if asked.get("side") is None else {"side": asked["side"]}

@@ -244,7 +244,7 @@ def _joint_arrays(
         inset = (hx / points, hy / points) if points > SHARP_POINTS else (stone.inset.of(2.0 * hx), stone.inset.of(2.0 * hy))
         carried = carrying(joint, body.stones, centres) if points == SHARP_POINTS else (joint.x, joint.y)
         grids[j] = _orbits(points, *carried, np.array(centres[carrier]))
-        if max(inset) > 0.0:
+        if min(inset) > 0.0:
             worn[carrier, 1 if sigma > 0.0 else 0] = inset
     return integers, constants, grids, worn
 

@@ -14,7 +14,7 @@ from seisblock.bodies.library import along
 from seisblock.errors import ParameterError
 from seisblock.measures.baseline import ground_history
 from seisblock.measures.frequency import pga_pgv_frequency
-from seisblock.records import Record, motion_of
+from seisblock.records import Component, Record, motion_of
 from seisblock.records.given import Factor
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.process import towards
@@ -150,6 +150,18 @@ class StandingBody:
     def looks_around(self) -> bool:
         """Whether every direction is looked in."""
         return self.solver in WORST
+
+    def refuse_wrong(self) -> None:
+        """Refuse options that the solver refuses at every station: it is asked once, on ground that is still for 4 samples.
+
+        Raises
+        ------
+        InputError
+            The solver's own.
+        """
+        still = np.zeros(4)
+        rows = (Component("NS", still, 0.0), Component("EW", still, 90.0), Component("UD", still))
+        self.under(Record(rows, 0.01))
 
     def under(self, record: Record) -> StationEffect:
         """Return what a record does to the body where that is worst."""

@@ -24,7 +24,7 @@ from seisblock.records.doubtful import refuse_doubtful, sentences
 from seisblock.records.site import Earthquake, earthquake_of, epicentral_distance_km, is_of_station, place_of, site_of, told_time
 from seisblock.studies.runs import RECORDS, in_threads
 from seisblock.studies.stations.earthquakes import are_two, words_of
-from seisblock.studies.stations.effects import StationEffect, WhatStands
+from seisblock.studies.stations.effects import StandingBody, StationEffect, WhatStands
 from seisblock.typing import FloatArray, Progress
 
 AS_READ = Preparation()
@@ -159,7 +159,7 @@ def survey_stations(
     Raises
     ------
     ParameterError
-        If the records are of two earthquakes, or there is none.
+        If the records are of two earthquakes, or there is none, or a solver refuses an option of the body whatever the station.
 
     Examples
     --------
@@ -169,6 +169,8 @@ def survey_stations(
     """
     checks.instance(preparation, Preparation)
     reading = reading or Options()
+    if isinstance(subject, StandingBody):
+        subject.refuse_wrong()
     work = partial(_answer, subject=subject, preparation=preparation, reading=reading, strict=strict)
     answers: list[StationAnswer] = []
     known: StationAnswer | None = None
