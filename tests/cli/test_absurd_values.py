@@ -142,3 +142,18 @@ def test_what_is_asked_for_goes_before_what_a_file_says():
     assert named["max_slip_m"] == plain["max_slip_m"] > 0.0
     assert slid("--block", "gravestone")["max_slip_m"] < named["max_slip_m"]
     assert slid("--block", "gravestone", "--surface", "teflon/steel")["max_slip_m"] == slid("--surface", "teflon/steel")["max_slip_m"]
+
+
+@pytest.mark.parametrize("value", ["1e-300", "1e-17", "1e-300cm"])
+def test_a_scan_that_is_hardly_worn(value, recwarn):
+    """It turns about the edges of its base; it was said to have none left."""
+    sharp, worn = (run("body", "boulder.ply", "--inset", inset) for inset in ("0", value))
+    assert sharp[0] == worn[0] == 0 and sharp[1].splitlines()[0] == worn[1].splitlines()[0]
+    assert not recwarn.list
+
+
+def test_an_interval_of_no_width():
+    """A level that rounds to nothing was divided by."""
+    words = ("shaken_block.csv", *BLOCK, "--free", "alpha", "--scatter", "0.05", "--lapse", "0.02", "--runs", "1")
+    code, answer, said = run("fit", *words, "--confidence=1e-300")
+    assert (code, answer) == (3, "") and "the level of the intervals must lie in [0.001, 1), found 1e-300" in said

@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.inset import SHARP, Inset
+from seisblock.bodies.inset import LEAST, SHARP, Inset
 from seisblock.bodies.scan.polygon import depth_within, least_width, nearest_side, reach, shrunk
 from seisblock.errors import BodyError, ComponentError
 from seisblock.records import Motion
@@ -114,7 +114,11 @@ class ScannedBody:
     @cached_property
     def inset_m(self) -> float:
         """How far in from each side of its base it turns, m."""
-        return self.inset.length_m + (self.inset.share * least_width(self.corners) if self.inset.share else 0.0)
+        if self.inset == SHARP:
+            return 0.0
+        width = least_width(self.corners)
+        depth = self.inset.length_m + self.inset.share * width
+        return depth if depth >= LEAST * width else 0.0
 
     @cached_property
     def carrying(self) -> FloatArray:

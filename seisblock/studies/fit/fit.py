@@ -197,7 +197,7 @@ def fit_block(
         given = given.worn(inset)
     share = _share(given, inset)
     family = _family(free, given, share, restitution, inset is not None, bounds or {}, scatter, vertical, gravity)
-    checks.within("the level of the intervals", level, "(0, 1)")
+    checks.within("the level of the intervals", level, "[0.001, 1)")
     if lapse is not None:
         checks.within("the share of lapses", lapse, "[0, 1)")
     _check_runs(runs)
