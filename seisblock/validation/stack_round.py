@@ -42,7 +42,7 @@ SECONDS = 1.0
 ROCKS, BESIDE, FALLS = 0.05, 1e-3, 0.1
 """Lean, rad, from which a drum rocks; its rate out of the plane, rad/s; and the time by which it has come upright, s."""
 
-FINE_STEP = 1e-5
+FINE_STEP = 1e-4
 """Step, s, of a drum that rolls from one side of its rim to the other within half a millisecond."""
 
 TURN_OVER = 0.02
@@ -104,7 +104,7 @@ def _axis(end: End, seconds: float) -> tuple[FloatArray, FloatArray]:
     return end.track.time[inside], np.array([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)]).T
 
 
-def _tilted(lean: float) -> FloatArray:
+def tilted(lean: float) -> FloatArray:
     """Return the axes of a cylinder that leans, as columns."""
     s, c = math.sin(lean), math.cos(lean)
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
@@ -113,7 +113,7 @@ def _tilted(lean: float) -> FloatArray:
 def go_round(stone: PileStone, lean: float) -> tuple[FloatArray, FloatArray, End]:
     """Return the times, s, (n,), and the axis, (n, 3), of a cylinder let go as it goes round on its rim, through some turns; and its end."""
     rate, s, c, half = rate_on_the_rim(stone, lean), math.sin(lean), math.cos(lean), 0.5 * stone.height
-    axes = _tilted(lean)
+    axes = tilted(lean)
     spin = rate * s * (half / RADIUS * axes[:, 2] - axes[:, 0])
     seconds = 2.0 * math.pi * TURNS / rate
     end = let_go(stone, axes, RADIUS * s + half * c, np.zeros(3), spin, still(seconds))
@@ -131,11 +131,11 @@ def turn_over(stone: PileStone) -> float:
     return math.pi * math.sqrt((about + RADIUS**2) / about)
 
 
-def rock_and_roll(stone: PileStone) -> tuple[float, float, End]:
+def rock_and_roll(stone: PileStone, beside: float = BESIDE, step: float = FINE_STEP) -> tuple[float, float, End]:
     """Return the angle by which the lean of a cylinder turns, rad, the lean that it reaches then over that it came from, and its end."""
-    axes, spin = _tilted(ROCKS), np.array([-BESIDE, 0.0, 0.0])
+    axes, spin = tilted(ROCKS), np.array([-beside, 0.0, 0.0])
     foot = RADIUS * axes[:, 0] - 0.5 * stone.height * axes[:, 2]
-    end = let_go(stone, axes, -foot[2], -np.cross(spin, foot), spin, still(2.0 * FALLS, FINE_STEP))
+    end = let_go(stone, axes, -foot[2], -np.cross(spin, foot), spin, still(2.0 * FALLS, step))
     time, axis = _axis(end, 2.0 * FALLS)
     lean = np.hypot(axis[:, 0], axis[:, 1])
     upright = int(np.argmin(np.where(time < FALLS, lean, np.inf)))

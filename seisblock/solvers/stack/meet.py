@@ -6,13 +6,13 @@ from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.apart import EDGES, FACE, KIND
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
-from seisblock.solvers.stack.contact import CLINGS, ENTERED, OUTSIDE, PLACE, REBOUND, REL_D, REL_W, SLOT
+from seisblock.solvers.stack.contact import CLINGS, ENTERED, OUTSIDE, PLACE, REBOUND, REL_D, SLOT
 from seisblock.solvers.stack.frames import relative
 from seisblock.solvers.stack.hull_pairs import bevel_meets, edges_cross, faces_overlap, gap_between, most_points
 from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, STANDS
 from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
 from seisblock.solvers.stack.remember import TURNED, gather, keep, left, put, recall, share_out
-from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, pressed_sides, roll
+from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, note_rim, pressed_sides
 from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
 from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
 
@@ -143,8 +143,8 @@ def _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory):
         for q in range(4):
             slot = rim[q]
             entered = enter(count, c, p, slot, slot[PLACE + 2] - pile.boxes[p, 2], far, k, bodies, dt, pile, memory)
-            if q == 0 and entered > count:
-                roll(rel[REL_W:], 0.0, 0.0, 1.0, sine, radius, axes, ground, dt, memory.table[count])
+            if entered > count:
+                note_rim(q == 0, sine, radius, axes, ground, memory.table[count])
             count = note(count, entered, MEETINGS, pair, 0, 4 * i + q, slot, memory.who)
     return count
 
@@ -184,8 +184,8 @@ def _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory):
         if not relaid:
             recall(slot, before, MOST_FOUND)
         entered = enter(count, c, p, slot, found[i, 3], far, k, bodies, dt, pile, memory)
-        if found[i, LOWEST] > 0.0 and entered > count:
-            roll(rel[REL_W:], up * axis[0], up * axis[1], up * axis[2], sine, radius, axes, frame, up * dt, memory.table[count])
+        if entered > count:
+            note_rim(found[i, LOWEST] > 0.0, sine, up * radius, axes, frame, memory.table[count])
         count = note(count, entered, MEETINGS, pair, 0, i, slot, memory.who)
     return count
 

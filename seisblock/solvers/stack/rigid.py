@@ -18,7 +18,7 @@ from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, GIVEN, IMPULSE, V
 from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
 from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
-from seisblock.solvers.stack.strike import at_impact, lay_floors, let_go, soonest, strikes, until_impact
+from seisblock.solvers.stack.strike import at_impact, far_round, lay_floors, let_go, soonest, strikes, until_impact
 from seisblock.solvers.stack.sweeps import PRECISION, UNSETTLED, settle_surely
 
 _t = types()
@@ -145,7 +145,7 @@ def _try(bodies, a0, a1, a2, left, look, pile, memory):
         _strike(count, n, before, pile, memory)
         strikes(count, memory)
     _go_on(count, n, 0.5 * left, a0, a1, a2, pile, memory)
-    step = soonest(count, 0.5 * left, left, memory)
+    step = soonest(count, 0.5 * left, far_round(count, left, memory), memory)
     if step < left:
         _go_on(count, n, 0.5 * (step - left), a0, a1, a2, pile, memory)
     pace[KICKED] = before + 0.5 * step

@@ -18,10 +18,13 @@ from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.contact import ENTERED, PLACE, PUSH, REL_D
 from seisblock.solvers.stack.frames import R
-from seisblock.solvers.stack.impulse import ROLL
+from seisblock.solvers.stack.impulse import AT_ONCE, AXIS, NORMAL, RIM
 from seisblock.solvers.stack.step import APPROACH, COSINE
 
 _t = types()
+
+SOON = 1e-4
+"""Part of a step within which the points of a rim that leans strike at once."""
 
 RIMS = 4
 RADIUS, HEIGHT = 0, 1
@@ -35,6 +38,9 @@ CENTRED = 0.05
 
 FASTEST = 0.5
 """Angle, rad, by which the lowest point may wander round the stone in half a step and still be asked where it will be then."""
+
+ROUND = 0.125
+"""Angle, rad, by which it may wander round the stone until a step ends: of what lies between the four points nothing else is looked at."""
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64, MATRIX), inline=True)
@@ -94,41 +100,83 @@ def pressed_sides(slots, rel, radius, x):
         x[3], x[4], x[5] = x[0], x[1], 0.0
 
 
-@kernel(_t.void(VECTOR, _t.float64, _t.float64, _t.float64, _t.float64, _t.float64, MATRIX, VECTOR, _t.float64, VECTOR))
-def roll(spin, n0, n1, n2, sine, radius, axes, frame, step, row):
-    """Write into a row how the lowest point of a rim changes its velocity by wandering round the stone: w x s.
+@kernel(_t.void(_t.boolean, _t.float64, _t.float64, MATRIX, VECTOR, VECTOR))
+def note_rim(deepest, sine, radius, axes, frame, row):
+    """Write into the row of a point of a rim, if there is a lean, how soon it strikes; and round what its lowest point wanders.
 
     Parameters
     ----------
-    spin : (3,) array, rad/s
-        Of the first stone against the second; it and all else in the axes of `frame`.
+    deepest : bool
+        Whether it is the lowest point.
     sine, radius : float
-        Of the lean, and of the rim, m.
+        Of the lean, and of the rim, m; the radius negative where it is the second stone's.
     axes : (4, 18) array
         See :func:`lowest`.
     frame : (31,) array
-        The body in whose axes this is.
-    step : float, s
-        Negative where the rim is the second stone's.
-    row : (85,) array
+        The body in whose axes these are.
+    row : (86,) array
     """
     if sine == 0.0:
         return
-    a, u = axes[0], axes[2]
-    w0, w1, w2 = spin[0], spin[1], spin[2]
-    d0, d1, d2 = w1 * a[2] - w2 * a[1], w2 * a[0] - w0 * a[2], w0 * a[1] - w1 * a[0]
-    along, turning = n0 * a[0] + n1 * a[1] + n2 * a[2], n0 * d0 + n1 * d1 + n2 * d2
-    m0, m1, m2 = -turning * a[0] - along * d0, -turning * a[1] - along * d1, -turning * a[2] - along * d2
-    back = u[0] * m0 + u[1] * m1 + u[2] * m2
-    s0 = (back * u[0] - m0) / sine - (w1 * u[2] - w2 * u[1])
-    s1 = (back * u[1] - m1) / sine - (w2 * u[0] - w0 * u[2])
-    s2 = (back * u[2] - m2) / sine - (w0 * u[1] - w1 * u[0])
-    if s0 * s0 + s1 * s1 + s2 * s2 > (2.0 * FASTEST / step) ** 2:
+    row[AT_ONCE] = SOON
+    if not deepest:
         return
-    factor = math.copysign(radius, step)
-    e0, e1, e2 = factor * (w1 * s2 - w2 * s1), factor * (w2 * s0 - w0 * s2), factor * (w0 * s1 - w1 * s0)
+    a = axes[0]
+    row[RIM] = radius
     for i in range(3):
-        row[ROLL + i] = frame[R + 3 * i] * e0 + frame[R + 3 * i + 1] * e1 + frame[R + 3 * i + 2] * e2
+        row[AXIS + i] = frame[R + 3 * i] * a[0] + frame[R + 3 * i + 1] * a[1] + frame[R + 3 * i + 2] * a[2]
+
+
+@kernel(_t.float64(VECTOR, _t.float64, _t.float64, _t.float64, _t.float64, VECTOR))
+def roll(row, x, y, z, step, swerve):
+    """Add how the lowest point of a rim changes its velocity in half a step by wandering round the stone; return when it will be far.
+
+    Along the normal it is what keeps the lowest point on its plane to the end of the step, wherever it then is.
+
+    Parameters
+    ----------
+    row : (86,) array
+    x, y, z : float, rad/s
+        The spin of the first stone against the second.
+    step : float, s
+    swerve : (3,) array, m/s
+    """
+    radius, side = abs(row[RIM]), math.copysign(1.0, row[RIM])
+    a0, a1, a2 = row[AXIS], row[AXIS + 1], row[AXIS + 2]
+    n0, n1, n2 = side * row[NORMAL], side * row[NORMAL + 1], side * row[NORMAL + 2]
+    w0, w1, w2 = side * x, side * y, side * z
+    along = n0 * a0 + n1 * a1 + n2 * a2
+    u0, u1, u2 = along * a0 - n0, along * a1 - n1, along * a2 - n2
+    sine = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2)
+    u0, u1, u2 = u0 / sine, u1 / sine, u2 / sine
+    d0, d1, d2 = w1 * a2 - w2 * a1, w2 * a0 - w0 * a2, w0 * a1 - w1 * a0
+    turning = n0 * d0 + n1 * d1 + n2 * d2
+    m0, m1, m2 = -turning * a0 - along * d0, -turning * a1 - along * d1, -turning * a2 - along * d2
+    back = u0 * m0 + u1 * m1 + u2 * m2
+    v0, v1, v2 = w1 * u2 - w2 * u1, w2 * u0 - w0 * u2, w0 * u1 - w1 * u0
+    s0, s1, s2 = (back * u0 - m0) / sine - v0, (back * u1 - m1) / sine - v1, (back * u2 - m2) / sine - v2
+    wander = math.sqrt(s0 * s0 + s1 * s1 + s2 * s2)
+    e0, e1, e2 = w1 * s2 - w2 * s1, w2 * s0 - w0 * s2, w0 * s1 - w1 * s0
+    # the axis at the end of the step
+    spin = math.sqrt(w0 * w0 + w1 * w1 + w2 * w2)
+    if spin > 0.0:
+        c, s = math.cos(spin * step), math.sin(spin * step) / spin
+        rest = (1.0 - c) * (w0 * a0 + w1 * a1 + w2 * a2) / (spin * spin)
+        b0, b1, b2 = c * a0 + s * d0 + rest * w0, c * a1 + s * d1 + rest * w1, c * a2 + s * d2 + rest * w2
+        f0, f1, f2 = n1 * b2 - n2 * b1, n2 * b0 - n0 * b2, n0 * b1 - n1 * b0
+        later = math.sqrt(f0 * f0 + f1 * f1 + f2 * f2)
+        g0, g1, g2 = w1 * v2 - w2 * v1, w2 * v0 - w0 * v2, w0 * v1 - w1 * v0
+        half = 0.5 * step
+        up = (sine - later) / step - back - half * (n0 * g0 + n1 * g1 + n2 * g2)
+        if wander * step > 2.0 * FASTEST:
+            e0, e1, e2 = 0.0, 0.0, 0.0
+        up -= half * (n0 * e0 + n1 * e1 + n2 * e2)
+        factor = side * radius
+        swerve[0] += factor * (half * e0 + up * n0)
+        swerve[1] += factor * (half * e1 + up * n1)
+        swerve[2] += factor * (half * e2 + up * n2)
+    passes = sine * wander * math.cos(ROUND) + back * math.sin(ROUND)
+    return sine * math.sin(ROUND) / passes if passes > 0.0 else math.inf
 
 
 @kernel(_t.boolean(VECTOR, VECTOR, VECTOR))

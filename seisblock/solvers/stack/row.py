@@ -20,13 +20,14 @@ from seisblock.solvers.stack.frames import AT, R, X
 from seisblock.solvers.stack.impulse import (
     ARM_A,
     ARM_B,
+    AT_ONCE,
     BOUNCE,
     GAP,
     HEED,
     IMPULSE,
     KINETIC,
     NORMAL,
-    ROLL,
+    RIM,
     SLID,
     STANDS,
     STATIC,
@@ -39,6 +40,9 @@ _t = types()
 SWIFT, SLOW = 2.0, 0.5
 """A point is left out while its gap is wider than what so many times the greatest speed of its stone, and this speed, m/s, more, close in a
 step: what a stone strikes may turn it the other way round."""
+
+BRIEF = 0.01
+"""Part of a step within which what strikes together strikes at once."""
 
 BEFORE, FALL, WHOLE, KICKED, AHEAD, SWEPT, STRUCK, ROWS, PRESSED = range(9)
 PACE = 9
@@ -76,8 +80,8 @@ def enter(count, c, p, slot, gap, far, k, bodies, dt, pile, memory):
     row[GAP] = gap
     row[BOUNCE] = -1.0
     row[STANDS] = 0.0
-    for i in range(ROLL, ROLL + 3):
-        row[i] = 0.0
+    row[RIM] = 0.0
+    row[AT_ONCE] = BRIEF
     if slot[ENTERED] == 0.0:
         for i in range(3):
             slot[PUSH + i] = 0.0

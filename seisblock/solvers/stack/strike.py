@@ -16,6 +16,7 @@ from seisblock.solvers.stack.arguments import MEMORY
 from seisblock.solvers.stack.impulse import (
     ARM_A,
     ARM_B,
+    AT_ONCE,
     BOUNCE,
     FLOOR,
     GAP,
@@ -26,12 +27,13 @@ from seisblock.solvers.stack.impulse import (
     IMPULSE,
     NORMAL,
     RATE,
-    ROLL,
+    RIM,
     SWERVE,
     VEERING,
     parting,
 )
-from seisblock.solvers.stack.row import FALL, FIRST, WHOLE
+from seisblock.solvers.stack.round import roll
+from seisblock.solvers.stack.row import BRIEF, FALL, FIRST, WHOLE
 
 _t = types()
 
@@ -39,8 +41,8 @@ SPLITS = 0.25
 """Approach, over what a gap's own acceleration changes it by in a step, from which an impact ends a step: half a step passes then until
 it is back. Of what presses it is that of a free fall."""
 
-BRIEF = 0.01
-"""Part of a step within which what strikes together strikes at once."""
+SHORTEST = 0.00390625
+"""Of a whole step: the least that one has that ends since a rim's lowest point has wandered far."""
 
 MENDED, GENTLY = 0.2, 0.05
 """Part of a gap closed too far that a step makes good, and the speed, m/s, that it may take for it."""
@@ -57,12 +59,11 @@ def _rate(a, b, row, memory):
 def strikes(count, memory):
     """Note how fast the gaps open at the step; return whether a point strikes there, and write the floors of the impact if so."""
     pace, table = memory.pace, memory.table
-    brief = BRIEF * pace[WHOLE]
     found = False
     for i in range(count):
         row = table[i]
         row[RATE] = _rate(memory.who[i, 0], memory.who[i, 1], row, memory)
-        row[FLOOR] = 0.0 if row[GAP] <= brief * max(-row[RATE], row[HEED]) else -math.inf
+        row[FLOOR] = 0.0 if row[GAP] <= row[AT_ONCE] * pace[WHOLE] * max(-row[RATE], row[HEED]) else -math.inf
         if row[FLOOR] == 0.0 and row[RATE] < -SPLITS * row[HEED]:
             found = True
     return found
@@ -148,10 +149,11 @@ def soonest(count, half, left, memory):
         For how long the velocities have gone on since the step.
     """
     whole, first = memory.pace[WHOLE], left
-    fall, brief = memory.pace[FALL], BRIEF * whole
+    fall = memory.pace[FALL]
     for i in range(count):
         row = memory.table[i]
         row[FLOOR] = 0.0
+        brief = row[AT_ONCE] * whole
         if row[GAP] <= brief * max(-row[RATE], row[HEED]):
             continue
         gain = (_rate(memory.who[i, 0], memory.who[i, 1], row, memory) - row[RATE]) / half
@@ -160,11 +162,11 @@ def soonest(count, half, left, memory):
             row[FLOOR] = -math.inf
             row[HEADING] = time
             first = min(first, time)
-    if first > left - brief:
+    if first > left - BRIEF * whole:
         first = left
     for i in range(count):
         row = memory.table[i]
-        if row[FLOOR] < 0.0 and row[HEADING] > first + 2.0 * brief:
+        if row[FLOOR] < 0.0 and row[HEADING] > first + 2.0 * row[AT_ONCE] * whole:
             row[FLOOR] = 0.0
     return first
 
@@ -184,15 +186,34 @@ def _swerve(speeds, arm, half, swerve):
     swerve[2] += half * (x * arm[1] - y * arm[0])
 
 
+@kernel(_t.float64(_t.int64, _t.int64, _t.float64, VECTOR, VECTOR, MEMORY), inline=True)
+def _roll(a, b, dt, row, swerve, memory):
+    """Add what :func:`seisblock.solvers.stack.round.roll` does with the spins of two bodies, and return what it returns."""
+    u, v = memory.speeds[a], memory.speeds[b]
+    return roll(row, u[3] - v[3], u[4] - v[4], u[5] - v[5], dt, swerve)
+
+
+@kernel(_t.float64(_t.int64, _t.float64, MEMORY))
+def far_round(count, left, memory):
+    """Return when the lowest point of a rim will have wandered far round it, s, at the latest what is left of the step."""
+    swerve, first = memory.work[0], left
+    for i in range(count):
+        if memory.table[i, RIM] != 0.0:
+            first = min(first, _roll(memory.who[i, 0], memory.who[i, 1], left, memory.table[i], swerve, memory))
+    return min(left, max(first, SHORTEST * memory.pace[WHOLE]))
+
+
 @kernel(_t.void(_t.int64, _t.float64, MEMORY), inline=True)
 def lay_floors(count, dt, memory):
     """Write the least normal velocities of a step: an open gap may close and no more, one closed too far opens slowly."""
     for i in range(count):
-        row, gap = memory.table[i], memory.table[i, GAP]
+        row, gap, a, b = memory.table[i], memory.table[i, GAP], memory.who[i, 0], memory.who[i, 1]
         row[HELD] = 0.0
         if row[FLOOR] == 0.0:
             row[FLOOR] = -gap / dt if gap > 0.0 else min(-MENDED * gap / memory.pace[WHOLE], GENTLY)
         for k in range(3):
-            row[SWERVE + k] = 0.5 * dt * row[ROLL + k]
-        _swerve(memory.speeds[memory.who[i, 0]], row[ARM_A:], 0.5 * dt, row[SWERVE:])
-        _swerve(memory.speeds[memory.who[i, 1]], row[ARM_B:], -0.5 * dt, row[SWERVE:])
+            row[SWERVE + k] = 0.0
+        if row[RIM] != 0.0:
+            _roll(a, b, dt, row, row[SWERVE:], memory)
+        _swerve(memory.speeds[a], row[ARM_A:], 0.5 * dt, row[SWERVE:])
+        _swerve(memory.speeds[b], row[ARM_B:], -0.5 * dt, row[SWERVE:])
