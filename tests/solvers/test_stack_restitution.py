@@ -53,3 +53,21 @@ def test_a_ratio_that_was_given_creates_no_energy():
         assert response.outcome.created_j < 1e-4 * sum(stone.mass for stone in stones) * G * sum(tall)
         fell += response.outcome.overturned_any
     assert fell >= 6
+
+
+@pytest.mark.parametrize("seed", [2, 3, 7, 11, 12, 15])
+def test_a_ratio_that_was_given_knows_no_sides(seed):
+    """A square column under the mirrored or turned record does the mirrored or the turned; two of three leant otherwise."""
+
+    def lean_and_slip(rows, ratio, back):
+        pile = Pile("one", (PileStone("block", 0.45, 0.45, 1.0),), mu=0.6)
+        stone = solve_stack(pile, Motion(rows, 0.01), restitution=ratio).outcome.stones[0]
+        return stone.max_tilt_rad, back @ (stone.residual_slip_x_m, stone.residual_slip_y_m)
+
+    rows = np.asarray(shaking(np.random.default_rng(seed), 7.5, 4.0).acceleration)
+    for ratio in (0.0, 0.3, 0.7):
+        lean, slip = lean_and_slip(rows, ratio, np.eye(2))
+        for image in ([[-1.0, 0.0], [0.0, 1.0]], [[1.0, 0.0], [0.0, -1.0]], [[0.0, -1.0], [1.0, 0.0]]):
+            other, image_slip = lean_and_slip(np.vstack([np.array(image) @ rows[:2], rows[2:]]), ratio, np.array(image).T)
+            assert other == pytest.approx(lean, rel=0.02)
+            np.testing.assert_allclose(image_slip, slip, atol=0.01)

@@ -121,14 +121,14 @@ def test_shaken_drums_below_static_friction_do_not_slide():
 
 
 def test_steps_that_do_not_come_to_rest_are_told():
-    """A stone bears one a thousand times as heavy: it creeps in coarse steps, which say so; one thirty times as heavy rests."""
+    """A stone bears one three thousand times as heavy: it creeps and is told; a thousand times, less in fine steps; thirty: it rests."""
     push, slips = 0.1 * G, {}
-    for ratio, step in ((30.0, None), (1000.0, None), (1000.0, 1e-3)):
+    for ratio, step in ((30.0, None), (1000.0, None), (1000.0, 1e-3), (3000.0, None)):
         stones = (PileStone("a", 0.6, 0.6, 0.6), PileStone("b", 0.5, 0.5, 0.7, on="a", density=ratio * 2650.0))
         shaking = noise(np.random.default_rng(3), push, seconds=3.0)
         response = solve_stack(Pile("pile", stones, mu=0.7), shaking, step=step)
         slips[ratio, step] = max(stone.residual_slip_m for stone in response.outcome.stones)
         told = any("did not come to rest" in str(warning) for warning in response.warnings)
-        assert told == (ratio > 30.0)
+        assert told == (ratio > 1000.0)
     assert slips[30.0, None] < 1e-5
-    assert slips[1000.0, 1e-3] < 0.5 * slips[1000.0, None]
+    assert slips[1000.0, 1e-3] < 0.5 * slips[1000.0, None] < 1e-4

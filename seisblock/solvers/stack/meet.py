@@ -11,7 +11,7 @@ from seisblock.solvers.stack.frames import relative
 from seisblock.solvers.stack.hull_pairs import bevel_meets, edges_cross, faces_overlap, gap_between, most_points
 from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, STANDS
 from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
-from seisblock.solvers.stack.remember import TURNED, gather, keep, left, put, recall, share_out
+from seisblock.solvers.stack.remember import TURNED, even_out, gather, keep, left, put, recall, share_out
 from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, note_rim, pressed_sides
 from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
 from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
@@ -23,6 +23,9 @@ FACES, BOXES = -2, -1
 
 DEEP = 1e-4
 """How deep, m, faces may lie in each other where a pair that was met as boxes is to be met face on face."""
+
+NEAR = 1e-6
+"""Gap, m, within which the points of a flat joint touch."""
 
 FLAT, FAINT = 1e-6, 0.04
 """Cosine of a lean, less than 1 by so much, of stones that lie face on face; and what of a free fall's speed, over that of the others, is
@@ -215,6 +218,8 @@ def _meet(count, pair, bodies, dt, pile, memory):
             row[STANDS] = 1.0
             if 1.0 - rel[8] < FLAT and row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0:
                 row[HEED] *= FAINT
+        if 1.0 - rel[8] < FLAT and pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] == 0.0:
+            even_out(first, count, NEAR, memory.table)
     return count
 
 

@@ -13,6 +13,7 @@ from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.contact import EARLIER, ENTERED, PLACE, PUSH, SLIDES, SLOT
 from seisblock.solvers.stack.frames import R
+from seisblock.solvers.stack.impulse import ARM_B, GAP, IMPULSE, NORMAL
 
 _t = types()
 
@@ -204,3 +205,61 @@ def share_out(points, slots, loads, frame):
     _bear(PUSH, slots[first], slots[second], slots[third], loads[0], frame)
     _bear(EARLIER, slots[first], slots[second], slots[third], loads[1], frame)
     return True
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.float64, MATRIX))
+def even_out(first, count, near, table):
+    """Let the points of a flat joint, where more than three touch, press as a plane over the joint does, as far as none then pulls.
+
+    Which points bear what they bear together is nowhere told; friction against a twist hangs on it. The plane is the one with the same
+    force and moments, of all loads that have these the one whose squares are least (derived here).
+
+    Parameters
+    ----------
+    first, count : int
+        The rows of the joint.
+    near : float, m
+        The gap within which points touch.
+    table : (k, 88) array
+    """
+    if count - first <= 3:
+        return
+    n0, n1, n2 = table[first, NORMAL], table[first, NORMAL + 1], table[first, NORMAL + 2]
+    c0, c1, c2, whole = 0.0, 0.0, 0.0, 0.0
+    for i in range(first, count):
+        if table[i, GAP] > near:
+            return
+        c0 += table[i, ARM_B]
+        c1 += table[i, ARM_B + 1]
+        c2 += table[i, ARM_B + 2]
+        whole += table[i, IMPULSE] * n0 + table[i, IMPULSE + 1] * n1 + table[i, IMPULSE + 2] * n2
+    points = count - first
+    c0, c1, c2, whole = c0 / points, c1 / points, c2 / points, whole / points
+    e0, e1, e2 = table[first, ARM_B] - c0, table[first, ARM_B + 1] - c1, table[first, ARM_B + 2] - c2
+    f0, f1, f2 = n1 * e2 - n2 * e1, n2 * e0 - n0 * e2, n0 * e1 - n1 * e0
+    xx, xy, yy, mx, my = 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(first, count):
+        a0, a1, a2 = table[i, ARM_B] - c0, table[i, ARM_B + 1] - c1, table[i, ARM_B + 2] - c2
+        x, y = a0 * e0 + a1 * e1 + a2 * e2, a0 * f0 + a1 * f1 + a2 * f2
+        press = table[i, IMPULSE] * n0 + table[i, IMPULSE + 1] * n1 + table[i, IMPULSE + 2] * n2
+        xx += x * x
+        xy += x * y
+        yy += y * y
+        mx += x * press
+        my += y * press
+    d = xx * yy - xy * xy
+    if d <= THIN * xx * yy:
+        return
+    gx, gy, part = (mx * yy - my * xy) / d, (my * xx - mx * xy) / d, 1.0
+    for turn in range(2):
+        for i in range(first, count):
+            a0, a1, a2 = table[i, ARM_B] - c0, table[i, ARM_B + 1] - c1, table[i, ARM_B + 2] - c2
+            x, y = a0 * e0 + a1 * e1 + a2 * e2, a0 * f0 + a1 * f1 + a2 * f2
+            press = table[i, IMPULSE] * n0 + table[i, IMPULSE + 1] * n1 + table[i, IMPULSE + 2] * n2
+            more = whole + gx * x + gy * y - press
+            if turn == 1:
+                table[i, IMPULSE] += part * more * n0
+                table[i, IMPULSE + 1] += part * more * n1
+                table[i, IMPULSE + 2] += part * more * n2
+            elif press + more < 0.0:
+                part = min(part, max(press, 0.0) / -more)

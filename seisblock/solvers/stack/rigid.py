@@ -18,7 +18,7 @@ from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, GIVEN, IMPULSE, V
 from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
 from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
-from seisblock.solvers.stack.strike import at_impact, far_round, lay_floors, let_go, soonest, strikes, until_impact
+from seisblock.solvers.stack.strike import at_impact, far_round, lay_floors, let_go, share, soonest, strikes, until_impact
 from seisblock.solvers.stack.sweeps import PRECISION, UNSETTLED, settle_surely
 
 _t = types()
@@ -117,11 +117,13 @@ def _strike(count, n, before, pile, memory):
     table, tolerance = memory.table, PRECISION * memory.pace[FALL]
     until_impact(count, before, memory)
     settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
-    held = at_impact(count, memory)
-    settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
-    if held and work_done(count, n, UNSETTLED * tolerance, pile, memory) > 0.0:
-        let_go(count, memory)
+    rows = at_impact(count, n, pile, memory)
+    settle_surely(rows, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+    if rows > count and work_done(rows, n, UNSETTLED * tolerance, pile, memory) > 0.0:
+        let_go(count, rows, n, pile, memory)
         settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+    else:
+        share(count, rows, memory)
     look_back(count, True, memory)
     for i in range(count):
         force = 1.0 / before if before > 0.0 else 0.0

@@ -12,7 +12,7 @@ import math
 
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import VECTOR
-from seisblock.solvers.stack.arguments import MEMORY
+from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.impulse import (
     ARM_A,
     ARM_B,
@@ -26,11 +26,14 @@ from seisblock.solvers.stack.impulse import (
     HELD,
     IMPULSE,
     NORMAL,
+    PART,
     RATE,
     RIM,
     SWERVE,
     VEERING,
+    answers,
     parting,
+    press,
 )
 from seisblock.solvers.stack.round import roll
 from seisblock.solvers.stack.row import BRIEF, FALL, FIRST, WHOLE
@@ -69,19 +72,16 @@ def strikes(count, memory):
     return found
 
 
-@kernel(_t.int64(_t.int64, _t.int64, MEMORY), inline=True)
-def _opposite(i, count, memory):
-    """Return the row of the point of the same bodies that is farthest from one."""
-    found, most = i, 0.0
-    x, y, z = memory.table[i, ARM_B], memory.table[i, ARM_B + 1], memory.table[i, ARM_B + 2]
-    for j in range(count):
-        if memory.who[j, FIRST] != memory.who[i, FIRST] or memory.who[j, FIRST + 1] != memory.who[i, FIRST + 1]:
-            continue
-        row = memory.table[j]
-        away = (row[ARM_B] - x) ** 2 + (row[ARM_B + 1] - y) ** 2 + (row[ARM_B + 2] - z) ** 2
-        if away > most:
-            found, most = j, away
-    return found
+@kernel(_t.boolean(VECTOR), inline=True)
+def _hits(row):
+    """Whether a point strikes, as against one that touches."""
+    return row[FLOOR] == 0.0 and row[RATE] < -SPLITS * row[HEED]
+
+
+@kernel(_t.boolean(_t.int64, _t.int64, MEMORY), inline=True)
+def _alike(i, j, memory):
+    """Whether two points are of the same two bodies."""
+    return memory.who[i, FIRST] == memory.who[j, FIRST] and memory.who[i, FIRST + 1] == memory.who[j, FIRST + 1]
 
 
 @kernel(_t.void(_t.int64, _t.float64, MEMORY))
@@ -97,36 +97,91 @@ def until_impact(count, before, memory):
             row[SWERVE + k] = 0.0
 
 
-@kernel(_t.boolean(_t.int64, MEMORY))
-def at_impact(count, memory):
-    """Note what was given until the impact, and let what stands opposite of what strikes leave with its part; return whether any does."""
-    held = False
+@kernel(_t.boolean(_t.int64, _t.int64, _t.int64, _t.int64, LAYOUT, MEMORY))
+def _hold(i, count, at, n, pile, memory):
+    """Write a row for where the joint that is struck at a point pressed before, to leave as a given ratio says; return whether it pressed.
+
+    Its points touched, or struck, with velocities u; afterwards the place where it pressed leaves with e (u - min u): in a plane that is
+    the ratio e of spins (derived here). The points that pressed are left to this row. Which of them bore how much before goes over from one
+    corner to the next as the stone turns, so that nothing hangs on their order.
+    """
+    table, row = memory.table, memory.table[at]
+    fastest, load, touching, rate = 0.0, 0.0, 0.0, 0.0
+    for j in range(count):
+        if _alike(i, j, memory) and table[j, FLOOR] == 0.0:
+            fastest = min(fastest, table[j, RATE])
+            if not _hits(table[j]):
+                touching += 1.0
+                load += max(_pressed(table[j]), 0.0)
+    if touching == 0.0 or at >= table.shape[0]:
+        return False
+    for k in range(ARM_A, NORMAL + 3):
+        row[k] = 0.0
+    for j in range(count):
+        point = table[j]
+        if _alike(i, j, memory) and point[FLOOR] == 0.0 and not _hits(point):
+            point[PART] = max(_pressed(point), 0.0) / load if load > 0.0 else 1.0 / touching
+            for k in range(ARM_A, NORMAL + 3):
+                row[k] += point[PART] * point[k]
+            rate += point[PART] * point[RATE]
+    for j in range(count):
+        if table[j, PART] > 0.0 and _alike(i, j, memory):
+            table[j, FLOOR] = -math.inf
+    for k in range(3):
+        row[IMPULSE + k] = 0.0
+        row[SWERVE + k] = 0.0
+    for k in range(memory.who.shape[1]):
+        memory.who[at, k] = memory.who[i, k]
+    answers(memory.who[at, 0], memory.who[at, 1], n, pile.inert, memory.inverses, row)
+    row[FLOOR] = table[i, BOUNCE] * (rate - fastest)
+    row[HELD] = 1.0
+    return True
+
+
+@kernel(_t.float64(VECTOR), inline=True)
+def _pressed(row):
+    """Return the normal impulse that was given at a point."""
+    return row[GIVEN] * row[NORMAL] + row[GIVEN + 1] * row[NORMAL + 1] + row[GIVEN + 2] * row[NORMAL + 2]
+
+
+@kernel(_t.int64(_t.int64, _t.int64, LAYOUT, MEMORY))
+def at_impact(count, n, pile, memory):
+    """Note what was given until the impact, and add a row for each joint that has a ratio and is struck; return how many rows there are."""
+    rows = count
     strikes(count, memory)
     for i in range(count):
         row = memory.table[i]
+        row[PART] = 0.0
         for k in range(3):
             row[GIVEN + k] = row[IMPULSE + k]
             row[IMPULSE + k] = 0.0
     for i in range(count):
-        row = memory.table[i]
-        if row[BOUNCE] >= 0.0 and row[FLOOR] == 0.0 and row[RATE] < -SPLITS * row[HEED]:
-            other = memory.table[_opposite(i, count, memory)]
-            # what has left already is held by nobody
-            if other[FLOOR] > -math.inf:
-                other[FLOOR] = -row[BOUNCE] * row[RATE]
-                other[HELD] = 1.0
-                held = True
-    return held
+        held = not (memory.table[i, BOUNCE] >= 0.0 and _hits(memory.table[i]))
+        for j in range(count, rows):
+            held = held or _alike(i, j, memory)
+        if not held and _hold(i, count, rows, n, pile, memory):
+            rows += 1
+    return rows
 
 
-@kernel(_t.void(_t.int64, MEMORY))
-def let_go(count, memory):
-    """Let no point be held, so that the impact is plastic."""
+@kernel(_t.void(_t.int64, _t.int64, MEMORY))
+def share(count, rows, memory):
+    """Let the points that pressed bear what holds their joints."""
+    for j in range(count, rows):
+        for i in range(count):
+            row = memory.table[i]
+            if row[PART] > 0.0 and _alike(i, j, memory):
+                for k in range(3):
+                    row[IMPULSE + k] += row[PART] * memory.table[j, IMPULSE + k]
+
+
+@kernel(_t.void(_t.int64, _t.int64, _t.int64, LAYOUT, MEMORY))
+def let_go(count, rows, n, pile, memory):
+    """Let no joint be held, so that the impact is plastic."""
+    press(rows - count, memory.who[count:], memory.table[count:], n, pile.inert, -1.0, memory.speeds)
     for i in range(count):
-        row = memory.table[i]
-        if row[HELD] > 0.0:
-            row[HELD] = 0.0
-            row[FLOOR] = 0.0
+        if memory.table[i, PART] > 0.0:
+            memory.table[i, FLOOR] = 0.0
 
 
 @kernel(_t.float64(_t.float64, _t.float64, _t.float64), inline=True)

@@ -12,8 +12,8 @@ u_n - b >= mu |u_t|: the impulses are then those of the least energy that cones 
 never add any ([TasoraAnitescu2011]_). What slides in such a step is pushed away by mu times as much.
 
 Restitution. An impact is plastic at the points that strike; those that leave are free. One block on its edges then turns about the far
-edge with what angular momentum about it leaves, Housner's ratio. Where a joint is given a ratio of its own, its points that leave do so
-with that part of the velocity with which the points opposite them strike: Newton's law across the joint. Where that and friction together
+edge with what angular momentum about it leaves, Housner's ratio. Where a joint is given a ratio of its own, the place where it pressed
+leaves with that part of the velocity with which what strikes comes in: Newton's law across the joint. Where that and friction together
 would give energy, the impact is plastic.
 """
 
