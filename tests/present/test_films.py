@@ -274,6 +274,15 @@ def test_the_ground_stays_in_the_picture(model):
         assert left <= x.min() and x.max() <= right and bottom <= z.min()
 
 
+def test_no_stone_in_sight_comes_to_lie_beside_the_ground():
+    """The patch of ground is as wide as what has fallen; it was as wide as the foot alone, and stones hung in the air beside it."""
+    scene = film("stack", 20).scene
+    (left, front), (right, back) = scene.patch[[0, 2], :2]
+    beside = np.array([solid.placed(-1)[:, :2] for solid in scene.solids if np.abs(on_picture(solid.placed(-1))).max() < scene.sight])
+    assert np.abs(beside).max() > scene.half
+    assert left < beside[..., 0].min() and beside[..., 0].max() < right and front < beside[..., 1].min() and beside[..., 1].max() < back
+
+
 def test_the_viewer_sees_at_most_three_faces_of_a_stone_and_the_nearest_last():
     """A convex body shows a face if and only if its outward normal points to the viewer; far ones are drawn before near ones."""
     scene, ahead = film("stack", 20).scene, view_axes()[2]

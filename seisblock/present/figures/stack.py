@@ -33,12 +33,13 @@ FALLING = 0.2
 """How long before its fall a stone no longer slides but turns away, s."""
 
 FALLEN = 2.0
-"""How long after its fall a stone is followed, s: a drum that lies may roll until the record ends."""
+"""How long after its fall a film follows a stone, s: a drum that lies may roll until the record ends."""
 
 
 def figure(responses: Stacks, *, gal: bool = True) -> Figure:
     """Return the figure: per run the ground acceleration, and tilts and slips of the stones against time."""
-    motions, stretches = [response.motion for response in responses], [stretch(response, margin=1.0) for response in responses]
+    motions = [response.motion for response in responses]
+    stretches = [stretch(response, margin=1.0, after=0.0) for response in responses]  # no curve goes on when its stone has fallen
     made = canvas.titled(heading_of(motions), width=3.5 + 4.5 * len(responses), height=6.6)
     far = length_unit((largest(response, "slip") for response in responses), gal=gal)
     for panels, name, response in zip(columns_of(made, motions, stretches, 3), names_of(motions), responses, strict=True):
@@ -108,11 +109,11 @@ def largest(response: Response[StackOutcome], quantity: str) -> float:
     return top
 
 
-def stretch(response: Response[StackOutcome], *, margin: float) -> tuple[float, float]:
-    """Return when the stones move noticeably, with a margin, s; the strong part of the record if they never do."""
+def stretch(response: Response[StackOutcome], *, margin: float, after: float = FALLEN) -> tuple[float, float]:
+    """Return when the stones move noticeably, each until so long `after` its fall, with a margin, s; if none does, the strong part."""
     time, moving = response.time, np.zeros(response.time.size, dtype=bool)
     for stone in response.outcome.stones:
-        followed = time <= (np.inf if stone.fell_at_s is None else stone.fell_at_s + FALLEN)
+        followed = time <= (np.inf if stone.fell_at_s is None else stone.fell_at_s + after)
         for quantity, least in (("tilt", NOTICEABLE_TILT), ("slip", NOTICEABLE_SLIP)):
             values = response[f"{stone.name}_{quantity}"]
             moving |= (np.abs(np.gradient(values)) > 0.1 * least) & (np.abs(values - values[0]) > least) & followed

@@ -123,6 +123,7 @@ def _space(scene: Space) -> dict[str, Any]:
         "extent": scene.extent(),
         "view": [AZIMUTH, ELEVATION],
         "half": scene.half,
+        "patch": [_numbers(corner, METRES) for corner in scene.patch],
         "stone": STONE.tolist(),
         "light": LIGHT.tolist(),
         "moved": _columns(scene.moved),

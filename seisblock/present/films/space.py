@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -24,6 +25,9 @@ MOMENTS = 100.0
 
 FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+
+BORDER = 0.5
+"""Width of the ground that is seen beside what lies on it, over its least size."""
 
 SIDES = 20
 """Of the prism that a cylinder is drawn as."""
@@ -102,7 +106,7 @@ class Space:
         Displacement of the ground.
     solids, springs : tuples
     half : float, m
-        Half the side of the patch of ground.
+        Half the side of the patch of ground about where the solids stand; it goes on to where they come to lie, if that is in sight.
     """
 
     moved: FloatArray
@@ -116,17 +120,33 @@ class Space:
         tall = max(float(solid.centre[0, 2]) + 0.5 * solid.size[2] for solid in self.solids)
         reach = 0.6 * max(math.hypot(*solid.size) for solid in self.solids)
         centres = np.concatenate([solid.centre + self.moved for solid in self.solids])
-        across, high, wide = centres @ right, centres @ up, 1.2 * tall + self.half
-        patch = self.half * (abs(float(right[0])) + abs(float(right[1]))), self.half * (abs(float(up[0])) + abs(float(up[1])))
-        aside, rise = self.moved @ right, self.moved @ up
-        left = max(min(float(across.min()) - reach, float(aside.min()) - patch[0]), -wide)
-        end = min(max(float(across.max()) + reach, float(aside.max()) + patch[0]), wide)
-        low = max(min(float(high.min()) - reach, float(rise.min()) - 1.1 * patch[1]), -wide)
+        across, high = centres @ right, centres @ up
+        ground, beside = self.patch + self.moved[:, np.newaxis], 0.05 * self.half
+        aside, rise = ground @ right, ground @ up
+        left = max(min(float(across.min()) - reach, float(aside.min()) - beside), -self.sight)
+        end = min(max(float(across.max()) + reach, float(aside.max()) + beside), self.sight)
+        low = max(min(float(high.min()) - reach, float(rise.min()) - beside), -self.sight)
         return left, end, low, min(float(high.max()) + reach, 1.5 * tall)
+
+    @property
+    def sight(self) -> float:
+        """How far from where the solids stand is in the picture at most, m."""
+        return 1.2 * max(float(solid.centre[0, 2]) + 0.5 * solid.size[2] for solid in self.solids) + self.half
+
+    @cached_property
+    def patch(self) -> FloatArray:
+        """The corners of the patch of ground about its place, (4, 3), m: under all that comes to lie in sight, with a margin."""
+        low, high = np.full(2, -self.half), np.full(2, self.half)
+        for solid in self.solids:
+            corners, margin = solid.placed(-1), BORDER * min(solid.size)
+            if np.abs(on_picture(corners)).max() < self.sight:
+                low, high = np.minimum(low, corners[:, :2].min(axis=0) - margin), np.maximum(high, corners[:, :2].max(axis=0) + margin)
+        (left, front), (right, back) = low, high
+        return np.array([(left, front, 0.0), (right, front, 0.0), (right, back, 0.0), (left, back, 0.0)])
 
     def floor(self, index: int) -> FloatArray:
         """Return the patch of ground in picture `index`, (4, 3), m."""
-        return np.array([(x * self.half, y * self.half, 0.0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]) + self.moved[index]
+        return self.patch + self.moved[index]
 
     def faces(self, index: int, time: float) -> Iterator[tuple[FloatArray, FloatArray, bool]]:
         """Yield the faces that the viewer sees, the farthest first: corners (k, 3), m, shade (3,), and whether the solid has fallen."""

@@ -35,15 +35,16 @@ Stacks = Sequence[Response[StackOutcome]]
 
 def tables(responses: Stacks, extras: Sequence[Mapping[str, Any]], *, gal: bool = True) -> Iterator[Any]:
     """Yield what falls and how sure that is, the record, a row per stone, and how far the models of the top stone are apart."""
-    both = zip(responses, extras, strict=True)
-    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: _happened(*each, gal=gal)):
+    both, several = zip(responses, extras, strict=True), len(responses) > 1
+    for opening, part in answered(both, lambda each: each[0].motion.record, lambda each: _happened(*each, named=several, gal=gal)):
         yield from opening
         yield from (shown for each in part for shown in _details(*each, gal=gal))
 
 
-def _happened(response: Response[StackOutcome], extra: Mapping[str, Any], *, gal: bool) -> Iterator[Text]:
-    """Yield what happened, and in what share of the versions."""
-    yield line(verdict(response))
+def _happened(response: Response[StackOutcome], extra: Mapping[str, Any], *, named: bool, gal: bool) -> Iterator[Text]:
+    """Yield what happened, under the name of its component where there are others, and in what share of the versions."""
+    told = verdict(response)
+    yield line(tell("{name}: {text}", name=response.motion.name or "x", text=told) if named else told)
     if "probability" in extra:
         yield line("  " + share(extra["probability"], gal=gal))
 

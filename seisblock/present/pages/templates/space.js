@@ -27,7 +27,7 @@ function drawScene(place) {
   const scale = Math.min(width / (box[1] - box[0]), height / (box[3] - box[2]));
   const put = p => [width / 2 + (dot(p, right) - (box[0] + box[1]) / 2) * scale, height / 2 - (dot(p, up) - (box[2] + box[3]) / 2) * scale];
   const vector = columns => columns.map(column => sample(column, place)), moved = vector(scene.moved);
-  const patch = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => plus([x * scene.half, y * scene.half, 0], moved));
+  const patch = scene.patch.map(corner => plus(corner, moved));
   polygon(pen, patch.map(put), "#e6e6e6", "#bfbfbf");
   // the x axis on the ground, by which one knows where one stands
   pen.strokeStyle = SOFT; pen.fillStyle = SOFT; pen.lineWidth = 1; pen.beginPath();
