@@ -54,3 +54,43 @@ def test_a_slab_slips_as_far_as_its_events_say(pga, hertz, kinetic):
     kept = kept[kept < len(shaking)]
     assert np.abs(expected).max() > 0.005
     np.testing.assert_allclose(found["slab_x"][: kept.size], expected[kept], atol=0.01 * np.abs(expected).max())
+
+
+def slide_as_one(shaking, fine=200):
+    """Return the way along and across of slabs with one friction in all joints, m, as one body: implicit steps, shorter than a pile's."""
+    way, speed, h, found = np.zeros(2), np.zeros(2), DT / fine, []
+    for left, right in pairwise(shaking.T):
+        found.append(way)
+        for k in range(fine):
+            ground = left + (right - left) * (k + 0.5) / fine
+            free = speed - h * ground[:2]
+            brake = h * STATIC * (G + ground[2])
+            speed = free * max(1.0 - brake / max(math.hypot(*free), 1e-30), 0.0)
+            way = way + h * speed
+    return np.array([*found, way])
+
+
+@pytest.mark.parametrize(
+    ("pga", "hertz", "across", "up"), [(9.5, 2.1, 0.0, 0.0), (8.0, 3.9, 0.0, 0.0), (9.5, 3.2, 0.0, 3.0), (9.5, 3.9, 6.0, 0.0)]
+)
+@pytest.mark.parametrize("number", [2, 3])
+def test_slabs_with_one_friction_slide_as_one(number, pga, hertz, across, up):
+    """Within 1 % of the largest slip at the default step: what stands on a slab clings to it where it turns.
+
+    Where all that might stop in a step were braked for all of it, the upper ones were off by 2 to 19 % (not three along two axes).
+    """
+    time = np.arange(0.0, 3.0, DT)
+    fading = np.exp(-time)
+    turn = 2.0 * math.pi * hertz * time
+    shaking = np.array([pga * fading * np.sin(turn), across * fading * np.sin(0.8 * turn), up * fading * np.sin(1.3 * turn)])
+    sizes = [1.5, 1.2, 0.8]
+    names = ["base", "middle", "top"][:number]
+    slabs = [PileStone(name, size, size, 0.1, on=on) for name, size, on in zip(names, sizes, ["ground", *names], strict=False)]
+    found = solve_stack(Pile("slabs", tuple(slabs), mu=STATIC), Motion(shaking, DT))
+    expected = slide_as_one(shaking)
+    kept = np.round(found.time / DT).astype(int)
+    kept = kept[kept < len(time)]
+    most = np.hypot(*expected.T).max()
+    for name in names:
+        for k, axis in enumerate("xy"):
+            np.testing.assert_allclose(found[f"{name}_{axis}"][: kept.size], expected[kept, k], atol=0.01 * most)

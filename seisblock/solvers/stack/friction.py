@@ -5,10 +5,14 @@ kinetic friction acted against s until then, and the rest of the step obeys Coul
 
     P_t = -mu_k f s P_n + Q ,   |Q| <= mu (1 - f) P_n ,   mu = mu_s where it stays, mu_k where it slides on   (derived here).
 
-Where it goes on sliding, f = 1/2: half of the friction is against where it went, half against where it goes, which follows a direction
-that turns to the second order of the step. Where it begins to slide, friction is static up to then; when that is follows from the forces of
-the step before and of this one. Friction by the velocity at the end of a step alone would brake what turns within it, by mu_k g of a step's
-velocity on average, and hold for a step more what begins to slide.
+What comes to rest changes what others have to bear: where several points stop in a step, the first ones do, and the others are looked at
+again with what these do afterwards. Slabs with the same friction in all joints slide as one; the upper one is at its cone then, and nothing
+would brake it that slid on alone where the lower one turns.
+
+Where a point goes on sliding, f = 1/2: half of the friction is against where it went, half against where it goes, which follows a direction
+that turns to the second order of the step; what turns more sharply stops. Where it begins to slide, friction is static up to then; when
+that is follows from the forces of the step before and of this one. Friction by the velocity at the end of a step alone would brake what
+turns within it, by mu_k g of a step's velocity on average, and hold for a step more what begins to slide.
 """
 
 from __future__ import annotations
@@ -48,8 +52,14 @@ NOTICED = 3e-3
 SATURATED = 1.0 - 1e-6
 """Part of what friction can do that it does where a point slides."""
 
-TRIES = 4
+TRIES = 16
 """How often the impulses of a step are looked for at most."""
+
+TOGETHER = 0.1
+"""Part of a step within which points come to rest together; what would do so later is looked at again with what these do afterwards."""
+
+VEERED = 0.7071067811865476
+"""Cosine of the angle by which a slip turns in a step, beyond which it is one that stops."""
 
 STAYS, STOPS, TURNS, BEGINS, GOES = range(5)
 """What a point does in a step, as far as is known: what it did; it stops; it stopped, and stays or goes another way; it begins to slide;
@@ -124,10 +134,30 @@ def _earlier(i, count, x, y, z, memory):
     return drag / press if press > 0.0 else 0.0
 
 
+@kernel(_t.float64(_t.float64, _t.float64), inline=True)
+def _until_rest(paced, along):
+    """Return after which part of the step a point comes to rest that is braked from one speed to another; 1 where it does not."""
+    return paced / (paced - along) if along < 0.0 else 1.0
+
+
+@kernel(_t.float64(_t.int64, MEMORY), inline=True)
+def _soonest(count, memory):
+    """Return after which part of the step the first of the points comes to rest that may stop, while all of these are braked."""
+    first = 1.0
+    for i in range(count):
+        row = memory.table[i]
+        press = row[IMPULSE] * row[NORMAL] + row[IMPULSE + 1] * row[NORMAL + 1] + row[IMPULSE + 2] * row[NORMAL + 2]
+        if press > 0.0 and row[TURN] == STOPS:
+            u0, u1, u2 = along_face(memory.who[i, 0], memory.who[i, 1], row, memory)
+            first = min(first, _until_rest(row[PACED], u0 * row[OLD] + u1 * row[OLD + 1] + u2 * row[OLD + 2]))
+    return first
+
+
 @kernel(_t.boolean(_t.int64, _t.boolean, MEMORY), inline=True)
 def _judge(count, struck, memory):
     """Look at what points do with the impulses that were tried, and lay their cones anew; return whether another try is wanted."""
     least, again = NOTICED * memory.pace[FALL], False
+    first = _soonest(count, memory)
     for i in range(count):
         row = memory.table[i]
         p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
@@ -138,14 +168,18 @@ def _judge(count, struck, memory):
         along = u0 * row[OLD] + u1 * row[OLD + 1] + u2 * row[OLD + 2]
         speed = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2)
         if row[SLID] > 0.0 and row[TURN] == STAYS:
-            if along <= least:
+            if along <= max(least, VEERED * speed):
                 row[TURN] = STOPS
                 _lay(row, row[KINETIC], 0.0)
                 again = True
         elif row[TURN] == STOPS:
-            part = row[PACED] / (row[PACED] - along) if along < 0.0 else 1.0
-            row[TURN] = TURNS
-            _lay(row, part * row[KINETIC], (1.0 - part) * row[STATIC])
+            part = _until_rest(row[PACED], along)
+            if part == 1.0 or part > first + TOGETHER:
+                row[TURN] = STAYS if part > first + TOGETHER else GOES
+                _lay(row, 0.5 * row[KINETIC], 0.5 * row[KINETIC])
+            else:
+                row[TURN] = TURNS
+                _lay(row, part * row[KINETIC], (1.0 - part) * row[STATIC])
             again = True
         elif row[TURN] == TURNS:
             if speed > least and row[KINETIC] < row[STATIC]:
