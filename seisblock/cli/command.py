@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import click
 
+from seisblock import checks
 from seisblock.cli.help import Context, rows_of
 from seisblock.cli.meant import OneOf, asking_for_options
+from seisblock.errors import ParameterError
 from seisblock.words import LANGUAGES, noted, tell
 
 SECTIONS = (
@@ -22,11 +25,27 @@ SECTIONS = (
 """Headings of ``--help``, in this order; an option names the one it belongs to."""
 
 
+class Finite(click.types.FloatParamType):
+    """A number that is one, also where nothing reads it."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number that a text says."""
+        number: float = super().convert(value, param, ctx)
+        if math.isfinite(number):
+            return number
+        try:
+            return checks.finite(noted("it"), number)
+        except ParameterError as error:
+            self.fail(tell(error.said), param, ctx)
+
+
 class Option(click.Option):
     """A click option that knows its section of the help."""
 
     def __init__(self, *args: Any, section: str = "Solver", **kwargs: Any) -> None:
         self.section = section
+        if kwargs.get("type") is float:
+            kwargs["type"] = Finite()
         super().__init__(*args, **kwargs)
 
 

@@ -7,12 +7,13 @@ from typing import Any
 
 import click
 
+from seisblock import checks
 from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.meant import OneOf
-from seisblock.cli.options import Source, gravity_option, output_options, record_options
+from seisblock.cli.options import Source, checked, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
 from seisblock.cli.types import LENGTH, LENGTHS, MASSES
@@ -29,7 +30,13 @@ DEFAULT_BLOCK = "chozusha"
 @two_layer_option(f"Bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
 @side_option("Which side of the block in plan lies along the motion.")
 @option("--width", type=LENGTH, section="Body", help="Width B along the motion, m or with a unit; then give --heights, --masses.")
-@option("--depth", type=LENGTH, section="Body", help="Width across the motion, m; changes nothing in the plane. [default: --width]")
+@option(
+    "--depth",
+    type=LENGTH,
+    callback=checked(checks.positive),
+    section="Body",
+    help="Width across the motion, m; changes nothing in the plane. [default: --width]",
+)
 @option("--heights", type=LENGTHS, metavar="H1,H2", section="Body", help="Heights of the upper and the lower layer, m or with units.")
 @option("--masses", type=MASSES, metavar="M1,M2", section="Body", help="Masses of the upper and the lower layer, kg or with units.")
 @option("--mu", type=float, help="Static friction of the landed foot, 1. [default: the body's own, else required]")
@@ -54,7 +61,13 @@ DEFAULT_BLOCK = "chozusha"
 @landing_option("How a foot that lands is stopped: at once, whatever friction that takes, or by what friction can bear; it then slips on.")
 @option("--first", is_flag=True, help="Follow the first chain of motion only, in each --window, as the paper does. [default: all]")
 @option("--repeat", is_flag=True, hidden=True, help="All chains; since 0.2.0 the default.")
-@option("--tenon", type=LENGTH, section="Output", help="Depth of the tenon's hole: say whether the foot left it, m or with a unit.")
+@option(
+    "--tenon",
+    type=LENGTH,
+    callback=checked(checks.positive),
+    section="Output",
+    help="Depth of the tenon's hole: say whether the foot left it, m or with a unit.",
+)
 @gravity_option
 @output_options()
 def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **asked: Any) -> None:

@@ -219,8 +219,8 @@ def _can() -> Case:
         turn_over(stone),
         TURN_OVER,
         partial(turned_over, stone),
-        note="expected: pi sqrt(1 + m R^2/I), I about a diameter of the base, derived here. Steps of 10 microseconds: it rolls across within "
-        "half a millisecond, and at the default step it strikes",
+        note="expected: pi sqrt(1 + m R^2/I), I about a diameter of the base, derived here. Steps of 0.1 ms: it rolls across within half a "
+        "millisecond; a step ends where its lowest point has wandered far",
         kind="derived",
         quick=False,
     )

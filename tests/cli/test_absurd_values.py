@@ -108,7 +108,7 @@ def test_a_frequency_of_nothing_on_earth(recwarn):
     ("option", "value", "why"),
     [
         ("--mu", "-1", "mu must be zero or more, found -1"),
-        ("--mu", "nan", "mu must be zero or more, found nan"),
+        ("--mu", "-0.1", "mu must be zero or more, found -0.1"),
         ("--mu-kinetic", "1e300", "lies outside all"),
         ("--restitution", "-1", "must lie in [0, 1), found -1"),
         ("--rocking-restitution", "1e300", "must lie in [0, 1], found 1e+300"),
@@ -157,3 +157,33 @@ def test_an_interval_of_no_width():
     words = ("shaken_block.csv", *BLOCK, "--free", "alpha", "--scatter", "0.05", "--lapse", "0.02", "--runs", "1")
     code, answer, said = run("fit", *words, "--confidence=1e-300")
     assert (code, answer) == (3, "") and "the level of the intervals must lie in [0.001, 1), found 1e-300" in said
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "-inf"])
+@pytest.mark.parametrize(
+    "line",
+    [
+        ("rock", *BLOCK, "--spread"),
+        ("rock", *BLOCK, "--margin-limit"),
+        ("criteria", *BLOCK, "--mu-kinetic"),
+        ("infer", "--slid", "3cm", "--mu", "0.4", "--restitution-x"),
+    ],
+)
+def test_what_is_no_number_is_refused_where_nothing_reads_it(line, value):
+    """An option that this line has no use for: it was taken, and nothing said."""
+    code, answer, said = run(*line, value)
+    assert (code, answer) == (2, "") and f"'{line[-1]}': it must be a finite number, found {value}" in said
+
+
+@pytest.mark.parametrize("option", ["--depth", "--tenon"])
+@pytest.mark.parametrize("value", ["0", "-1cm"])
+def test_lengths_of_a_foot_that_jumps(option, value):
+    """Neither width nor depth of a hole can be nothing or less."""
+    code, answer, said = run("jump", *SHORT, option, value)
+    assert (code, answer) == (2, "") and "it must be positive" in said
+
+
+def test_a_paper_without_a_name():
+    """Every key begins with nothing: all cases ran."""
+    code, answer, said = run("validate", "--paper=", "--quick")
+    assert (code, answer) == (3, "") and "no validation case cites ''" in said

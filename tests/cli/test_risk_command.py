@@ -72,7 +72,6 @@ def test_files(run, tmp_path):
         ((*LINE, "--im", "pga"), "one column of levels"),
         ((*LINE, "--im", "sa"), "needs its period"),
         (("--median", "0.6", "--beta", "0", *LINE[4:]), "beta, the dispersion of a fragility, must be positive"),
-        (("--median", "0.6", "--beta", "nan", *LINE[4:]), "beta, the dispersion of a fragility, must be positive"),
         ((*LINE[:4], "--hazard", "."), "cannot read"),
         ((*LINE, "--csv", "synthetic_hazard.csv", "--plot", "synthetic_hazard.csv"), "synthetic_hazard.csv"),
     ],

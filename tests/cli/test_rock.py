@@ -204,7 +204,7 @@ def test_table_figure_and_history(run, pulse, tmp_path):
         (["--block", "nowhere.toml"], "no body file"),
         (["--width", "0.2", "--height", "1", "--restitution", "1.2"], "[0, 1]"),
         (["--width", "0.2", "--height", "1", "--restitution", "-0.1"], "[0, 1]"),
-        (["--width", "0.2", "--height", "1", "--restitution", "nan"], "[0, 1]"),
+        (["--width", "0.2", "--height", "1", "--restitution", "nan"], "must be a finite number"),
         (["--width", "0.2", "--height", "1", "--centroid-offset", "0.1"], "above the base"),
         (["--width", "0.2", "--height", "1", "--centroid-height", "1.2"], "above the height"),
         (["--width", "0.2", "--height", "1", "--azimuth", "north"], "degrees"),

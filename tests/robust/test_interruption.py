@@ -165,6 +165,7 @@ def test_what_a_library_swallows_comes_again(number, code, tmp_path):
     command = [sys.executable, "-c", SWALLOWING, "measure", "--quiet"]
     with subprocess.Popen(command, cwd=tmp_path, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as process:
         assert process.stdout.readline() == "go\n"
+        time.sleep(0.3)  # a signal that comes just before a sleep begins waits for its end: of that, no program is master
         process.send_signal(number)
         try:
             _, said = process.communicate(timeout=600)
