@@ -155,6 +155,38 @@ def test_a_box_that_just_touches_does_so_where_its_points_say(share):
     assert touched > 20
 
 
+@pytest.mark.parametrize(
+    ("share", "turn", "centre"),
+    [
+        (0.0, (-0.247874, 0.0070256, -0.1708199), (-0.4771024, 0.0836632, 0.327774)),
+        (0.05, (-1.1059369, -2.6752021, -0.8585151), (0.5690352, 0.4474589, -0.4142759)),
+        (0.3, (-0.0316436, -0.0334075, -0.0105271), (0.3155713, 0.3392603, -0.4483164)),
+    ],
+)
+def test_of_edges_that_lie_nearly_as_deep_the_one_is_taken_that_crosses(share, turn, centre):
+    """Along two pairs of edges the gaps differed by less than faces are favoured by: the first was taken, and no point found there."""
+    pile, rel = pair(share), seen(Rotation.from_rotvec(turn), centre)
+    gap, axis = widest(pile, rel)
+    assert axis[KIND] >= EDGES
+    assert gap < -9e-4
+    points, _ = meeting(pile, rel, gap, axis)
+    assert len(points) == 1
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_edges_that_lie_in_each_other_cross(share):
+    """The least way out of an overlap is out of a face of the difference of both bodies: there the edges cross (derived)."""
+    pile, crossed = pair(share), 0
+    for rel in places(1500, 8):
+        gap, axis = widest(pile, rel)
+        rel[9:12] -= (gap + 2e-3) * axis[:3]
+        gap, axis = widest(pile, rel)
+        if gap < 0.0 and axis[KIND] >= EDGES:
+            assert len(meeting(pile, rel, gap, axis)[0]) == 1
+            crossed += 1
+    assert crossed > 300
+
+
 @pytest.mark.parametrize(("yaw", "count"), [(0.0, 4), (math.radians(45.0), 8)])
 def test_a_stone_that_lies_flat_has_the_corners_of_what_both_faces_share(yaw, count):
     """Four where it lies along the other, eight where it is turned and each cuts the other's corners."""

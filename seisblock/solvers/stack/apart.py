@@ -29,7 +29,8 @@ FACE = 4
 """Where the axis of the widest gap along a normal of a face stands behind the axis of the widest of all."""
 
 FAVOUR = 1e-5
-"""How much wider, m, a gap must be along the carrier's normals than along the partner's, and across edges than along either."""
+"""How much wider, m, a gap must be along the carrier's normals than along the partner's, and across edges than along either. Of edges the
+widest is taken: the others do not cross."""
 
 PARALLEL = 1e-8
 """Square of the sine of the angle below which edges are parallel."""
@@ -90,6 +91,7 @@ def furthest(rel, own, half, enough, axis):
         axis[FACE + k] = axis[k]
     if widest > enough:
         return widest
+    least = widest + FAVOUR
     for i in range(3):
         for j in range(3):
             x, y, z = rel[j], rel[3 + j], rel[6 + j]
@@ -109,8 +111,8 @@ def furthest(rel, own, half, enough, axis):
             b = x * rel[1] + y * rel[4] + z * rel[7]
             c = x * rel[2] + y * rel[5] + z * rel[8]
             gap = scale * d - _reach(x, y, z, half) - _reach(a, b, c, own)
-            if gap > widest + FAVOUR:
-                widest = gap
+            if gap > least:
+                widest = least = gap
                 _take(x, y, z, EDGES + 3 * i + j, axis)
     return widest
 

@@ -156,12 +156,15 @@ def _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory):
 def _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory):
     """Make rows of the points where a round stone's face lies on another stone's, or under it; return how many rows there are then.
 
-    Stones that came to lie in each other's outlines, met as the boxes inside them, are left to these: return -1.
+    Stones whose outlines lie beside each other, and those that came to lie in each other's, met as the boxes inside them, are left to
+    these: return -1.
     """
     c, p, k, work = pile.pairs[pair, 1], pile.pairs[pair, 0], pile.pair_constants[pair], memory.work
     slots, before, axes, axis, found = memory.corner_slots[pair, 0], memory.corner_slots[pair, 1], work[7:11], work[19], work[20:]
     pressed_sides(slots, rel, min(pile.boxes[c, 0], pile.boxes[p, 0]), axis[4:])
     points = shared_points(c, p, rel, pile, axis, work[4:19], found)
+    if points == 0:
+        return -1
     if memory.handled[pair] == BOXES:
         for i in range(points):
             if found[i, 3] < -DEEP:

@@ -139,6 +139,7 @@ def furthest_worn(rel, c, p, enough, pile, seen, axis):
     if not mine and widest > -FAVOUR and _lies_over(face, widest, others, n_others, seen, count):
         return widest
     _see_edges(count, others, n_others, seen)
+    least = widest + FAVOUR
     for i in range(2 * n_others - RING):
         one, two, left, right = edge_of(i, n_others)
         start, a, b = others[one], others[left], others[right]
@@ -161,8 +162,8 @@ def furthest_worn(rel, c, p, enough, pile, seen, axis):
                 continue
             scale = (1.0 if out > 0.0 else -1.0) / math.sqrt(square)
             gap = scale * (x * (own[0] - start[0]) + y * (own[1] - start[1]) + z * (own[2] - start[2]))
-            if gap > widest + FAVOUR:
-                widest = gap
+            if gap > least:
+                widest = least = gap
                 axis[0] = scale * x
                 axis[1] = scale * y
                 axis[2] = scale * z
