@@ -58,16 +58,18 @@ def test_a_slab_slips_as_far_as_its_events_say(pga, hertz, kinetic):
 
 def slide_as_one(shaking, fine=200):
     """Return the way along and across of slabs with one friction in all joints, m, as one body: implicit steps, shorter than a pile's."""
-    way, speed, h, found = np.zeros(2), np.zeros(2), DT / fine, []
-    for left, right in pairwise(shaking.T):
+    way, speed, h, found = 0j, 0j, DT / fine, []
+    level, up = (shaking[0] + 1j * shaking[1]).tolist(), shaking[2].tolist()
+    for left, right, low, high in zip(level, level[1:], up, up[1:], strict=False):
         found.append(way)
         for k in range(fine):
-            ground = left + (right - left) * (k + 0.5) / fine
-            free = speed - h * ground[:2]
-            brake = h * STATIC * (G + ground[2])
-            speed = free * max(1.0 - brake / max(math.hypot(*free), 1e-30), 0.0)
-            way = way + h * speed
-    return np.array([*found, way])
+            part = (k + 0.5) / fine
+            free = speed - h * (left + (right - left) * part)
+            brake = h * STATIC * (G + low + (high - low) * part)
+            speed = free * max(1.0 - brake / max(abs(free), 1e-30), 0.0)
+            way += h * speed
+    ways = np.array([*found, way])
+    return np.array([ways.real, ways.imag]).T
 
 
 @pytest.mark.parametrize(
@@ -94,3 +96,24 @@ def test_slabs_with_one_friction_slide_as_one(number, pga, hertz, across, up):
     for name in names:
         for k, axis in enumerate("xy"):
             np.testing.assert_allclose(found[f"{name}_{axis}"][: kept.size], expected[kept, k], atol=0.01 * most)
+
+
+def test_a_slab_that_turns_as_it_slides_slips_as_far_as_in_fine_steps():
+    """Under two sines of unlike frequency half of 24 slabs within 1 % of the largest slip, nine of ten within 3 %, at the default step.
+
+    Where the turn of a slip was not followed within a step, half of such slabs were within 3 %, and nine of ten within 13 %.
+    """
+    dice, missed = np.random.default_rng(12), []
+    time = np.arange(0.0, 5.0, DT)
+    for _ in range(24):
+        size, pga, across = dice.uniform(0.5, 4.0), STATIC * G * dice.uniform(1.2, 3.0), dice.uniform(0.3, 1.0)
+        one, other = 2.0 * math.pi * dice.uniform(0.6, 6.0, 2)
+        rows = pga * np.array([np.sin(one * time), across * np.sin(other * time + 1.0), np.zeros(time.size)]) * np.minimum(time, 1.0)
+        found = solve_stack(Pile("slab", (PileStone("slab", size, size, 0.1),), mu=STATIC), Motion(rows, DT))
+        expected = slide_as_one(rows, fine=100)
+        kept = np.round(found.time / DT).astype(int)
+        kept = kept[kept < len(time)]
+        way = np.array([found["slab_x"], found["slab_y"]]).T[: kept.size]
+        missed.append(np.hypot(*(way - expected[kept]).T).max() / np.hypot(*expected.T).max())
+    assert np.median(missed) < 0.01
+    assert np.quantile(missed, 0.9) < 0.03

@@ -10,7 +10,8 @@ again with what these do afterwards. Slabs with the same friction in all joints 
 would brake it that slid on alone where the lower one turns.
 
 Where a point goes on sliding, f = 1/2: half of the friction is against where it went, half against where it goes, which follows a direction
-that turns to the second order of the step; what turns more sharply stops. Where it begins to slide, friction is static up to then; when
+that turns to the second order of the step. It turns most sharply where it is slowest: a step ends where the slip has turned far, under the
+forces of before. Where it begins to slide, friction is static up to then; when
 that is follows from the forces of the step before and of this one. Friction by the velocity at the end of a step alone would brake what
 turns within it, by mu_k g of a step's velocity on average, and hold for a step more what begins to slide.
 """
@@ -41,7 +42,7 @@ from seisblock.solvers.stack.impulse import (
     parting,
     press,
 )
-from seisblock.solvers.stack.row import FALL, FIRST, JOINTS
+from seisblock.solvers.stack.row import FALL, FIRST, JOINTS, WHOLE
 from seisblock.solvers.stack.sweeps import PRECISION, settle, settle_surely
 
 _t = types()
@@ -58,8 +59,9 @@ TRIES = 16
 TOGETHER = 0.1
 """Part of a step within which points come to rest together; what would do so later is looked at again with what these do afterwards."""
 
-VEERED = 0.7071067811865476
-"""Cosine of the angle by which a slip turns in a step, beyond which it is one that stops."""
+TURNING, ASIDE, SHORTEST = 0.3, 0.05, 0.0625
+"""Tangent of the angle by which a slip may turn until a step ends; what turns it aside, over what brakes it, from which it turns and does
+not stop; and the least step that has such an end, over a whole one."""
 
 STAYS, STOPS, TURNS, BEGINS, GOES = range(5)
 """What a point does in a step, as far as is known: what it did; it stops; it stopped, and stays or goes another way; it begins to slide;
@@ -95,6 +97,30 @@ def look_back(count, anew, memory):
         row[OLD] = u0 / row[PACED]
         row[OLD + 1] = u1 / row[PACED]
         row[OLD + 2] = u2 / row[PACED]
+
+
+@kernel(_t.float64(_t.int64, _t.float64, _t.float64, _t.float64, MEMORY))
+def far_turned(count, since, before, left, memory):
+    """Return when what slides will have turned far, s, at the latest what is left of the step.
+
+    Parameters
+    ----------
+    since, before : float, s
+        For how long the velocities have gone on since they were noted, under the forces in the rows; and for how long of it to the step.
+    """
+    first = left
+    for i in range(count):
+        row = memory.table[i]
+        if row[STANDS] == 0.0 or row[SLID] == 0.0:
+            continue
+        u0, u1, u2 = parting(memory.who[i, 0], memory.who[i, 1], row, memory.speeds)
+        up = u0 * row[NORMAL] + u1 * row[NORMAL + 1] + u2 * row[NORMAL + 2]
+        along = u0 * row[OLD] + u1 * row[OLD + 1] + u2 * row[OLD + 2]
+        across = math.sqrt(max(u0 * u0 + u1 * u1 + u2 * u2 - up * up - along * along, 0.0)) / since
+        braked = (row[PACED] - along) / since
+        if across > ASIDE * braked and across + TURNING * braked > 0.0:
+            first = min(first, 2.0 * (row[PACED] * TURNING / (across + TURNING * braked) - before))
+    return min(left, max(first, SHORTEST * memory.pace[WHOLE]))
 
 
 @kernel(_t.void(VECTOR, _t.float64, _t.float64), inline=True)
@@ -168,7 +194,7 @@ def _judge(count, struck, memory):
         along = u0 * row[OLD] + u1 * row[OLD + 1] + u2 * row[OLD + 2]
         speed = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2)
         if row[SLID] > 0.0 and row[TURN] == STAYS:
-            if along <= max(least, VEERED * speed):
+            if along <= least:
                 row[TURN] = STOPS
                 _lay(row, row[KINETIC], 0.0)
                 again = True

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.apart import EDGES, FACE, KIND
@@ -9,7 +11,7 @@ from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import CLINGS, ENTERED, OUTSIDE, PLACE, REBOUND, REL_D, SLOT
 from seisblock.solvers.stack.frames import relative
 from seisblock.solvers.stack.hull_pairs import bevel_meets, edges_cross, faces_overlap, gap_between, most_points
-from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, STANDS
+from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, NORMAL, STANDS
 from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
 from seisblock.solvers.stack.remember import TURNED, even_out, gather, keep, left, put, recall, share_out
 from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, note_rim, pressed_sides
@@ -219,7 +221,10 @@ def _meet(count, pair, bodies, dt, pile, memory):
             row = memory.table[i]
             row[BOUNCE] = rebound
             row[STANDS] = 1.0
-            if 1.0 - rel[8] < FLAT and row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0:
+            pressed = row[IMPULSE] * row[NORMAL] + row[IMPULSE + 1] * row[NORMAL + 1] + row[IMPULSE + 2] * row[NORMAL + 2]
+            if pressed > 0.0:
+                row[HEED] = math.inf
+            elif 1.0 - rel[8] < FLAT:
                 row[HEED] *= FAINT
         if 1.0 - rel[8] < FLAT and pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] == 0.0:
             even_out(first, count, NEAR, memory.table)

@@ -26,6 +26,9 @@ FINEST = 1e-3
 RIGID_STEP, RIGID_FINEST, RIGID_COARSEST = 0.018, 1e-5, 0.1
 """Parts of the time in which a stone swings: the step by default where contacts are rigid, the finest and the coarsest."""
 
+RIGID_LONGEST = 1.0 / 300.0
+"""Longest step by default, s: the slips of large stones follow the shaking, not their own swinging."""
+
 _AXES = np.eye(3)
 
 
@@ -126,7 +129,7 @@ def rigid_steps(pile: PileArrays, dt: float, step: float | None, gravity: float)
     """Return how many steps a sampling interval takes where contacts are rigid.
 
     Any step is stable. By default it is a part of the time in which the smallest stone would swing, at which thresholds of
-    toppling stand within 0.5 % of those of much finer steps.
+    toppling stand within 0.5 % of those of much finer steps, and at most a three hundredth of a second.
 
     Raises
     ------
@@ -147,7 +150,7 @@ def rigid_steps(pile: PileArrays, dt: float, step: float | None, gravity: float)
                 least=RIGID_FINEST * swing,
                 most=RIGID_COARSEST * swing,
             )
-    return max(1, math.ceil(dt / (RIGID_STEP * swing if step is None else step) * (1.0 - 1e-12)))
+    return max(1, math.ceil(dt / (min(RIGID_STEP * swing, RIGID_LONGEST) if step is None else step) * (1.0 - 1e-12)))
 
 
 def sink(pile: PileArrays, gravity: float, bodies: FloatArray, stretches: FloatArray) -> None:

@@ -13,7 +13,7 @@ from seisblock.dynamics.arrays import MATRIX
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
-from seisblock.solvers.stack.friction import NOTICED, along_face, lay_cones, look_back, settle_slips, work_done
+from seisblock.solvers.stack.friction import NOTICED, along_face, far_turned, lay_cones, look_back, settle_slips, work_done
 from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, GIVEN, IMPULSE, VEERING, press
 from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
@@ -147,7 +147,9 @@ def _try(bodies, a0, a1, a2, left, look, pile, memory):
         _strike(count, n, before, pile, memory)
         strikes(count, memory)
     _go_on(count, n, 0.5 * left, a0, a1, a2, pile, memory)
-    step = soonest(count, 0.5 * left, far_round(count, left, memory), memory)
+    since, until = (0.5 * left, 0.0) if struck else (before + 0.5 * left, before)
+    far = min(far_round(count, left, memory), far_turned(count, since, until, left, memory))
+    step = soonest(count, 0.5 * left, far, memory)
     if step < left:
         _go_on(count, n, 0.5 * (step - left), a0, a1, a2, pile, memory)
     pace[KICKED] = before + 0.5 * step
