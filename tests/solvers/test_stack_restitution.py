@@ -31,6 +31,24 @@ def test_each_impact_leaves_the_ratio_that_was_given(ratio):
         assert rocks_on or leans[-1] * ratio**2 < 0.04 * alpha
 
 
+def test_no_impact_leaves_another_ratio_at_the_default_step():
+    """Two hundred slender blocks: one impact in 300 pressed on one corner alone in the instant before, and left up to 0.25 too much."""
+    dice, impacts = np.random.default_rng(5), 0
+    for _ in range(200):
+        slender, ratio = dice.uniform(4.0, 8.0), dice.uniform(0.1, 0.85)
+        alpha = math.atan2(1.0, slender)
+        lean = alpha * dice.uniform(0.3, 0.8)
+        pile = Pile("one", (PileStone("block", 0.3, 0.42, 0.3 * slender),), mu=dice.uniform(0.5, 2.0))
+        found = solve_stack(pile, Motion.from_arrays(np.zeros(600), 0.01), tilts={"block": lean}, restitution=ratio)
+        signed = found["block_tilt"] * np.sign(found["block_qy"])
+        turns = np.split(np.abs(signed), np.flatnonzero(np.diff(np.sign(signed))) + 1)
+        peaks = np.array([part.max() for part in turns if part.max() > 0.02 * alpha])
+        risen = np.cos(alpha - peaks) - math.cos(alpha)
+        np.testing.assert_allclose(np.sqrt(risen[1:] / risen[:-1]), ratio, atol=0.03)
+        impacts += len(peaks) - 1
+    assert impacts > 300
+
+
 def shaking(dice, peak, seconds=20.0, dt=0.01):
     """Return noise about 1.5 Hz along three axes, m/s^2, the vertical half of it."""
     count = round(seconds / dt)

@@ -17,6 +17,7 @@ from seisblock.solvers.stack.impulse import (
     ARM_A,
     ARM_B,
     AT_ONCE,
+    BORE,
     BOUNCE,
     FLOOR,
     GAP,
@@ -72,6 +73,12 @@ def strikes(count, memory):
     return found
 
 
+@kernel(_t.float64(VECTOR, _t.int64), inline=True)
+def _along(row, k):
+    """Return how much of an impulse in a row is along its normal."""
+    return row[k] * row[NORMAL] + row[k + 1] * row[NORMAL + 1] + row[k + 2] * row[NORMAL + 2]
+
+
 @kernel(_t.boolean(VECTOR), inline=True)
 def _hits(row):
     """Whether a point strikes, as against one that touches."""
@@ -90,6 +97,7 @@ def until_impact(count, before, memory):
     for i in range(count):
         row = memory.table[i]
         row[HELD] = 0.0
+        row[BORE] = max(_along(row, IMPULSE), 0.0)
         if row[RATE] < -SPLITS * row[HEED]:
             row[FLOOR] = -math.inf
         for k in range(3):
@@ -103,16 +111,18 @@ def _hold(i, count, at, n, pile, memory):
 
     Its points touched, or struck, with velocities u; afterwards the place where it pressed leaves with e (u - min u): in a plane that is
     the ratio e of spins (derived here). The points that pressed are left to this row. Which of them bore how much before goes over from one
-    corner to the next as the stone turns, so that nothing hangs on their order.
+    corner to the next as the stone turns, so that nothing hangs on their order: it is told by the forces of the step before, as the time
+    until the impact may be none.
     """
     table, row = memory.table, memory.table[at]
-    fastest, load, touching, rate = 0.0, 0.0, 0.0, 0.0
+    fastest, bore, load, touching, rate = 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(count):
         if _alike(i, j, memory) and table[j, FLOOR] == 0.0:
             fastest = min(fastest, table[j, RATE])
             if not _hits(table[j]):
                 touching += 1.0
-                load += max(_pressed(table[j]), 0.0)
+                bore += table[j, BORE]
+                load += max(_along(table[j], GIVEN), 0.0)
     if touching == 0.0 or at >= table.shape[0]:
         return False
     for k in range(ARM_A, NORMAL + 3):
@@ -120,7 +130,8 @@ def _hold(i, count, at, n, pile, memory):
     for j in range(count):
         point = table[j]
         if _alike(i, j, memory) and point[FLOOR] == 0.0 and not _hits(point):
-            point[PART] = max(_pressed(point), 0.0) / load if load > 0.0 else 1.0 / touching
+            given = max(_along(point, GIVEN), 0.0)
+            point[PART] = point[BORE] / bore if bore > 0.0 else given / load if load > 0.0 else 1.0 / touching
             for k in range(ARM_A, NORMAL + 3):
                 row[k] += point[PART] * point[k]
             rate += point[PART] * point[RATE]
@@ -136,12 +147,6 @@ def _hold(i, count, at, n, pile, memory):
     row[FLOOR] = table[i, BOUNCE] * (rate - fastest)
     row[HELD] = 1.0
     return True
-
-
-@kernel(_t.float64(VECTOR), inline=True)
-def _pressed(row):
-    """Return the normal impulse that was given at a point."""
-    return row[GIVEN] * row[NORMAL] + row[GIVEN + 1] * row[NORMAL + 1] + row[GIVEN + 2] * row[NORMAL + 2]
 
 
 @kernel(_t.int64(_t.int64, _t.int64, LAYOUT, MEMORY))

@@ -180,7 +180,7 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
     ----------
     who : (k, 2) array of int
         The bodies of each contact.
-    table : (k, 85) array
+    table : (k, 89) array
         Contacts, with the impulses to start from.
     tolerance : float, m/s
     speeds : (m + 1, 15) array
