@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.apart import EDGES, FACE, KIND
@@ -29,9 +27,10 @@ DEEP = 1e-4
 NEAR = 1e-6
 """Gap, m, within which the points of a flat joint touch."""
 
-FLAT, FAINT = 1e-6, 0.04
-"""Cosine of a lean, less than 1 by so much, of stones that lie face on face; and what of a free fall's speed, over that of the others, is
-heeded of points that did not press: a stone that rocks is drawn back by little, so that what strikes slowly has been away for steps."""
+FLAT, FAINT, LOADED = 1e-6, 0.04, 8.0
+"""Cosine of a lean, less than 1 by so much, of stones that lie face on face; what of a free fall's speed, over that of the others, is
+heeded of points that did not press: a stone that rocks is drawn back by little, so that what strikes slowly has been away for steps; and of
+those that did: they touch, and what was pressed unevenly in the step before seems to strike."""
 
 
 @kernel(_t.int64(_t.int64, _t.int64, VECTOR, MATRIX, _t.float64, LAYOUT, MEMORY))
@@ -223,7 +222,7 @@ def _meet(count, pair, bodies, dt, pile, memory):
             row[STANDS] = 1.0
             pressed = row[IMPULSE] * row[NORMAL] + row[IMPULSE + 1] * row[NORMAL + 1] + row[IMPULSE + 2] * row[NORMAL + 2]
             if pressed > 0.0:
-                row[HEED] = math.inf
+                row[HEED] *= LOADED
             elif 1.0 - rel[8] < FLAT:
                 row[HEED] *= FAINT
         if 1.0 - rel[8] < FLAT and pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] == 0.0:
