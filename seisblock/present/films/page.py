@@ -25,6 +25,9 @@ METRES, RADIANS, SECONDS = 5, 6, 4
 IN_SPACE = 4
 """Decimals of metres and quaternions in a scene in three dimensions: 0.1 mm."""
 
+WAYS = 36
+"""Directions from which it is told what a scene in three dimensions takes of the picture; between them it changes evenly."""
+
 MOST_POINTS, MOST_ON_PATH = 3000, 8000
 """Of a curve against time, and of the path of a point."""
 
@@ -120,7 +123,7 @@ def _trail(trail: Trail, first: float, last: float) -> dict[str, Any]:
 def _space(scene: Space) -> dict[str, Any]:
     """Return a scene in three dimensions."""
     return {
-        "extent": scene.extent(),
+        "extents": [_numbers(np.array(scene.extent(azimuth)), IN_SPACE) for azimuth in AZIMUTH + 2.0 * math.pi * np.arange(WAYS) / WAYS],
         "view": [AZIMUTH, ELEVATION],
         "half": scene.half,
         "patch": [_numbers(corner, METRES) for corner in scene.patch],

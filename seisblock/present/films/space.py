@@ -115,7 +115,7 @@ class Space:
     springs: tuple[Spring, ...] = ()
 
     def extent(self, azimuth: float = AZIMUTH, elevation: float = ELEVATION) -> tuple[float, float, float, float]:
-        """Return a box in the picture that holds everything wherever it goes, but not a stone that rolls far away, m."""
+        """Return a box in the picture that holds the ground and everything wherever it goes, but not a stone that rolls far away, m."""
         right, up, _ = view_axes(azimuth, elevation)
         tall = max(float(solid.centre[0, 2]) + 0.5 * solid.size[2] for solid in self.solids)
         reach = 0.6 * max(math.hypot(*solid.size) for solid in self.solids)
@@ -123,10 +123,10 @@ class Space:
         across, high = centres @ right, centres @ up
         ground, beside = self.patch + self.moved[:, np.newaxis], 0.05 * self.half
         aside, rise = ground @ right, ground @ up
-        left = max(min(float(across.min()) - reach, float(aside.min()) - beside), -self.sight)
-        end = min(max(float(across.max()) + reach, float(aside.max()) + beside), self.sight)
-        low = max(min(float(high.min()) - reach, float(rise.min()) - beside), -self.sight)
-        return left, end, low, min(float(high.max()) + reach, 1.5 * tall)
+        left = min(max(float(across.min()) - reach, -self.sight), float(aside.min()) - beside)
+        end = max(min(float(across.max()) + reach, self.sight), float(aside.max()) + beside)
+        low = min(max(float(high.min()) - reach, -self.sight), float(rise.min()) - beside)
+        return left, end, low, max(min(float(high.max()) + reach, 1.5 * tall), float(rise.max()) + beside)
 
     @property
     def sight(self) -> float:

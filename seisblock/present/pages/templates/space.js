@@ -16,13 +16,20 @@ function eye() {
   return { right: [-s, c, 0], up: [-c * se, -s * se, ce], ahead: [c * ce, s * ce, se] };
 }
 
+// what is in the picture depends on where one stands: all that ever is in sight from there
+function extent() {
+  const all = film.scene.extents, turned = azimuth === null ? 0 : (azimuth - film.scene.view[0]) / (2 * Math.PI) * all.length;
+  const i = Math.floor(turned), after = turned - i, box = k => all[(k % all.length + all.length) % all.length];
+  return box(i).map((value, k) => value * (1 - after) + box(i + 1)[k] * after);
+}
+
 function rotated(q, v) {
   const u = q.slice(1), inner = cross(u, v).map((value, i) => value + q[0] * v[i]);
   return cross(u, inner).map((value, i) => v[i] + 2 * value);
 }
 
 function drawScene(place) {
-  const scene = film.scene, { right, up, ahead } = eye(), box = scene.extent;
+  const scene = film.scene, { right, up, ahead } = eye(), box = extent();
   const [pen, width, height] = canvasOf("scene", Math.min(Math.max(byId("scene").clientWidth * 0.9, 300), 520));
   const scale = Math.min(width / (box[1] - box[0]), height / (box[3] - box[2]));
   const put = p => [width / 2 + (dot(p, right) - (box[0] + box[1]) / 2) * scale, height / 2 - (dot(p, up) - (box[2] + box[3]) / 2) * scale];
