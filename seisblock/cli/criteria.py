@@ -8,6 +8,7 @@ import click
 
 from seisblock.cli.bodies.options import block_options, rocking_options
 from seisblock.cli.command import Command, option
+from seisblock.cli.idle import refuse_without
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.rock import along, need_vertical
@@ -64,6 +65,8 @@ def criteria(
     if mu is None and body.get("block"):
         mu, own = friction_of(read_table(body["block"]), body["block"])
         mu_kinetic = own if mu_kinetic is None else mu_kinetic
+    if mu is None:
+        refuse_without("--mu", ["mu_kinetic"])
     options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical}
     cards = []
     for record in load(source):

@@ -70,7 +70,8 @@ def after_jump(
 def after_rock(source: Source, asked: Mapping[str, Any], block: Block, mu: float | None, *, suffices: bool) -> Iterator[Any]:
     """Yield where a block that friction does not hold is followed as it slides and rocks."""
     if mu is not None and not suffices:
-        body = ["--block", asked["block"]] if asked.get("block") else _sizes(block)
+        side = ["--side", asked["side"]] if asked.get("side") else []
+        body = ["--block", asked["block"], *side] if asked.get("block") else _sizes(block)
         yield line(tell("respond lets it slide and rock: {typed}", typed=respond_line(source, *body, "--mu", f"{mu:g}")))
 
 

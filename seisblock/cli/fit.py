@@ -25,6 +25,8 @@ SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset
 def _names(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]) -> tuple[str, ...] | None:
     """Accept the option repeated, and lists with commas; None where it is not there."""
     names = tuple(part.strip() for text in value for part in text.split(",") if part.strip())
+    if value and not names:
+        raise click.BadParameter(tell("it is empty: name what is looked for, or none"), ctx, param)
     return () if names == ("none",) else names or None
 
 

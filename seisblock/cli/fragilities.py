@@ -11,6 +11,7 @@ import click
 from seisblock.bodies.roster import read_bodies
 from seisblock.cli.bodies.listed import SIZES, listed_body
 from seisblock.cli.emit import emit
+from seisblock.cli.idle import refuse_beside, refuse_without
 from seisblock.cli.inputs import preparation_of, refuse_windows, tell_doubts
 from seisblock.cli.options import Source
 from seisblock.cli.output import STDOUT, Output
@@ -32,7 +33,7 @@ from seisblock.studies.fragility.intensity import intensity_measure
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.studies.fragility.run import bodies_of, run_fragility
 from seisblock.studies.fragility.suite import read_suite
-from seisblock.words import tell
+from seisblock.words import said, tell
 
 
 def run(
@@ -49,6 +50,7 @@ def run(
 ) -> None:
     """Run the study, and say what it comes to."""
     refuse_windows(source)
+    _refuse_idle(source, asked, bodies=bodies, levels=levels)
     _check_exports(output, asked)
     measure = intensity_measure(measures[0])
     size, _ = measure.shown()
@@ -96,6 +98,22 @@ def run(
         csv=lambda path: write_table(path, *shown.columns(study)),
         figure=figure,
     )
+
+
+def _refuse_idle(source: Source, asked: Mapping[str, Any], *, bodies: tuple[str, ...], levels: tuple[float, ...] | None) -> None:
+    """Refuse what says nothing of these records and bodies, by this method, or of files that are not written."""
+    if not source.record:
+        refuse_beside(said("synthetic records"), ["format", "units", "dt", "station", "level", "strict"])
+    if asked["suite_out"] is None:
+        refuse_without("--suite-out", ["suite_format"])
+    if asked["nrml"] is None:
+        refuse_without("--nrml", ["nrml_shape"])
+    if bodies:
+        refuse_beside("--bodies", ["side"])
+    if asked["method"] == "cloud":
+        refuse_beside("--method cloud", ["steps"])
+    elif levels is not None:
+        refuse_beside("--levels", ["steps"])
 
 
 def _records(source: Source, asked: Mapping[str, Any]) -> tuple[list[Record], tuple[str, ...], str | None]:

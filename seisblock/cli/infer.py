@@ -14,6 +14,7 @@ from seisblock.cli import offered
 from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
+from seisblock.cli.idle import RECORD_OPTIONS, refuse_beside
 from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
@@ -23,6 +24,14 @@ from seisblock.words import noted, said, tell
 
 DEFAULT_BLOCK = "chozusha"
 FORMS = noted("--cemetery (with --rate, or with a column fallen), --slid or --jumped")
+
+STONES = ("frequency", "criterion", "inset", "confidence", "common_error", "stone_error", "bias", "frequency_error")
+SLID = ("mu", "mu_kinetic", "largest", "vertical", "limit", "steps", "gravity")
+JUMPED = (
+    *("block", "side", "mu", "mu_kinetic", "restitution_x", "restitution_y", "drop", "flight_only", "first", "repeat", "landing", "spin"),
+    *("limit", "steps", "gravity"),
+)
+"""Options that each form reads."""
 
 
 @click.command(
@@ -112,6 +121,7 @@ def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str |
     asks = [name for name, value in forms.items() if value is not None]
     if len(asks) != 1:
         raise click.UsageError(tell("give one of {forms}; found {asks}", forms=said(FORMS), asks=asks or said("none")))
+    refuse_beside(asks[0], _idle(asks[0], rigid=asked["criterion"] == "rigid"))
     if not cemetery:
         if rate is not None:
             raise click.UsageError(tell("--rate needs --cemetery, the proportions of the stones: for example aoyama.csv"))
@@ -125,6 +135,13 @@ def infer(source: Source, output: Output, cemetery: tuple[str, ...], rate: str |
     if twice := [name for name, count in Counter(os.path.realpath(name) for name in cemetery).items() if count > 1]:
         raise click.UsageError(tell("--cemetery names {name} twice: its stones would count double", name=Path(twice[0]).name))
     return _stones(output, cemetery, rate, asked)
+
+
+def _idle(form: str, *, rigid: bool) -> list[str]:
+    """Return the options that belong to other forms than that which was given; with rigid stones gravity has a say."""
+    own = {"--cemetery": (*STONES, *(["gravity"] if rigid else [])), "--slid": SLID, "--jumped": JUMPED}
+    of_forms = dict.fromkeys(name for names in (STONES, SLID, JUMPED) for name in names)
+    return [name for name in of_forms if name not in own[form]] + (list(RECORD_OPTIONS) if form == "--cemetery" else [])
 
 
 def _stones(output: Output, cemetery: tuple[str, ...], rate: str | None, asked: dict[str, Any]) -> None:

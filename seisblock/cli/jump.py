@@ -11,6 +11,7 @@ from seisblock import checks
 from seisblock.cli.bodies.options import landing_option, side_option, two_layer_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
+from seisblock.cli.idle import refuse_beside, refuse_without
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, checked, gravity_option, output_options, record_options
@@ -85,6 +86,10 @@ def jump(source: Source, output: Output, repeat: bool, tenon: float | None, **as
 
     if repeat and asked["first"]:
         raise click.UsageError(tell("give either --first or --repeat, which is the default"))
+    if asked["width"] is None:
+        refuse_without("--width", ["depth"])
+    else:
+        refuse_beside("--width", ["side"])
     chosen = two_layer_choice(asked, default=DEFAULT_BLOCK)
     say("body: {name}; {says}", name=said(chosen.block.name), says=chosen.says)
     options = {key: asked[key] for key in ("drop", "spin", "direction", "landing", "first", "gravity")}

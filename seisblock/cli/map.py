@@ -12,12 +12,13 @@ from click.core import ParameterSource
 from seisblock.cli import offered
 from seisblock.cli.bodies.standing import choose_standing, standing_options
 from seisblock.cli.command import Command, option
+from seisblock.cli.idle import refuse_beside, refuse_without
 from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say, warn
 from seisblock.cli.types import Count
-from seisblock.words import noted, tell
+from seisblock.words import noted, said, tell
 
 if TYPE_CHECKING:
     from seisblock.studies.stations.effects import WhatStands
@@ -25,6 +26,12 @@ if TYPE_CHECKING:
 SOLVERS = ("respond", "rock", "slide", "jump", "uplift")
 SIZES = ("block", "width", "height")
 """Options of which any names a body."""
+
+OF_A_BODY = (
+    *("depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "side", "mu", "mu_kinetic", "surface"),
+    *("restitution", "rocking_restitution", "tenon", "frequency_vertical", "vertical", "runs", "seed"),
+)
+"""Options that say more of a body, or of how it is followed."""
 
 RUNS = 50
 """Plausible versions behind a probability, where nothing else is asked for."""
@@ -182,12 +189,16 @@ def _subject(
     if cemetery is not None:
         if named:
             raise click.UsageError(tell("give either --cemetery or a body, not both"))
+        refuse_beside("--cemetery", OF_A_BODY)
         from seisblock.bodies.cemetery.table import read_cemetery
         from seisblock.studies.cemetery.judgement import Method
 
         return StandingStones(read_cemetery(cemetery), Method(gravity=gravity))
     if not named:
+        refuse_without(said("--block, --width and --height, or --solver"), [*OF_A_BODY, "gravity"])
         return None
+    if runs == 0:
+        refuse_beside("--runs 0", ["seed"])
     if solver not in (None, "respond"):
         return _followed(solver, given, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if given["frequency_vertical"] is not None:
@@ -212,7 +223,10 @@ def _followed(solver: str, given: dict[str, Any], *, vertical: bool | None, runs
     told = [name for name in OWN if context.get_parameter_source(name) is not ParameterSource.DEFAULT]
     model = batch_model(solver)
     of_body = {name: given[name] for name in ("surface", "frequency_vertical") if given[name] is not None}
-    model.refuse_unknown({name: given[name] for name in (*told, *of_body) if name not in model.columns})
+    acts = {} if vertical is None else {"vertical": vertical}
+    model.refuse_unknown({**{name: given[name] for name in (*told, *of_body) if name not in model.columns}, **acts})
+    if model.chance is None:
+        refuse_beside(f"--solver {solver}", ["seed"])
     listed = listed_body({**given, **{name: None for name in OWN if name not in told}}, solver)
     listed = replace(listed, told={**listed.told, **of_body})
     options = {name: given[name] for name in told if name not in of_body}

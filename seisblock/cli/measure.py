@@ -9,6 +9,7 @@ import click
 
 from seisblock.cli.bodies.options import side_option, two_layer_option
 from seisblock.cli.command import Command, option
+from seisblock.cli.idle import refuse_without
 from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, real_record_options
 from seisblock.cli.output import Output
@@ -96,6 +97,8 @@ def measure(
     from seisblock.present.documents.measure import document
     from seisblock.present.scales import acceleration_unit
 
+    if threshold["block"] is None:
+        refuse_without("--block", ["side"])
     rules = Conventions(velocity_highpass_hz=velocity_highpass, threshold_side=SIDES[direction], gravity_m_s2=gravity)
     level, origin = _threshold(gravity=gravity, **threshold)
     records = load(source, vertical_counts=True, real=True)

@@ -13,6 +13,7 @@ from seisblock.bodies.inset import HALF, WORN, Inset
 from seisblock.cli import offered
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
+from seisblock.cli.idle import RECORD_OPTIONS, refuse_beside, refuse_without
 from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, checked, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
@@ -74,7 +75,11 @@ def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
     help="Compare with the K most slender stones reinforced. [default: none]",
 )
 @option(
-    "--stone-width", type=LENGTH, section="Body", help="Width of stones whose width is not in the file, m or with a unit. [default: 8sun]"
+    "--stone-width",
+    type=LENGTH,
+    callback=checked(checks.positive),
+    section="Body",
+    help="Width of stones whose width is not in the file, m or with a unit. [default: 8sun]",
 )
 @option("--pga", type=FLOATS, metavar="GAL", help="Without RECORD: peak ground acceleration, gal; a list or range is answered one by one.")
 @option(
@@ -133,6 +138,7 @@ def overturn_rate(
 
     if reinforced + both + (most_fragile is not None) > 1:
         raise click.UsageError(tell("give one of --reinforced, --both and --most-fragile"))
+    _refuse_idle(source, asked)
     stones = read_cemetery(cemetery)
     for note in stones.notes[:1]:
         say("{cemetery}: {note}", cemetery=cemetery, note=said(note))
@@ -172,6 +178,18 @@ def overturn_rate(
         write_table(path, *curve_columns(curve, study.curve_of(after, method, frequencies=frequencies) if after else None))
 
     emit(answer, output, tables=tables, figure=figure, csv=csv)
+
+
+def _refuse_idle(source: Source, asked: dict[str, Any]) -> None:
+    """Refuse what says nothing of this kind of shaking, or by this criterion."""
+    if not source.record:
+        refuse_without("RECORD", [*RECORD_OPTIONS, "equivalent"])
+    elif asked["frequency"]:
+        refuse_beside("--frequency", ["equivalent"])
+    if asked["criterion"] != "furukawa":
+        refuse_beside(f"--criterion {asked['criterion']}", ["fit", "fit_reinforced"])
+    elif not (source.record or asked["pga"]):
+        refuse_without(said("RECORD, --pga or --criterion rigid"), ["stone_width", "gravity"])
 
 
 def _method(asked: dict[str, Any]) -> Any:

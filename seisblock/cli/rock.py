@@ -12,6 +12,7 @@ import click
 from seisblock.cli.bodies.options import block_options, rocking_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
+from seisblock.cli.idle import refuse_without
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.progress import progress
@@ -19,7 +20,7 @@ from seisblock.cli.sweeping import drawing, swept
 from seisblock.cli.talk import say
 from seisblock.cli.types import Count
 from seisblock.errors import ComponentError, ParameterError
-from seisblock.words import noted, tell
+from seisblock.words import noted, said, tell
 
 if TYPE_CHECKING:
     from seisblock.records import Motion, Record
@@ -91,6 +92,10 @@ def rock(
     from seisblock.studies.rocking.perturb import Spread
     from seisblock.studies.rocking.perturb import perturb as perturbed
 
+    if not margin:
+        refuse_without("--margin", ["margin_limit"])
+        if perturb is None:
+            refuse_without(said("--perturb or --margin"), ["spread", "seed"])
     chosen = choose_block({**body, "restitution": restitution, "gal": output.gal})
     say("body: {says}", says=chosen.says)
     options: dict[str, Any] = {"restitution": chosen.restitution, "linear": linear, "vertical": vertical, "gravity": gravity}

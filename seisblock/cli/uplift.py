@@ -8,6 +8,7 @@ import click
 
 from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
+from seisblock.cli.idle import RECORD_OPTIONS, refuse_beside
 from seisblock.cli.inputs import load, motions
 from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
@@ -114,6 +115,7 @@ def _harmonic(source: Source, output: Output, figure: int | None, given: dict[st
         raise ParameterError(
             "--harmonic shakes with a sine: leave the record {record} out, or leave --harmonic out", record=source.record[0]
         )
+    refuse_beside("--harmonic" if figure is None else "--figure", [*RECORD_OPTIONS, "gravity"])
     ratios, is_range = given["frequency_ratio"] or (DEFAULT_RATIOS, False)
     between = (min(ratios), max(ratios)) if is_range else None
     if given["frequency_vertical"] is None and given["stiffness"] is None:

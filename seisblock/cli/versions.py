@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 import click
-from click.core import ParameterSource
 
 from seisblock.cli.command import option
+from seisblock.cli.idle import given
 from seisblock.cli.types import LENGTH, Count
 from seisblock.words import noted
 
@@ -73,8 +73,6 @@ def _refuse_idle(*names: str) -> None:
     """Refuse what is said of versions where there are none."""
     from seisblock.errors import ParameterError
 
-    context = click.get_current_context()
-    told = [name for name in names if context.get_parameter_source(name) is not ParameterSource.DEFAULT]
-    if told and not context.params["runs"]:
-        flags = [f"--{name.replace('_', '-')}" for name in told]
+    flags = given(names)
+    if flags and not click.get_current_context().params["runs"]:
         raise ParameterError("without versions there is nothing for {flags} to do: give --runs, say --runs 100", flags=flags)

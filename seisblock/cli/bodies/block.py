@@ -77,9 +77,11 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
         table = read_table(asked["block"])
         if restitution is None:
             restitution = restitution_of(table, asked["block"])
+        refuse_side(asked, table.get("kind"))
         body = body_of(table, side=asked.get("side") or "short")
         origin = said("{name}, from {file}", name=said(body.name), file=asked["block"])
     else:
+        refuse_side(asked, None)
         missing = [f"--{key}" for key in ("width", "height") if key not in sizes]
         if missing:
             raise BodyError(
@@ -92,3 +94,9 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
     return BlockChoice(
         body, restitution, said("{parts}", parts=[part for part in (origin, edges(body, gal=asked.get("gal", True))) if part])
     )
+
+
+def refuse_side(asked: Mapping[str, Any], kind: str | None) -> None:
+    """Refuse the side of a body that has but one."""
+    if asked.get("side") is not None and kind != "two-layer":
+        raise BodyError("--side is of a two-layer --block: leave it out")

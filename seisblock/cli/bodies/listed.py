@@ -8,6 +8,7 @@ from typing import Any
 
 from seisblock.bodies.roster import ListedBody
 from seisblock.bodies.toml import read_table
+from seisblock.cli.bodies.block import refuse_side
 from seisblock.errors import ParameterError
 from seisblock.words import said
 
@@ -47,7 +48,10 @@ def listed_body(asked: Mapping[str, Any], solver: str) -> ListedBody:
         if sizes:
             raise ParameterError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
         side = {} if asked.get("side") is None else {"side": asked["side"]}
-        return ListedBody(Path(asked["block"]).stem, {**told, **side}, read_table(asked["block"]), asked["block"])
+        table = read_table(asked["block"])
+        refuse_side(asked, table.get("kind"))
+        return ListedBody(Path(asked["block"]).stem, {**told, **side}, table, asked["block"])
+    refuse_side(asked, None)
     if solver == "slide":
         return ListedBody(said("object"), told, None, said("the object"))
     missing = [f"--{key}" for key in ("width", "height") if key not in told]
