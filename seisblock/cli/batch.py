@@ -9,7 +9,6 @@ import click
 
 from seisblock.cli import offered
 from seisblock.cli.command import Command, option
-from seisblock.cli.idle import refuse_without
 from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, record_options
 from seisblock.cli.quiet import quietly
@@ -89,9 +88,6 @@ def batch(
     --resume goes on.
     """
     from seisblock.cli.batching import Asked, run
-
-    if not runs:
-        refuse_without("--runs", ["seed"])
 
     with quietly(quiet):
         run(

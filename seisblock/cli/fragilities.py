@@ -50,7 +50,7 @@ def run(
 ) -> None:
     """Run the study, and say what it comes to."""
     refuse_windows(source)
-    _refuse_idle(source, asked, bodies=bodies, levels=levels)
+    _refuse_idle(source, asked, bodies=bodies)
     _check_exports(output, asked)
     measure = intensity_measure(measures[0])
     size, _ = measure.shown()
@@ -100,8 +100,8 @@ def run(
     )
 
 
-def _refuse_idle(source: Source, asked: Mapping[str, Any], *, bodies: tuple[str, ...], levels: tuple[float, ...] | None) -> None:
-    """Refuse what says nothing of these records and bodies, by this method, or of files that are not written."""
+def _refuse_idle(source: Source, asked: Mapping[str, Any], *, bodies: tuple[str, ...]) -> None:
+    """Refuse what says nothing of these records and bodies, or of files that are not written."""
     if not source.record:
         refuse_beside(said("synthetic records"), ["format", "units", "dt", "station", "level", "strict"])
     if asked["suite_out"] is None:
@@ -110,10 +110,6 @@ def _refuse_idle(source: Source, asked: Mapping[str, Any], *, bodies: tuple[str,
         refuse_without("--nrml", ["nrml_shape"])
     if bodies:
         refuse_beside("--bodies", ["side"])
-    if asked["method"] == "cloud":
-        refuse_beside("--method cloud", ["steps"])
-    elif levels is not None:
-        refuse_beside("--levels", ["steps"])
 
 
 def _records(source: Source, asked: Mapping[str, Any]) -> tuple[list[Record], tuple[str, ...], str | None]:

@@ -197,8 +197,6 @@ def _subject(
     if not named:
         refuse_without(said("--block, --width and --height, or --solver"), [*OF_A_BODY, "gravity"])
         return None
-    if runs == 0:
-        refuse_beside("--runs 0", ["seed"])
     if solver not in (None, "respond"):
         return _followed(solver, given, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if given["frequency_vertical"] is not None:
@@ -225,8 +223,6 @@ def _followed(solver: str, given: dict[str, Any], *, vertical: bool | None, runs
     of_body = {name: given[name] for name in ("surface", "frequency_vertical") if given[name] is not None}
     acts = {} if vertical is None else {"vertical": vertical}
     model.refuse_unknown({**{name: given[name] for name in (*told, *of_body) if name not in model.columns}, **acts})
-    if model.chance is None:
-        refuse_beside(f"--solver {solver}", ["seed"])
     listed = listed_body({**given, **{name: None for name in OWN if name not in told}}, solver)
     listed = replace(listed, told={**listed.told, **of_body})
     options = {name: given[name] for name in told if name not in of_body}

@@ -13,7 +13,6 @@ from click.core import ParameterSource
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.cli.bodies.options import rocking_options
 from seisblock.cli.command import Command, option
-from seisblock.cli.idle import refuse_beside
 from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
@@ -136,16 +135,12 @@ def spectrum(
             "linear": linear,
         }
         _refuse(kind, given)
-        refuse_beside("--kind sliding", ["steps"])
         _sliding(source, output, gravity, mu, vertical)
         return
     from seisblock.studies.rocking.spectra import default_sizes, default_slendernesses, size_of, slenderness_of
 
     diagonals = sizes or (size_of(frequency_parameter, gravity) if frequency_parameter else None)
     alphas = slenderness_rad or (slenderness_of(height_over_width) if height_over_width else None)
-    taken = (mu, alphas) if kind == "modes" else (diagonals, alphas)
-    if all(axis is not None for axis in taken):
-        refuse_beside(said("axes that are given"), ["steps"])
     if kind == "modes":
         _refuse(kind, {"linear": linear})
         asked = click.get_current_context().get_parameter_source("vertical") is not ParameterSource.DEFAULT
