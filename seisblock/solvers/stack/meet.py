@@ -210,7 +210,8 @@ def _meet(count, pair, bodies, dt, pile, memory):
     elif on_ground:
         count = _meet_ground(count, pair, rel, far, bodies, dt, pile, memory)
     else:
-        if pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] > 0.0 and face_each_other(rel, boxes[c], boxes[p]):
+        is_round = pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] > 0.0
+        if is_round and face_each_other(rel, boxes[c], boxes[p], pile.rims[c], pile.rims[p]):
             faces = _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory)
         count = faces if faces >= 0 else _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory)
     memory.handled[pair] = FACES if faces >= 0 else BOXES

@@ -179,7 +179,29 @@ def roll(row, x, y, z, step, swerve):
     return sine * math.sin(ROUND) / passes if passes > 0.0 else math.inf
 
 
-@kernel(_t.boolean(VECTOR, VECTOR, VECTOR))
-def face_each_other(rel, own, half):
-    """Whether one of two stones stands on the other with a flat face."""
-    return abs(rel[8]) > COSINE and abs(rel[REL_D + 2]) > half[2] + APPROACH * own[2]
+@kernel(_t.boolean(_t.float64, MATRIX, _t.int64), inline=True)
+def _within_bevel(lean, rims, side):
+    """Whether the worn rim of a face is what touches at a lean, given as its tangent: beyond the slope of its bevel the side does."""
+    worn, whole = rims[side], rims[2 + side]
+    return whole[RADIUS] == 0.0 or lean * (whole[RADIUS] - worn[RADIUS]) <= abs(worn[HEIGHT] - whole[HEIGHT])
+
+
+@kernel(_t.boolean(VECTOR, VECTOR, VECTOR, MATRIX, MATRIX))
+def face_each_other(rel, own, half, rims, under):
+    """Whether one of two stones stands on the other with a flat face, or its worn rim.
+
+    Parameters
+    ----------
+    rel : (18,) array
+        The carrier as the partner sees it.
+    own, half : (6,) arrays, m
+        The carrier's box, and the partner's.
+    rims, under : (4, 2) arrays, m
+        The carrier's circles, and the partner's.
+    """
+    if abs(rel[8]) <= COSINE or abs(rel[REL_D + 2]) <= half[2] + APPROACH * own[2]:
+        return False
+    above = rel[REL_D + 2] > 0.0
+    lean = math.sqrt(max(1.0 - rel[8] * rel[8], 0.0)) / abs(rel[8])
+    lower = above == (rel[8] > 0.0)
+    return _within_bevel(lean, under, 1 if above else 0) and _within_bevel(lean, rims, 0 if lower else 1)
