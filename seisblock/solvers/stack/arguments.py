@@ -66,7 +66,7 @@ class PileMemory(NamedTuple):
         Centres of the boxes and how far they reach.
     work : (36, 18) array
         Scratch.
-    who, table : (k, 8), (k, 89) arrays
+    who, table : (k, 8), (k, 92) arrays
         Rigid contacts of a step: their bodies and the slots they are remembered in, and what they are solved with.
     inverses, speeds : (m + 1, 9), (m + 1, 15) arrays
         Inverse inertia of the bodies as they lie; velocities, spins, and how these change by turning.

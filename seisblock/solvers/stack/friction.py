@@ -40,10 +40,9 @@ from seisblock.solvers.stack.impulse import (
     TURN,
     lay_plainly,
     parting,
-    press,
 )
 from seisblock.solvers.stack.row import FALL, FIRST, JOINTS, WHOLE
-from seisblock.solvers.stack.sweeps import PRECISION, settle, settle_surely
+from seisblock.solvers.stack.sweeps import PRECISION, drive, settle, settle_surely, work_done
 
 _t = types()
 
@@ -231,23 +230,6 @@ def _judge(count, struck, memory):
     return again
 
 
-@kernel(_t.float64(_t.int64, _t.int64, _t.float64, LAYOUT, MEMORY))
-def work_done(count, n, tolerance, pile, memory):
-    """Return the work of the impulses in the rows, J, at least: against the mean of the velocities without and with them.
-
-    Velocities are known to a tolerance, m/s: an impact that keeps its energy does not give any.
-    """
-    press(count, memory.who, memory.table, n, pile.inert, -0.5, memory.speeds)
-    work = 0.0
-    for i in range(count):
-        row = memory.table[i]
-        u0, u1, u2 = parting(memory.who[i, 0], memory.who[i, 1], row, memory.speeds)
-        p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
-        work += p0 * u0 + p1 * u1 + p2 * u2 - tolerance * math.sqrt(p0 * p0 + p1 * p1 + p2 * p2)
-    press(count, memory.who, memory.table, n, pile.inert, 0.5, memory.speeds)
-    return work
-
-
 @kernel(_t.boolean(_t.int64, MEMORY), inline=True)
 def _shifted(count, memory):
     """Whether the cone of a point is shifted."""
@@ -265,13 +247,17 @@ def settle_slips(count, n, struck, pile, memory):
     Impulses in cones about their normals take energy ([Moreau1988]_); in shifted ones they may give it, and press without end where a
     point's friction lifts it (Painleve). What gives energy is not friction: the step then has friction by the velocity at its end.
     """
-    sweeps, tolerance = 0, PRECISION * memory.pace[FALL]
+    who, table, speeds, sweeps, tolerance = memory.who, memory.table, memory.speeds, 0, PRECISION * memory.pace[FALL]
     for turn in range(TRIES):
-        sweeps = settle(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
+        sweeps = settle(count, who, table, n, pile.inert, tolerance, speeds)
         if sweeps == 0 or turn == TRIES - 1 or not _judge(count, struck, memory):
             break
-    if sweeps == 0 or (_shifted(count, memory) and work_done(count, n, 0.0, pile, memory) > 0.0):
-        for i in range(count):
-            lay_plainly(memory.table[i])
-        sweeps = settle_surely(count, memory.who, memory.table, n, pile.inert, tolerance, memory.speeds)
-    return sweeps
+    if _shifted(count, memory):
+        wrong = work_done(count, who, table, n, pile.inert, 0.0, speeds) > 0.0
+    else:
+        wrong = drive(count, who, table, tolerance, speeds)
+    if sweeps > 0 and not wrong:
+        return sweeps
+    for i in range(count):
+        lay_plainly(memory.table[i])
+    return settle_surely(count, who, table, n, pile.inert, tolerance, speeds)

@@ -8,9 +8,9 @@ from seisblock.dynamics.arrays import INTEGER_TABLE, MATRIX, VECTOR
 _t = types()
 
 ARM_A, ARM_B, NORMAL, W, WI, SPIN_A, SPIN_B, IMPULSE, FLOOR, MU, SWERVE, HEADING, HELD = 0, 3, 6, 9, 18, 27, 36, 45, 48, 49, 50, 53, 59
-GAP, RATE, BOUNCE, GIVEN, AXIS, RIM, AT_ONCE, PART, BORE = 60, 61, 62, 63, 66, 85, 86, 87, 88
+GAP, RATE, BOUNCE, GIVEN, AXIS, RIM, AT_ONCE, PART, BORE, DEALT = 60, 61, 62, 63, 66, 85, 86, 87, 88, 89
 SHIFT, STATIC, KINETIC, SLID, OLD, PACED, TURN, HEED, STANDS, BEGAN = 69, 72, 73, 74, 75, 78, 79, 80, 81, 82
-ROW = 89
+ROW = 92
 """A contact's row: its arms from the centres of both bodies, its normal, out of the second; the velocity that a unit impulse gives (9)
 and the inverse (9); the spins that it gives (9, 9); the impulse on the first body; the least normal velocity; friction; how its velocity
 changes by turning in half a step (3); the impulse before a sweep, and the way that the sweeps take it (3, 3); whether the floor holds from
@@ -19,8 +19,8 @@ plastic; the impulse that was given before the last one was looked for (3); the 
 and of friction, the middle of its cone over what presses (3), its two coefficients, whether the point slid, in what direction (3) and how
 fast, m/s, and what it does in the step; the speed, m/s, of which parts are heeded where it strikes; whether it is one of a stone that
 stands; the impulse before the sweeps (3); the radius of that rim, m, negative where it is the second body's, 0 where there is none; the
-part of a step within which it strikes at once with others; its part of what holds a joint that is struck; and what pressed before,
-N."""
+part of a step within which it strikes at once with others; its part of what holds a joint that is struck; what pressed before, N; and
+the impulse of the impacts at the step (3)."""
 
 SPEED, TURNING, VEERING, SET_OUT = 0, 3, 6, 9
 SPEEDS = 15

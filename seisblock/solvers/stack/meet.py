@@ -13,8 +13,8 @@ from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, NORMAL, STAND
 from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
 from seisblock.solvers.stack.remember import TURNED, even_out, gather, keep, left, put, recall, share_out
 from seisblock.solvers.stack.round import HEIGHT, RADIUS, RIMS, face_each_other, lowest, note_rim, pressed_sides
-from seisblock.solvers.stack.row import JOINTS, MEETINGS, POINTS, enter, far_in, note
-from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, forget, near, seated
+from seisblock.solvers.stack.row import FASTEST, JOINTS, MEETINGS, POINTS, enter, far_in, note
+from seisblock.solvers.stack.step import CARRIER, COSINE, LEVEL, ORBITS, PAIR, PARTNER, POINT, SIGMA, bound, fastest, forget, near, seated
 
 _t = types()
 
@@ -38,7 +38,7 @@ def _enter_joint(count, j, rel, bodies, dt, pile, memory):
     """Make rows of the points of a joint; count in the scratch those that have left the partner's face."""
     joint, k = pile.joints[j], pile.constants[j]
     c, p, sigma = joint[CARRIER], joint[PARTNER], k[SIGMA]
-    half, total, far = pile.boxes[p], memory.work[1], far_in(rel, pile.boxes[c], dt)
+    half, total, far = pile.boxes[p], memory.work[1], far_in(dt, memory)
     for o in range(joint[ORBITS]):
         for q in range(4):
             point, slot = pile.grids[j, o, q], memory.joint_slots[j, o, q]
@@ -204,7 +204,7 @@ def _meet(count, pair, bodies, dt, pile, memory):
     on_ground = pile.pairs[pair, 1] == ground
     c, p = pile.pairs[pair, 0 if on_ground else 1], pile.pairs[pair, 1 if on_ground else 0]
     relative(c, p, bodies, boxes, pile.owner, memory.work[2:4], rel)
-    far = far_in(rel, boxes[c], dt)
+    far = far_in(dt, memory)
     if on_ground and pile.rims[c, 0, RADIUS] > 0.0:
         count = _meet_ground_round(count, pair, rel, far, bodies, dt, pile, memory)
     elif on_ground:
@@ -241,7 +241,7 @@ def _meet_joint(count, j, bodies, dt, pile, memory):
     total[OUTSIDE] = 0.0
     if acts == 1:
         count = _enter_joint(count, j, rel, bodies, dt, pile, memory)
-    leans = acts == 1 and bevel_meets(rel, c, p, k[SIGMA], far_in(rel, boxes[c], dt), pile)
+    leans = acts == 1 and bevel_meets(rel, c, p, k[SIGMA], far_in(dt, memory), pile)
     memory.handled[joint[PAIR]] = -1 if leans or total[OUTSIDE] > 0.0 else acts
     return count
 
@@ -259,13 +259,13 @@ def find(bodies, dt, look, pile, memory):
 
     Joints with points of their own are held by these while their stones face each other; all else is met as boxes that stay apart.
     """
-    count = 0
+    count, memory.pace[FASTEST] = 0, fastest(bodies, pile.boxes, pile.owner)
     for j in range(pile.joints.shape[0]):
         pair = pile.joints[j, PAIR]
         if pile.constants[j, POINT + CLINGS] == 0.0 and not _both_lie(pair, pile, memory):
             count = _meet_joint(count, j, bodies, dt, pile, memory)
     if look:
-        bound(bodies, pile.boxes, pile.owner, memory.bounds)
+        bound(bodies, pile.boxes, pile.owner, dt, memory.bounds)
     for pair in range(pile.pairs.shape[0]):
         if memory.handled[pair] > 0 or _both_lie(pair, pile, memory):
             continue

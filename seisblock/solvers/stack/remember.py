@@ -220,7 +220,7 @@ def even_out(first, count, near, table):
         The rows of the joint.
     near : float, m
         The gap within which points touch.
-    table : (k, 89) array
+    table : (k, 92) array
     """
     if count - first <= 3:
         return

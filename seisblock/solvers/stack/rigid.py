@@ -13,15 +13,29 @@ from seisblock.dynamics.arrays import MATRIX
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
-from seisblock.solvers.stack.friction import NOTICED, along_face, far_turned, lay_cones, look_back, settle_slips, work_done
-from seisblock.solvers.stack.impulse import ARM_A, ARM_B, GAP, GIVEN, IMPULSE, VEERING, press
+from seisblock.solvers.stack.friction import NOTICED, along_face, far_turned, lay_cones, look_back, settle_slips
+from seisblock.solvers.stack.impulse import ARM_A, ARM_B, DEALT, GAP, GIVEN, IMPULSE, VEERING, press
 from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
 from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
-from seisblock.solvers.stack.strike import at_impact, far_round, lay_floors, let_go, share, soonest, strikes, until_impact
-from seisblock.solvers.stack.sweeps import PRECISION, UNSETTLED, settle_surely
+from seisblock.solvers.stack.strike import (
+    at_impact,
+    begin_impacts,
+    end_impact,
+    far_round,
+    lay_floors,
+    let_go,
+    share,
+    soonest,
+    strikes,
+    until_impact,
+)
+from seisblock.solvers.stack.sweeps import PRECISION, UNSETTLED, settle_surely, work_done
 
 _t = types()
+
+IMPACTS = 16
+"""How often points strike in one instant at most, each time what the last impact drove together."""
 
 FORESIGHT = 0.9
 """Of a whole step: what points that share a load do against each other then fades."""
@@ -110,26 +124,32 @@ def _go_on(count, n, time, a0, a1, a2, pile, memory):
 
 @kernel(_t.void(_t.int64, _t.int64, _t.float64, LAYOUT, MEMORY))
 def _strike(count, n, before, pile, memory):
-    """Let points strike: what the forces gave until then and what the impact gives becomes the impulse given.
+    """Let points strike: what the forces gave until then and what the impacts give becomes the impulse given.
 
-    A given ratio of velocities across a joint and friction may together give energy; such an impact is plastic.
+    A given ratio of velocities across a joint and friction may together give energy; such an impact is plastic. What is so near that an
+    impact lets it strike in the same instant does so in another one.
     """
     table, tolerance = memory.table, PRECISION * memory.pace[FALL]
     until_impact(count, before, memory)
     settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
-    rows = at_impact(count, n, pile, memory)
-    settle_surely(rows, memory.who, table, n, pile.inert, tolerance, memory.speeds)
-    if rows > count and work_done(rows, n, UNSETTLED * tolerance, pile, memory) > 0.0:
-        let_go(count, rows, n, pile, memory)
-        settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
-    else:
-        share(count, rows, memory)
+    begin_impacts(count, memory)
+    for _ in range(IMPACTS):
+        if not strikes(count, memory):
+            break
+        rows = at_impact(count, n, pile, memory)
+        settle_surely(rows, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+        if rows > count and work_done(rows, memory.who, table, n, pile.inert, UNSETTLED * tolerance, memory.speeds) > 0.0:
+            let_go(count, rows, n, pile, memory)
+            settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
+        else:
+            share(count, rows, memory)
+        end_impact(count, memory)
     look_back(count, True, memory)
+    force = 1.0 / before if before > 0.0 else 0.0
     for i in range(count):
-        force = 1.0 / before if before > 0.0 else 0.0
         for k in range(3):
-            given, hit = table[i, GIVEN + k], table[i, IMPULSE + k]
-            table[i, GIVEN + k] = given + hit
+            given = table[i, GIVEN + k]
+            table[i, GIVEN + k] = given + table[i, DEALT + k]
             table[i, IMPULSE + k] = given * force
 
 

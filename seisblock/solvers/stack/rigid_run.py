@@ -26,8 +26,7 @@ from seisblock.solvers.stack.books import (
 from seisblock.solvers.stack.frames import MASS, F
 from seisblock.solvers.stack.rigid import hold
 from seisblock.solvers.stack.row import BEFORE, ROWS, SWEPT
-from seisblock.solvers.stack.run import LOOK_EVERY
-from seisblock.solvers.stack.step import drift, energy_of, kick
+from seisblock.solvers.stack.step import LOOK_EVERY, drift, energy_of, kick
 from seisblock.solvers.stack.sweeps import SWEEPS
 
 _t = types()

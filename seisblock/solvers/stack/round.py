@@ -114,7 +114,7 @@ def note_rim(deepest, sine, radius, axes, frame, row):
         See :func:`lowest`.
     frame : (31,) array
         The body in whose axes these are.
-    row : (89,) array
+    row : (92,) array
     """
     if sine == 0.0:
         return
@@ -135,7 +135,7 @@ def roll(row, x, y, z, step, swerve):
 
     Parameters
     ----------
-    row : (89,) array
+    row : (92,) array
     x, y, z : float, rad/s
         The spin of the first stone against the second.
     step : float, s

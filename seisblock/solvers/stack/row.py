@@ -11,8 +11,6 @@ from seisblock.solvers.stack.contact import (
     FRICTION,
     PLACE,
     PUSH,
-    REL_V,
-    REL_W,
     SLIDES,
 )
 from seisblock.solvers.stack.contact import KINETIC as SLICK
@@ -34,21 +32,22 @@ from seisblock.solvers.stack.impulse import (
     answers,
     lay_plainly,
 )
+from seisblock.solvers.stack.step import SWIFT
 
 _t = types()
 
-SWIFT, SLOW = 2.0, 0.5
-"""A point is left out while its gap is wider than what so many times the greatest speed of its stone, and this speed, m/s, more, close in a
-step: what a stone strikes may turn it the other way round."""
+SLOW = 0.5
+"""A point is left out while its gap is wider than what so many times the greatest speed of any stone (:data:`~.step.SWIFT`), and this
+speed, m/s, more, close in a step."""
 
 BRIEF = 0.01
 """Part of a step within which what strikes together strikes at once."""
 
-BEFORE, FALL, WHOLE, KICKED, AHEAD, SWEPT, STRUCK, ROWS, PRESSED = range(9)
-PACE = 9
+BEFORE, FALL, WHOLE, KICKED, AHEAD, SWEPT, STRUCK, ROWS, PRESSED, FASTEST = range(10)
+PACE = 10
 """The length of the last step, s; the speed of a free fall of a whole step, m/s, and its length, s; the time over which velocities last
 changed, s; how far ahead of the last forces the next are looked for; how many sweeps that took; whether something struck; how many contacts
-there were; and the time over which they pressed, s."""
+there were; the time over which they pressed, s; and the greatest speed of any stone, m/s."""
 
 
 POINTS, SUPPORT, WAIT = range(3)
@@ -116,10 +115,7 @@ def note(before, now, kind, i, j, k, slot, who):
     return now
 
 
-@kernel(_t.float64(VECTOR, VECTOR, _t.float64), inline=True)
-def far_in(rel, half, dt):
-    """Return how far, m, a box can come in a step, whatever it strikes on the way."""
-    size = (half[0] ** 2 + half[1] ** 2 + half[2] ** 2) ** 0.5
-    speed = (rel[REL_V] ** 2 + rel[REL_V + 1] ** 2 + rel[REL_V + 2] ** 2) ** 0.5
-    spin = (rel[REL_W] ** 2 + rel[REL_W + 1] ** 2 + rel[REL_W + 2] ** 2) ** 0.5
-    return dt * (SWIFT * (speed + spin * size) + SLOW)
+@kernel(_t.float64(_t.float64, MEMORY), inline=True)
+def far_in(dt, memory):
+    """Return how far, m, any stone can come in a step, whatever it strikes or strikes it on the way."""
+    return dt * (SWIFT * memory.pace[FASTEST] + SLOW)

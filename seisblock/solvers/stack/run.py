@@ -25,12 +25,9 @@ from seisblock.solvers.stack.books import (
     work_of,
 )
 from seisblock.solvers.stack.frames import MASS, F
-from seisblock.solvers.stack.step import drift, energy_of, kick, press_all
+from seisblock.solvers.stack.step import LOOK_EVERY, drift, energy_of, kick, press_all
 
 _t = types()
-
-LOOK_EVERY = 1e-3
-"""How often, s, boxes are looked at for being near each other; a corner at 10 m/s does not outrun their margin."""
 
 
 @kernel(_t.boolean(READ_ONLY_MATRIX, _t.int64, _t.boolean, _t.float64, SETTINGS, LAYOUT, MEMORY, CURSOR, KEPT))

@@ -33,8 +33,12 @@ ALL_EDGES = 12
 SCRATCH = 36
 """Rows of scratch."""
 
-MARGIN = 0.01
-"""How much, m, the bounds of boxes are widened for what they may move until they are looked at again."""
+LOOK_EVERY = 1e-3
+"""How often, s, boxes are looked at for being near each other, or at every step that is longer."""
+
+MARGIN, SWIFT = 0.01, 2.0
+"""How much, m, the bounds of boxes are widened for what they may move until they are looked at again, and how many times more what the
+fastest corner of any moves: what a stone strikes may turn it the other way round, or be driven on."""
 
 SLOW_SPIN = 1e-6
 """Square of the spin, rad^2/s^2, below which a body's axes count as still during a step."""
@@ -127,16 +131,29 @@ def _press_joint(j, bodies, dt, pile, memory):
     return energy
 
 
-@kernel(_t.void(MATRIX, MATRIX, INTEGERS, MATRIX))
-def bound(bodies, boxes, owner, bounds):
-    """Write the centres of the boxes and how far they reach along the ground's axes."""
+@kernel(_t.float64(MATRIX, MATRIX, INTEGERS))
+def fastest(bodies, boxes, owner):
+    """Return a speed, m/s, that no corner of any box exceeds."""
+    most = 0.0
+    for i in range(boxes.shape[0]):
+        b, box = bodies[owner[i]], boxes[i]
+        reach = (box[0] ** 2 + box[1] ** 2 + box[2] ** 2) ** 0.5 + (box[AT] ** 2 + box[AT + 1] ** 2 + box[AT + 2] ** 2) ** 0.5
+        spinning = (b[W] ** 2 + b[W + 1] ** 2 + b[W + 2] ** 2) ** 0.5
+        most = max(most, (b[V] ** 2 + b[V + 1] ** 2 + b[V + 2] ** 2) ** 0.5 + spinning * reach)
+    return most
+
+
+@kernel(_t.void(MATRIX, MATRIX, INTEGERS, _t.float64, MATRIX))
+def bound(bodies, boxes, owner, dt, bounds):
+    """Write the centres of the boxes and how far they reach along the ground's axes until they are looked at again."""
+    margin = MARGIN + SWIFT * max(dt, LOOK_EVERY) * fastest(bodies, boxes, owner)
     for i in range(boxes.shape[0]):
         b = bodies[owner[i]]
         box = boxes[i]
         for k in range(3):
             r = R + 3 * k
             bounds[i, k] = b[X + k] + b[r] * box[AT] + b[r + 1] * box[AT + 1] + b[r + 2] * box[AT + 2]
-            bounds[i, 3 + k] = abs(b[r]) * box[0] + abs(b[r + 1]) * box[1] + abs(b[r + 2]) * box[2] + MARGIN
+            bounds[i, 3 + k] = abs(b[r]) * box[0] + abs(b[r + 1]) * box[1] + abs(b[r + 2]) * box[2] + margin
 
 
 @kernel(_t.boolean(_t.int64, _t.int64, MATRIX), inline=True)
@@ -160,7 +177,7 @@ def press_all(bodies, dt, look, pile, memory):
     for j in range(pile.joints.shape[0]):
         energy += _press_joint(j, bodies, dt, pile, memory)
     if look:
-        bound(bodies, pile.boxes, pile.owner, memory.bounds)
+        bound(bodies, pile.boxes, pile.owner, dt, memory.bounds)
     for pair in range(pairs.shape[0]):
         if handled[pair] > 0:
             continue

@@ -19,6 +19,7 @@ from seisblock.solvers.stack.impulse import (
     AT_ONCE,
     BORE,
     BOUNCE,
+    DEALT,
     FLOOR,
     GAP,
     GIVEN,
@@ -149,17 +150,23 @@ def _hold(i, count, at, n, pile, memory):
     return True
 
 
-@kernel(_t.int64(_t.int64, _t.int64, LAYOUT, MEMORY))
-def at_impact(count, n, pile, memory):
-    """Note what was given until the impact, and add a row for each joint that has a ratio and is struck; return how many rows there are."""
-    rows = count
-    strikes(count, memory)
+@kernel(_t.void(_t.int64, MEMORY))
+def begin_impacts(count, memory):
+    """Note what was given until the impacts."""
     for i in range(count):
         row = memory.table[i]
-        row[PART] = 0.0
         for k in range(3):
             row[GIVEN + k] = row[IMPULSE + k]
             row[IMPULSE + k] = 0.0
+            row[DEALT + k] = 0.0
+
+
+@kernel(_t.int64(_t.int64, _t.int64, LAYOUT, MEMORY))
+def at_impact(count, n, pile, memory):
+    """Add a row for each joint that has a ratio and is struck; return how many rows there are."""
+    rows = count
+    for i in range(count):
+        memory.table[i, PART] = 0.0
     for i in range(count):
         held = not (memory.table[i, BOUNCE] >= 0.0 and _hits(memory.table[i]))
         for j in range(count, rows):
@@ -167,6 +174,16 @@ def at_impact(count, n, pile, memory):
         if not held and _hold(i, count, rows, n, pile, memory):
             rows += 1
     return rows
+
+
+@kernel(_t.void(_t.int64, MEMORY))
+def end_impact(count, memory):
+    """Note what an impact gave."""
+    for i in range(count):
+        row = memory.table[i]
+        for k in range(3):
+            row[DEALT + k] += row[IMPULSE + k]
+            row[IMPULSE + k] = 0.0
 
 
 @kernel(_t.void(_t.int64, _t.int64, MEMORY))

@@ -180,7 +180,7 @@ def settle(n, who, table, ground, inert, tolerance, speeds):
     ----------
     who : (k, 2) array of int
         The bodies of each contact.
-    table : (k, 89) array
+    table : (k, 92) array
         Contacts, with the impulses to start from.
     tolerance : float, m/s
     speeds : (m + 1, 15) array
@@ -245,8 +245,48 @@ def _settle_least(n, who, table, ground, inert, tolerance, speeds):
     return SWEEPS
 
 
+@kernel(_t.float64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
+def work_done(n, who, table, ground, inert, tolerance, speeds):
+    """Return the work of the impulses of `n` contacts, J, at least: against the mean of the velocities without and with them.
+
+    Velocities are known to a tolerance, m/s: an impact that keeps its energy does not give any.
+    """
+    press(n, who, table, ground, inert, -0.5, speeds)
+    work = 0.0
+    for i in range(n):
+        row = table[i]
+        u0, u1, u2 = parting(who[i, 0], who[i, 1], row, speeds)
+        p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
+        work += p0 * u0 + p1 * u1 + p2 * u2 - tolerance * math.sqrt(p0 * p0 + p1 * p1 + p2 * p2)
+    press(n, who, table, ground, inert, 0.5, speeds)
+    return work
+
+
+@kernel(_t.boolean(_t.int64, INTEGER_TABLE, MATRIX, _t.float64, MATRIX))
+def drive(n, who, table, tolerance, speeds):
+    """Whether the impulses of `n` contacts drive the bodies: sweeps then came to rest on no solution.
+
+    No point leaves along what presses it in Signorini's and Coulomb's laws, beyond what floors and turning bodies ask for. Energy is lost
+    then: the work of impulses P, against the mean of the velocities without and with them, is P u - P W P / 2.
+    """
+    power = 0.0
+    for i in range(n):
+        row = table[i]
+        p0, p1, p2 = row[IMPULSE], row[IMPULSE + 1], row[IMPULSE + 2]
+        if row[HELD] > 0.0:
+            return False
+        if p0 == 0.0 and p1 == 0.0 and p2 == 0.0:
+            continue
+        u0, u1, u2 = parting(who[i, 0], who[i, 1], row, speeds)
+        asked = max(row[FLOOR], 0.0) + math.sqrt(row[SWERVE] ** 2 + row[SWERVE + 1] ** 2 + row[SWERVE + 2] ** 2)
+        power += p0 * u0 + p1 * u1 + p2 * u2 - (asked + UNSETTLED * tolerance) * math.sqrt(p0 * p0 + p1 * p1 + p2 * p2)
+    return power > 0.0
+
+
 @kernel(_t.int64(_t.int64, INTEGER_TABLE, MATRIX, _t.int64, MATRIX, _t.float64, MATRIX))
 def settle_surely(n, who, table, ground, inert, tolerance, speeds):
-    """Find the impulses of `n` contacts as :func:`settle` does, or, where its sweeps do not come to rest, those of the least energy."""
+    """Find the impulses of `n` contacts as :func:`settle` does, or, where its sweeps find no solution, those of the least energy."""
     sweeps = settle(n, who, table, ground, inert, tolerance, speeds)
-    return sweeps if sweeps > 0 else SWEEPS + _settle_least(n, who, table, ground, inert, tolerance, speeds)
+    if sweeps > 0 and not drive(n, who, table, tolerance, speeds):
+        return sweeps
+    return SWEEPS + _settle_least(n, who, table, ground, inert, tolerance, speeds)
