@@ -106,7 +106,7 @@ def _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory):
         at = 1
     points = faces_overlap(rel, c, p, pile, axis, work, far, found, work[20:29])
     for i in range(points):
-        if at == 1 and found[i, 3] < 0.0:  # where edges cross, a face says only what may yet come to lie on it
+        if at == 1 and found[i, 3] < min(gap, 0.0):  # where edges cross, a face says only what comes to lie on it, and has come no deeper
             continue
         slot = slots[at + i]
         put(slot, found[i, 0], found[i, 1], found[i, 2], axis[FACE:])

@@ -143,7 +143,7 @@ def _strike(count, n, before, pile, memory):
             settle_surely(count, memory.who, table, n, pile.inert, tolerance, memory.speeds)
         else:
             share(count, rows, memory)
-        end_impact(count, memory)
+        end_impact(count, rows, memory)
     look_back(count, True, memory)
     force = 1.0 / before if before > 0.0 else 0.0
     for i in range(count):

@@ -176,14 +176,17 @@ def at_impact(count, n, pile, memory):
     return rows
 
 
-@kernel(_t.void(_t.int64, MEMORY))
-def end_impact(count, memory):
-    """Note what an impact gave."""
+@kernel(_t.void(_t.int64, _t.int64, MEMORY))
+def end_impact(count, rows, memory):
+    """Note what an impact gave; a joint that left with its ratio does so once in an instant."""
     for i in range(count):
         row = memory.table[i]
         for k in range(3):
             row[DEALT + k] += row[IMPULSE + k]
             row[IMPULSE + k] = 0.0
+        for j in range(count, rows):
+            if _alike(i, j, memory):
+                row[BOUNCE] = -1.0
 
 
 @kernel(_t.void(_t.int64, _t.int64, MEMORY))
