@@ -96,3 +96,18 @@ def test_a_stone_that_all_but_lies_is_not_thrown_up_by_great_friction(seed):
     body[Q : Q + 4], body[R : R + 9] = np.roll(lies.as_quat(), 1), axes.ravel()
     end = Course(pile, still(4 * 0.0033, 0.0033), (1.0, 1.0), G, 1, True, False, {}).follow()
     assert end.kept.books[CREATED] < 2e-4 * pile.inert[0, MASS] * G * height
+
+
+HANGING = [
+    ([-0.0213, 0.0002, 0.2929], [0.03067, -0.22069, 0.38227], [0.182, 2.291, 0.248], [-0.054, -0.031, 0.151]),
+    ([-0.0271, -0.0036, 0.3717], [0.09424, -0.17387, 0.38361], [0.073, 2.547, 0.32], [-0.201, -0.12, 0.071]),
+]
+
+
+@pytest.mark.parametrize(("turn", "place", "spin", "velocity"), HANGING)
+def test_an_edge_that_rocks_across_another_lands_on_it(turn, place, spin, velocity):
+    """Where it crossed at one end, the other end was passed over once it had come down: it sank in for a step, and was pushed out."""
+    places, still_one = [[0.0, 0.0, 0.5 * HEIGHT], place], np.zeros(3)
+    end, created = thrown(2, places, [still_one, velocity], turns=[still_one, turn], spins=[still_one, spin])
+    assert created < 2e-6
+    assert depth(end) < 1e-5
