@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.solvers.stack.apart import FACE, MOST_POINTS, cross, furthest, overlap
@@ -67,3 +69,16 @@ def bevel_meets(rel, c, p, sigma, far, pile):
         if gap < min(far, ALMOST * (level - sigma * r[2])):
             return True
     return False
+
+
+@kernel(_t.boolean(MATRIX, _t.int64, _t.float64, _t.float64, _t.float64))
+def on_face(corners, count, x, y, z):
+    """Whether of the corners of a box one of a face lies furthest along a direction, and none where a bevel ends on the sides."""
+    face, bevel = -math.inf, -math.inf
+    for i in range(count):
+        along = x * corners[i, 0] + y * corners[i, 1] + z * corners[i, 2]
+        if i < PLAIN:
+            face = max(face, along)
+        else:
+            bevel = max(bevel, along)
+    return face >= bevel

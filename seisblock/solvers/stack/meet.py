@@ -8,7 +8,7 @@ from seisblock.solvers.stack.apart import EDGES, FACE, KIND
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import CLINGS, ENTERED, OUTSIDE, PLACE, REBOUND, REL_D, SLOT
 from seisblock.solvers.stack.frames import relative
-from seisblock.solvers.stack.hull_pairs import bevel_meets, edges_cross, faces_overlap, gap_between, most_points
+from seisblock.solvers.stack.hull_pairs import bevel_meets, edges_cross, faces_overlap, gap_between, most_points, on_face
 from seisblock.solvers.stack.impulse import BOUNCE, HEED, IMPULSE, NORMAL, STANDS
 from seisblock.solvers.stack.outlines import ALONG, LOWEST, MOST_FOUND, shared_points
 from seisblock.solvers.stack.remember import TURNED, even_out, gather, keep, left, put, recall, share_out
@@ -197,6 +197,15 @@ def _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory):
     return count
 
 
+@kernel(_t.boolean(VECTOR, _t.int64, _t.int64, LAYOUT))
+def _on_faces(rel, c, p, pile):
+    """Whether of two stones that face each other those that are not round lean no further than their bevels."""
+    up = 1.0 if rel[REL_D + 2] > 0.0 else -1.0
+    if pile.rims[c, 0, RADIUS] == 0.0 and not on_face(pile.corners[c], pile.counts[c], -up * rel[6], -up * rel[7], -up * rel[8]):
+        return False
+    return pile.rims[p, 0, RADIUS] > 0.0 or on_face(pile.corners[p], pile.counts[p], up * rel[2], up * rel[5], up * rel[8])
+
+
 @kernel(_t.int64(_t.int64, _t.int64, MATRIX, _t.float64, LAYOUT, MEMORY), inline=True)
 def _meet(count, pair, bodies, dt, pile, memory):
     """Make rows of the points where two boxes, or a box and the ground, may touch; return how many rows there are then."""
@@ -211,7 +220,7 @@ def _meet(count, pair, bodies, dt, pile, memory):
         count = _meet_ground(count, pair, rel, far, bodies, dt, pile, memory)
     else:
         is_round = pile.rims[c, 0, RADIUS] + pile.rims[p, 0, RADIUS] > 0.0
-        if is_round and face_each_other(rel, boxes[c], boxes[p], pile.rims[c], pile.rims[p]):
+        if is_round and face_each_other(rel, boxes[c], boxes[p], pile.rims[c], pile.rims[p]) and _on_faces(rel, c, p, pile):
             faces = _meet_faces_round(count, pair, rel, far, bodies, dt, pile, memory)
         count = faces if faces >= 0 else _meet_boxes(count, pair, rel, far, bodies, dt, pile, memory)
     memory.handled[pair] = FACES if faces >= 0 else BOXES
