@@ -12,10 +12,14 @@ from seisblock.solvers.stack.solve import solve_stack
 from seisblock.units import STANDARD_GRAVITY as G
 
 
+@pytest.mark.parametrize("seed", [1, 2, 7, 15])
 @pytest.mark.parametrize("ratio", [0.5, 0.8, 0.95, 1.0])
-def test_each_impact_leaves_the_ratio_that_was_given(ratio):
-    """Twenty blocks of any size: a third stopped dead at one impact or other, held by the corners that had left."""
-    dice = np.random.default_rng(1)
+def test_each_impact_leaves_the_ratio_that_was_given(ratio, seed):
+    """Twenty blocks of any size: a third stopped dead at one impact or other, held by the corners that had left.
+
+    With a ratio of 1 one impact in 600 was plastic: of two corners that pressed alike, one had done nothing in a step of microseconds.
+    """
+    dice = np.random.default_rng(seed)
     for _ in range(20):
         width, slender = dice.uniform(0.1, 1.0), dice.uniform(2.0, 8.0)
         alpha, radius = math.atan2(1.0, slender), 0.5 * math.hypot(width, slender * width)

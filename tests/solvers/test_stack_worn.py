@@ -71,24 +71,27 @@ def test_a_slab_that_rocks_on_flat_bevels_lands_on_all_its_corners(push):
     assert created(pile, outcome) < 1e-4
 
 
-@pytest.mark.parametrize("seed", [3, 11, 12, 35, 68, 171])
-def test_worn_drums_that_lean_beyond_their_bevels_gain_nothing(seed):
-    """Their worn rims alone were met, also where the outer ones lie lower: one in four piles of such disks gained up to 1.7 %."""
-    low = PileStone("low", 0.315, 0.315, 0.077, shape="round")
-    high = PileStone("high", 0.294, 0.294, 0.171, on="low", shape="round")
-    pile = worn(Pile("drums", (low, high), mu=1.2), 0.25)
-    outcome = solve_stack(pile, noise(seed, 1.3, 30.0), step=1e-3).outcome
-    assert outcome.overturned_any
-    assert created(pile, outcome) < 2e-4
+@pytest.mark.parametrize("shape", ["round", "rectangular"])
+def test_worn_stones_that_lean_beyond_their_bevels_on_drums_gain_nothing(shape):
+    """Worn faces alone were met, also where outer rims and edges lie lower: 1 in 4 drums gained up to 1.7 %, and 3 in 4 squares 3.9 %."""
+    inset, gained, leans = Inset(share=0.25), [], []
+    low = PileStone("low", 0.315, 0.315, 0.077, shape="round", inset=inset)
+    high = PileStone("high", 0.294, 0.294, 0.171, on="low", shape=shape, inset=inset)
+    pile = Pile("two", (low, high), mu=1.2)
+    for seed in range(30):
+        outcome = solve_stack(pile, noise(seed, 1.3, 30.0), step=1e-3).outcome
+        gained.append(created(pile, outcome))
+        leans.append(outcome.max_tilt_rad["high"])
+    assert max(gained) < 1e-3
+    assert np.quantile(gained, 0.75) < 2e-4
+    assert np.quantile(leans, 0.75) > 0.7
 
 
-@pytest.mark.parametrize("seed", [15, 40, 53, 54, 57])
-def test_a_worn_square_that_leans_beyond_its_bevel_on_a_drum_gains_nothing(seed):
-    """Its worn face alone was met, also where its outer edges lie lower: 71 of 100 such piles gained up to 3.9 %."""
+@pytest.mark.parametrize("seed", [32, 74])
+def test_a_worn_drum_that_comes_to_stand_flat_is_not_thrown_up(seed):
+    """One rim's point was to lift what fell on the other side of it; or forces of a few nanoseconds were gone on with: .9 and 1.8 %."""
     inset = Inset(share=0.25)
     low = PileStone("low", 0.315, 0.315, 0.077, shape="round", inset=inset)
-    high = PileStone("high", 0.294, 0.294, 0.171, on="low", inset=inset)
-    pile = Pile("a square on a drum", (low, high), mu=1.2)
-    outcome = solve_stack(pile, noise(seed, 1.3, 30.0), step=1e-3).outcome
-    assert outcome.max_tilt_rad["high"] > 0.7
-    assert created(pile, outcome) < 2e-4
+    high = PileStone("high", 0.294, 0.294, 0.171, on="low", shape="round", inset=inset)
+    pile = Pile("two", (low, high), mu=1.2)
+    assert created(pile, solve_stack(pile, noise(seed, 1.3, 30.0), step=1e-3).outcome) < 1e-3

@@ -12,18 +12,30 @@ from seisblock._jit import kernel, types
 from seisblock.dynamics.arrays import MATRIX
 from seisblock.solvers.stack.arguments import LAYOUT, MEMORY
 from seisblock.solvers.stack.contact import EARLIER, PUSH, SLIDES
+from seisblock.solvers.stack.floors import far_round, lay_floors
 from seisblock.solvers.stack.frames import INVERSE, F, L, R, T, V
 from seisblock.solvers.stack.friction import NOTICED, along_face, far_turned, lay_cones, look_back, settle_slips
 from seisblock.solvers.stack.impulse import ARM_A, ARM_B, DEALT, GAP, GIVEN, IMPULSE, VEERING, press
 from seisblock.solvers.stack.lying import carried, lie_down, rouse
 from seisblock.solvers.stack.meet import find
-from seisblock.solvers.stack.row import AHEAD, BEFORE, FALL, FIRST, JOINTS, KICKED, PRESSED, ROWS, STRUCK, SWEPT, WHOLE
+from seisblock.solvers.stack.row import (
+    AHEAD,
+    BEFORE,
+    FALL,
+    FIRST,
+    JOINTS,
+    KICKED,
+    PRESSED,
+    ROWS,
+    STRUCK,
+    SWEPT,
+    WHOLE,
+    force_of,
+)
 from seisblock.solvers.stack.strike import (
     at_impact,
     begin_impacts,
     end_impact,
-    far_round,
-    lay_floors,
     let_go,
     share,
     soonest,
@@ -73,7 +85,7 @@ def _remember(memory):
         slot = memory.joint_slots[who[3], who[4], who[5]] if who[2] == JOINTS else memory.corner_slots[who[3], who[4], who[5]]
         for k in range(3):
             slot[EARLIER + k] = slot[PUSH + k]
-            slot[PUSH + k] = row[IMPULSE + k] / pressed
+            slot[PUSH + k] = force_of(row[IMPULSE + k], pressed, 0.0 if memory.pace[STRUCK] > 0.0 else slot[PUSH + k], memory)
         slot[SLIDES] = 0.0
         if row[IMPULSE] == 0.0 and row[IMPULSE + 1] == 0.0 and row[IMPULSE + 2] == 0.0 and row[GAP] > 0.0:
             continue
@@ -145,12 +157,10 @@ def _strike(count, n, before, pile, memory):
             share(count, rows, memory)
         end_impact(count, rows, memory)
     look_back(count, True, memory)
-    force = 1.0 / before if before > 0.0 else 0.0
     for i in range(count):
         for k in range(3):
-            given = table[i, GIVEN + k]
-            table[i, GIVEN + k] = given + table[i, DEALT + k]
-            table[i, IMPULSE + k] = given * force
+            table[i, IMPULSE + k] = force_of(table[i, GIVEN + k], before, 0.0, memory)
+            table[i, GIVEN + k] += table[i, DEALT + k]
 
 
 @kernel(_t.float64(MATRIX, _t.float64, _t.float64, _t.float64, _t.float64, _t.boolean, LAYOUT, MEMORY), inline=True)

@@ -131,7 +131,8 @@ def note_rim(deepest, sine, radius, axes, frame, row):
 def roll(row, x, y, z, step, swerve):
     """Add how the lowest point of a rim changes its velocity in half a step by wandering round the stone; return when it will be far.
 
-    Along the normal it is what keeps the lowest point on its plane to the end of the step, wherever it then is.
+    Along the normal it is what keeps the lowest point on its plane to the end of the step, wherever it then is. Where it will be on the
+    other side, the stone having come to stand flat, nothing is asked of this one: the points that are there strike.
 
     Parameters
     ----------
@@ -171,7 +172,8 @@ def roll(row, x, y, z, step, swerve):
         if wander * step > 2.0 * FASTEST:
             e0, e1, e2 = 0.0, 0.0, 0.0
         up -= half * (n0 * e0 + n1 * e1 + n2 * e2)
-        factor = side * radius
+        ahead = sine + (n0 * b0 + n1 * b1 + n2 * b2) * (u0 * b0 + u1 * b1 + u2 * b2)
+        factor = side * radius if ahead > 0.0 else 0.0
         swerve[0] += factor * (half * e0 + up * n0)
         swerve[1] += factor * (half * e1 + up * n1)
         swerve[2] += factor * (half * e2 + up * n2)
