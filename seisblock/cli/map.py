@@ -189,11 +189,10 @@ def _subject(
     if cemetery is not None:
         if named:
             raise click.UsageError(tell("give either --cemetery or a body, not both"))
-        refuse_beside("--cemetery", OF_A_BODY)
+        refuse_beside("--cemetery", [*OF_A_BODY, "gravity"])
         from seisblock.bodies.cemetery.table import read_cemetery
-        from seisblock.studies.cemetery.judgement import Method
 
-        return StandingStones(read_cemetery(cemetery), Method(gravity=gravity))
+        return StandingStones(read_cemetery(cemetery))
     if not named:
         refuse_without(said("--block, --width and --height, or --solver"), [*OF_A_BODY, "gravity"])
         return None

@@ -10,12 +10,13 @@ import click
 from seisblock.cli import offered
 from seisblock.cli.bodies.options import side_option
 from seisblock.cli.command import Command, option
+from seisblock.cli.idle import refuse_without
 from seisblock.cli.options import Source, gravity_option, record_options
 from seisblock.cli.quiet import quietly
 from seisblock.cli.talk import say, warn
 from seisblock.cli.types import LENGTH
 from seisblock.errors import InputError
-from seisblock.words import language
+from seisblock.words import language, said
 
 DEFAULT_BODIES = ("gravestone", "chozusha")
 
@@ -93,6 +94,8 @@ def report(
         if not body:
             say("no --body given: {bodies}", bodies=DEFAULT_BODIES)
         subjects = [subject(name, side=side, mu=mu, mu_kinetic=mu_kinetic, frequency_vertical=frequency_vertical) for name in names]
+        if all(each.layers is None for each in subjects):
+            refuse_without(said("a two-layer --body"), ("side", "drop"))
         records = load(source)
         if len(records) != 1:
             raise InputError("a report is about one record, found {count}: give one, or run the command for each", count=len(records))
