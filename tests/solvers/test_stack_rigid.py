@@ -15,8 +15,9 @@ from seisblock.bodies.pile.toml import load_pile
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
 from seisblock.solvers.respond.solve import solve_respond
+from seisblock.solvers.stack.arrays import PLASTIC, pile_arrays
 from seisblock.solvers.stack.base import base, base_of
-from seisblock.solvers.stack.outcome import stack_outcome
+from seisblock.solvers.stack.outcome import Track, channels, rotated, stack_outcome
 from seisblock.solvers.stack.solve import solve_stack
 from seisblock.solvers.stack.step import POINT
 from seisblock.units import STANDARD_GRAVITY as G
@@ -268,3 +269,19 @@ def test_finer_steps_answer_before_springs_where_rigid_stones_create_energy(monk
     found = solve_stack(block(), cycle(3.0, 1.0))
     assert found.options["law"] == "springs"
     assert "springs at the same points answer instead of rigid stones" in found.warnings[0]
+
+
+def test_what_turns_under_a_stone_is_no_slip_of_it():
+    """A beam held by a post that turns, at the middle of their joint, has not slid over it, however far off its own centre is."""
+    posts = [PileStone(name, 0.3, 0.3, 0.9, on="ground", offset=(x, 0.0)) for name, x in (("left", -0.6), ("right", 0.6))]
+    pile = pile_arrays(Pile("gate", (*posts, PileStone("beam", 1.7, 0.25, 0.2, on="left", offset=(0.6, 0.0)))), None, 2, PLASTIC)
+    turn, along = 0.4, np.array([0.02, -0.01, 0.0])
+    whole, half = (np.array([math.cos(angle / 2.0), 0.0, 0.0, math.sin(angle / 2.0)]) for angle in (turn, 0.5 * turn))
+    start = np.array(pile.body.centres())
+    joint = np.array([-0.6, 0.0, 0.9])
+    beam = joint + along + rotated(half, start[2] - joint)
+    centres, quaternions = np.array([start, [start[0], start[1], beam]]), np.array([[[1.0, 0.0, 0.0, 0.0]] * 3, [whole, whole, half]])
+    track = Track(np.arange(2.0), centres, quaternions)
+    slips = {channel.name: channel.values for channel in channels(pile, track) if channel.name.endswith("_slip")}
+    assert slips["beam_slip"] == pytest.approx([0.0, float(np.hypot(*along[:2]))], abs=1e-12)
+    assert slips["left_slip"] == pytest.approx([0.0, 0.0], abs=1e-12)

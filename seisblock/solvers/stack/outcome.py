@@ -13,7 +13,7 @@ from seisblock.results import Channel, Status
 from seisblock.solvers.stack.arguments import PileKept
 from seisblock.solvers.stack.arrays import PileArrays
 from seisblock.solvers.stack.books import CREATED, FALL_TIME, FALL_X, FALL_Y, IMPULSE, LEAST_COSINE, LOST, WORK
-from seisblock.solvers.stack.frames import AT, MASS, V
+from seisblock.solvers.stack.frames import AT, MASS, V, X
 from seisblock.typing import FloatArray
 from seisblock.words import noted
 
@@ -37,7 +37,7 @@ class StoneFate:
         State: ``standing``, ``slid``, ``turned`` or ``fallen``.
     max_tilt_rad, residual_tilt_rad : float
     residual_slip_m, residual_slip_x_m, residual_slip_y_m : float
-        Where the centre of its lower face ends, in the axes of what it stood on; the first is the distance.
+        How far it ends over what it stood on, at the middle of their joint, in the axes of that; the first is the distance.
     residual_turn_rad : float
         About the vertical, positive counter-clockwise seen from above.
     fell_at_s : float or None
@@ -171,10 +171,20 @@ def _under(pile: PileArrays, i: int) -> int:
     return -1 if on == GROUND else pile.body.names.index(on)
 
 
+def _seat(pile: PileArrays, i: int, below: int) -> FloatArray:
+    """Return the middle of the joint between a stone and the one it stands on, from the stone's centre, (3,), m."""
+    place = np.array([0.0, 0.0, -pile.boxes[i, 2]])
+    if below >= 0:
+        mine, under = (pile.bodies[pile.owner[k], X : X + 2] + pile.boxes[k, AT : AT + 2] for k in (i, below))
+        half, bed = pile.boxes[i, :2], pile.boxes[below, :2]
+        place[:2] = 0.5 * (np.maximum(mine - half, under - bed) + np.minimum(mine + half, under + bed)) - mine
+    return place
+
+
 def _slip(pile: PileArrays, track: Track, i: int) -> FloatArray:
-    """Return how the centre of a stone's lower face has moved over what it stood on, (rows, 3), m."""
-    foot = track.centres[:, i] + rotated(track.quaternions[:, i], np.array([0.0, 0.0, -pile.boxes[i, 2]]))
+    """Return how a stone has moved over what it stood on, at the middle of their joint, (rows, 3), m: what turns beneath it is no slip."""
     below = _under(pile, i)
+    foot = track.centres[:, i] + rotated(track.quaternions[:, i], _seat(pile, i, below))
     if below >= 0:
         foot = rotated(inverse(track.quaternions[:, below]), foot - track.centres[:, below])
     return foot - foot[0]
