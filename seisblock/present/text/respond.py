@@ -17,6 +17,7 @@ from seisblock.present.text.onset import ROCKS, SLIDES, onset
 from seisblock.present.text.tables import NOTHING, answered, line, number, seconds, side_by_side, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
+from seisblock.solvers.respond.tale import HOPS_ON
 from seisblock.studies.standing.azimuths import AzimuthFate
 from seisblock.studies.standing.probability import Probability
 from seisblock.words import listed, noted, roughly, said, tell
@@ -72,6 +73,8 @@ def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
         gravity, vertical = response.options["gravity_m_s2"], response.options["vertical"]
         moves = onset(first, (shares[0], shares[1]), response.motion, gravity=gravity, vertical=vertical, gal=gal)
         words = tell("{verdict}; {onset}", verdict=tell("stands still"), onset=moves)
+    elif outcome.outcome == HOPS_ON:
+        words = tell("no answer: given up at {time:.2f} s after {impacts} impacts", time=outcome.end_s, impacts=outcome.impacts)
     else:
         words = listed(_stays(response, gal=gal))
     flag = tell("; a change of the input by a millionth changes this") if outcome.sensitive else ""

@@ -14,7 +14,7 @@ from seisblock import checks
 from seisblock.dynamics import Ensemble, follow_many
 from seisblock.dynamics.arguments import LONGEST, TOTAL
 from seisblock.dynamics.halt import halting, heeding
-from seisblock.errors import ParameterError
+from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
 from seisblock.records.given import check_motion
 from seisblock.solvers.respond import names
@@ -68,6 +68,25 @@ class Fates:
     end_s: FloatArray
     time_in_mode_s: FloatArray
     longest_flight_s: FloatArray
+
+    def answered(self) -> Fates:
+        """Return these fates, all of them answers.
+
+        Raises
+        ------
+        SolverError
+            If one was given up in the midst of its hops: whether it would fall is not known.
+        """
+        count = int(np.count_nonzero(self.gave_up))
+        if count:
+            raise SolverError(
+                "{count} of {runs} runs were given up after {impacts} impacts and have no answer: they hop without end; lower the "
+                "restitution",
+                count=count,
+                runs=len(self.gave_up),
+                impacts=int(self.impacts[self.gave_up].min()),
+            )
+        return self
 
 
 def respond_many(
@@ -135,19 +154,20 @@ def _fates(settings: Sequence[Setting] | Settings, motion: Motion, gains: FloatA
     else:
         first, starts = settings[0], np.array([setting.state(initial) for setting in settings])
     model = first.model
-    shaken = follow_many(model, motion, _parameters(settings, motion.dt), starts, first.first_mode, gains=gains)
+    duration = (motion.samples - 1) * motion.dt
+    shaken = follow_many(model, motion, _parameters(settings, motion.dt, duration), starts, first.first_mode, gains=gains)
     final, mode, end = shaken.final.copy(), shaken.final_mode.copy(), shaken.end_time.copy()
     high, low = _extrema(shaken)
     spent, longest = _stays(shaken)
     moving = (mode >= 0) & (mode % names.HELD != names.REST)
     if settle_s > 0.0 and moving.any():
         ground = still_ground(settle_s)
-        p = _parameters(settings, ground.dt, still=True)
+        p = _parameters(settings, ground.dt, duration + settle_s, still=True)
         for kind in np.unique(mode[moving]):
             rows = np.flatnonzero(moving & (shaken.final_mode == kind))
             after = follow_many(model, ground, p[rows], shaken.final[rows], int(kind), gains=(1.0, 0.0, 1.0))
             final[rows], mode[rows] = after.final, after.final_mode
-            end[rows] = (motion.samples - 1) * motion.dt + after.end_time
+            end[rows] = duration + after.end_time
             higher, lower = _extrema(after)
             high[rows], low[rows] = np.maximum(high[rows], higher), np.minimum(low[rows], lower)
             longer = _stays(after)
@@ -170,11 +190,11 @@ def _fates(settings: Sequence[Setting] | Settings, motion: Motion, gains: FloatA
     )
 
 
-def _parameters(settings: Sequence[Setting] | Settings, dt: float, *, still: bool = False) -> FloatArray:
+def _parameters(settings: Sequence[Setting] | Settings, dt: float, duration_s: float, *, still: bool = False) -> FloatArray:
     """Return the parameters of the model, one row for each."""
     if isinstance(settings, Settings):
-        return settings.parameters(dt, still=still)
-    return np.array([setting.parameters(dt, still=still) for setting in settings])
+        return settings.parameters(dt, duration_s=duration_s, still=still)
+    return np.array([setting.parameters(dt, duration_s=duration_s, still=still) for setting in settings])
 
 
 def _stays(ensemble: Ensemble) -> tuple[FloatArray, FloatArray]:

@@ -115,10 +115,11 @@ def run(
 
     `keep` says whether samples and events are wanted, or the end alone.
     """
+    duration = (motion.samples - 1) * motion.dt
     shaken = follow(
         setting.model,
         motion,
-        setting.parameters(motion.dt),
+        setting.parameters(motion.dt, duration_s=duration),
         setting.state(initial),
         setting.first_mode,
         gains=gains,
@@ -126,14 +127,13 @@ def run(
         keep_path=keep,
         keep_events=keep,
     )
-    duration = (motion.samples - 1) * motion.dt
     if not moves_on(shaken.final_mode) or settle_s == 0.0:
         return Run(shaken, None, duration)
     ground = still_ground(settle_s)
     after = follow(
         setting.model,
         ground,
-        setting.parameters(ground.dt, still=True),
+        setting.parameters(ground.dt, duration_s=duration + settle_s, still=True),
         shaken.final,
         shaken.final_mode,
         gains=(1.0, 0.0, 1.0),

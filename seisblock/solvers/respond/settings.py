@@ -65,9 +65,9 @@ class Settings:
             self.tenon,
         )
 
-    def parameters(self, dt: float, *, still: bool = False) -> FloatArray:
+    def parameters(self, dt: float, *, duration_s: float = 0.0, still: bool = False) -> FloatArray:
         """Return the parameters of the model in the order of its names, (m, 15)."""
-        table = np.tile(self.one(0).parameters(dt, still=still), (len(self), 1))
+        table = np.tile(self.one(0).parameters(dt, duration_s=duration_s, still=still), (len(self), 1))
         largest = self.blocks.radii.max(axis=1)
         kappa = self.blocks.gyration_squared / (largest * largest)
         limit = 2.0 * np.sqrt(kappa * (1.0 + kappa))

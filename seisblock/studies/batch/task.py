@@ -16,6 +16,7 @@ from seisblock.records import Motion, Preparation, Record, motion_of
 from seisblock.records.doubtful import refuse_doubtful, sentences
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.site import is_of_station
+from seisblock.results import Status
 from seisblock.studies.batch.azimuths import around, worst_azimuth
 from seisblock.studies.batch.models import BATCH_MODELS, BatchModel, Placed
 from seisblock.studies.batch.table import REASON, WARNINGS, Row
@@ -194,6 +195,8 @@ def _answer(motion: Motion, body: Placed, plan: Plan, doubts: Sequence[str]) -> 
         chance = model.chance(there, motion, plan.runs, plan.seed, body.options) if plan.runs and model.chance is not None else {}
     except SeisblockError as error:
         return {REASON: error.said}
+    if response.status == Status.TOO_MANY_EVENTS:
+        return {REASON: "; ".join(response.warnings)}
     told = [*doubts, *response.warnings]
     found = {name: _plain(getattr(response.outcome, name), kind) for name, kind in model.scalars.items()}
     return {**found, **chance, WARNINGS: "; ".join(told) or None}

@@ -77,7 +77,7 @@ def _respond(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) 
         settings = changed_settings(placed.body, VERSIONS, every, **options)
         alphas = settings.blocks.slendernesses.min(axis=1)
     gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
-    fates = respond_many(settings, motion, gains=gains, settle_s=settle)
+    fates = respond_many(settings, motion, gains=gains, settle_s=settle).answered()
     slip = np.where(fates.overturned, np.inf, np.abs(fates.final_displacement_m))
     return Ends(fates.overturned, fates.max_rotation_rad / alphas, slip)
 

@@ -74,7 +74,7 @@ def respond_directions(
     settle_s = options.pop("settle_s", 60.0)
     around = sweep(block, record, step_deg=step_deg, vertical=vertical)
     settings = [make_setting(each, **options) for each in around.blocks]
-    fates = respond_many(settings, around.motion, gains=around.gains, settle_s=settle_s)
+    fates = respond_many(settings, around.motion, gains=around.gains, settle_s=settle_s).answered()
     start_s = around.motion.start_s
     found = [
         _direction(azimuth, block, fates, row, start_s)

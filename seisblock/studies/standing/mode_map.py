@@ -136,7 +136,7 @@ def mode_map(
     table = np.empty((cells, 4))
     for first in range(0, cells, AT_ONCE):
         part = slice(first, min(first + AT_ONCE, cells))
-        fates = respond_many(settings[part], motion, gains=(1.0, 0.0, up), settle_s=settle_s)
+        fates = respond_many(settings[part], motion, gains=(1.0, 0.0, up), settle_s=settle_s).answered()
         lean = fates.max_rotation_rad / alphas[part]
         table[part] = np.column_stack([_worst(fates, seen_s), lean, fates.slip_path_m, fates.final_displacement_m])
         if progress is not None:

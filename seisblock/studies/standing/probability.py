@@ -149,6 +149,8 @@ def respond_probability(
     ------
     ParameterError
         If there are no runs, or a number lies outside its range.
+    SolverError
+        If a version hops without end.
 
     Examples
     --------
@@ -189,7 +191,7 @@ def respond_probability(
     fallen, shifts = [], []
     for first in range(0, runs, AT_ONCE):
         part = slice(first, first + AT_ONCE)
-        fates = respond_many(settings[part], motion, gains=gains[part], settle_s=settle_s)
+        fates = respond_many(settings[part], motion, gains=gains[part], settle_s=settle_s).answered()
         fallen.append(fates.overturned)
         shifts.append(fates.final_displacement_m)
         if progress is not None:

@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block
+from seisblock.errors import SolverError
+from seisblock.present.text.respond import verdict
+from seisblock.records import Motion
 from seisblock.results import Status
 from seisblock.solvers.respond import names, solve_respond
+from seisblock.solvers.respond.many import respond_many
+from seisblock.solvers.respond.solve import make_setting
 from seisblock.units import STANDARD_GRAVITY as G
 from tests.solvers.respond.cases import SLENDER, followed, leaning, sequence, still
 
@@ -61,13 +66,39 @@ def _above(block, theta, gap):
     return (x, y + gap, *rest)
 
 
+NEARLY_LOSSLESS = {"mu": 0.5, "restitution": 0.99999}
+"""Hops that shrink by 1e-5 take more impacts than are followed."""
+
+
 def test_hops_without_end_are_given_up():
-    """A restitution near 1: a status and a sentence, within seconds."""
-    response = solve_respond(SLENDER, still(), mu=0.5, restitution=0.99999, initial=leaning(SLENDER, 1e-6), sensitivity=False)
+    """A restitution near 1: a status and a sentence, within seconds; what is said first is that there is no answer."""
+    response = solve_respond(SLENDER, still(1.0), **NEARLY_LOSSLESS, initial=leaning(SLENDER, 1e-8), settle_s=10.0, sensitivity=False)
     assert response.status is Status.TOO_MANY_EVENTS
     assert response.outcome.outcome == "hops without end"
     assert not response.outcome.settled
     assert any("without end" in text for text in response.warnings)
+    assert "no answer: given up at" in verdict(response, gal=True)
+
+
+def test_runs_that_were_given_up_are_no_answers():
+    """Among many, a run that was given up is none that stands: a study asks for answers alone."""
+    settings = [make_setting(SLENDER, **NEARLY_LOSSLESS), make_setting(SLENDER, mu=0.5)]
+    fates = respond_many(settings, still(1.0), initial=leaning(SLENDER, 1e-8), settle_s=10.0)
+    assert fates.gave_up.tolist() == [True, False]
+    with pytest.raises(SolverError, match=r"1 of 2 runs were given up .* lower the restitution"):
+        fates.answered()
+
+
+def test_strong_shaking_brings_an_object_to_rest_many_times():
+    """Half a minute of strong noise along two axes makes hundred thousands of impacts; the object is followed to its end, alone or not."""
+    noise = np.random.default_rng(0).standard_normal((2, 1501))
+    motion = Motion.from_arrays(3.0 * noise[0], 0.02, vertical=4.0 * noise[1])
+    outcome = solve_respond(Block(0.5, 1.0), motion, mu=0.8, restitution=0.7, sensitivity=False).outcome
+    assert outcome.impacts > 200_000
+    assert outcome.settled
+    assert outcome.end_s >= 30.0
+    fates = respond_many([make_setting(Block(0.5, 1.0), mu=0.8, restitution=0.7)], motion).answered()
+    assert (fates.impacts[0], fates.end_s[0]) == (outcome.impacts, outcome.end_s)
 
 
 def test_time_runs_out():
