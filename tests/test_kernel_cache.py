@@ -137,3 +137,35 @@ def test_a_read_only_folder_is_no_reason_to_stop(folder):
         for path in [folder, *folder.rglob("*")]:
             path.chmod(0o755 if path.is_dir() else 0o644)
     assert len(said) == 1 and "SEISBLOCK_CACHE_DIR names another folder" in said[0]
+
+
+RACE = """
+import contextlib, threading
+from pathlib import Path
+import numba
+from seisblock._jit.cache import _numba_keeps_in
+both, seen = threading.Barrier(2, timeout=0.5), {}
+
+def meet():
+    with contextlib.suppress(threading.BrokenBarrierError):
+        both.wait()
+
+def keep(name):
+    with _numba_keeps_in(Path(name)):
+        meet()
+        seen[name] = numba.config.CACHE_DIR
+        meet()
+
+before = numba.config.CACHE_DIR
+threads = [threading.Thread(target=keep, args=(name,)) for name in ("one", "two")]
+[thread.start() for thread in threads]
+[thread.join() for thread in threads]
+print(seen["one"], seen["two"], numba.config.CACHE_DIR == before)
+"""
+"""Two threads that want to be inside at the same time: each waits half a second for the other one."""
+
+
+def test_two_threads_keep_their_kernels_where_each_says():
+    """Kernels of one thread were kept beside the sources, or in the working directory, when another one had just finished."""
+    done = subprocess.run([sys.executable, "-c", RACE], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["one", "two", "True"]

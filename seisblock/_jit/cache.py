@@ -8,6 +8,7 @@ import hashlib
 import os
 import pickle
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import FunctionType
@@ -29,6 +30,9 @@ UNREADABLE = (
 """What a kernel that lost or changed its bytes raises when it is read, and what a full disk does; numba's own errors are none of them."""
 
 _given_up = False
+
+_one_place = threading.RLock()
+"""Held while numba's own settings name our place: another thread's kernels would be kept where the caller's are, or nowhere."""
 
 
 def _source_digest() -> str:
@@ -79,14 +83,15 @@ def _numba_keeps_in(place: Path) -> Iterator[None]:
     import numba
 
     wanted = {"CACHE_DIR": str(place), "CACHE_LOCATOR_CLASSES": "UserProvidedCacheLocator"}
-    before = {name: getattr(numba.config, name, "") for name in wanted}
-    try:
-        for name, value in wanted.items():
-            setattr(numba.config, name, value)
-        yield
-    finally:
-        for name, value in before.items():
-            setattr(numba.config, name, value)
+    with _one_place:
+        before = {name: getattr(numba.config, name, "") for name in wanted}
+        try:
+            for name, value in wanted.items():
+                setattr(numba.config, name, value)
+            yield
+        finally:
+            for name, value in before.items():
+                setattr(numba.config, name, value)
 
 
 def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], say: Callable[[str], None]) -> Compiled:

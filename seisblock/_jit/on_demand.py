@@ -35,7 +35,7 @@ class OnDemand:
     def compiled(self) -> Any:
         """Numba's dispatcher.
 
-        No lock is held while it is made: two threads may both make it, one of them from what the other one kept.
+        Nothing is locked to see whether it was made: two threads may both make it, one of them from what the other one kept.
         """
         if self._compiled is None:
             with losing_no_interrupt():
