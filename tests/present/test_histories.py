@@ -161,6 +161,16 @@ def test_thinning_keeps_extremes_and_gaps():
     assert np.isnan(y[(x >= 20_000) & (x < 20_400)]).all()
 
 
+def test_a_quiet_stretch_keeps_its_points_beside_a_crowd():
+    """Where ten thousand hops share a second, the minute before it is drawn as finely as ever; every point of a bin in time counts."""
+    quiet, crowd = np.arange(0.0, 60.0, 0.02), np.linspace(60.0, 61.0, 300_000)
+    time, values = np.concatenate([quiet, crowd]), np.sin(np.concatenate([quiet, 500.0 * crowd]))
+    x, y = thin(time, values, 4000)
+    assert x.size < 4100
+    np.testing.assert_array_equal(x[x < 60.0 - 61.0 / 2000], quiet[: np.count_nonzero(x < 60.0 - 61.0 / 2000)])
+    assert np.interp(quiet, x, y) == pytest.approx(np.sin(quiet), abs=1e-3)
+
+
 def test_the_title_says_what_was_done():
     """What was done to the samples is named, without its particulars; a title that is too long is cut, and ends in the figure."""
     prepared = Preparation(highpass_hz=0.1, scale=1.23456789).apply(record())

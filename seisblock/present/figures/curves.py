@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -120,36 +121,45 @@ def thin(time: FloatArray, values: FloatArray, most: int = MOST_POINTS) -> tuple
     Parameters
     ----------
     time, values : (n,) arrays
-        Where `values` is not a number the curve is broken, and stays so.
+        In the order of time. Where `values` is not a number the curve is broken, and stays so.
     most : int
     """
-    keep = extremes(values, most)
+    keep = extremes(time, values, most)
     return time[keep], values[keep]
 
 
-def extremes(values: FloatArray, most: int = MOST_POINTS) -> IntArray:
-    """Return which of some values stand for all of them: each bin's minimum and maximum, about so many in all, in their order.
+def extremes(time: FloatArray, values: FloatArray, most: int = MOST_POINTS) -> IntArray:
+    """Return which points of a curve stand for all of them: the lowest and the highest of each of its bins, about so many in all.
+
+    Bins are of equal width in time. Of equal number they would leave a quiet minute few points where a second of ever smaller hops has
+    ten thousand.
 
     Parameters
     ----------
-    values : (n,) array
+    time, values : (n,) arrays
+        In the order of time.
     most : int
 
     Examples
     --------
-    >>> extremes(np.array([0.0, 1.0, 5.0, 2.0, -3.0, 0.0, 0.0, 1.0]), most=4).tolist()
+    >>> extremes(np.arange(8.0), np.array([0.0, 1.0, 5.0, 2.0, -3.0, 0.0, 0.0, 1.0]), most=4).tolist()
     [0, 2, 4, 7]
     """
     n = values.size
     if n <= most:
         return np.arange(n)
-    wide = -(-n // (most // 2))
-    bins = -(-n // wide)
-    padded = np.full(bins * wide, np.nan)
-    padded[:n] = values
-    broken = np.isnan(padded)
-    rows = np.arange(bins) * wide
-    lowest = rows + np.where(broken, np.inf, padded).reshape(bins, wide).argmin(axis=1)
-    highest = rows + np.where(broken, -np.inf, padded).reshape(bins, wide).argmax(axis=1)
-    gaps = np.flatnonzero(broken[1:n] & ~broken[: n - 1]) + 1
+    bins, whole = most // 2, time[-1] - time[0]
+    place = np.minimum(bins * ((time - time[0]) / whole), bins - 1).astype(np.int64) if whole > 0.0 else np.zeros(n, dtype=np.int64)
+    starts = np.flatnonzero(np.diff(place, prepend=-1))
+    which = np.repeat(np.arange(starts.size), np.diff(starts, append=n))
+    broken = np.isnan(values)
+    lowest = _first_that_equal(np.minimum.reduceat, np.where(broken, np.inf, values), starts, which)
+    highest = _first_that_equal(np.maximum.reduceat, np.where(broken, -np.inf, values), starts, which)
+    gaps = np.flatnonzero(broken[1:] & ~broken[:-1]) + 1
     return np.unique(np.concatenate([[0], lowest, highest, gaps, [n - 1]]))
+
+
+def _first_that_equal(extreme: Callable[..., FloatArray], values: FloatArray, starts: IntArray, which: IntArray) -> IntArray:
+    """Return where in each bin its extreme value stands first."""
+    found = np.flatnonzero(values == extreme(values, starts)[which])
+    return found[np.unique(which[found], return_index=True)[1]]

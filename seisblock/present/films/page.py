@@ -115,7 +115,7 @@ def _trail(trail: Trail, first: float, last: float) -> dict[str, Any]:
     """Return the path of a point between two times; of too many points those furthest to either side, up and down."""
     kept = np.flatnonzero((trail.time >= first) & (trail.time <= last))
     if kept.size > MOST_ON_PATH:
-        kept = kept[np.union1d(*(extremes(values[kept], MOST_ON_PATH // 2) for values in (trail.x, trail.z)))]
+        kept = kept[np.union1d(*(extremes(trail.time[kept], values[kept], MOST_ON_PATH // 2) for values in (trail.x, trail.z)))]
     time, x, z = (_numbers(values[kept], digits) for values, digits in ((trail.time, SECONDS), (trail.x, METRES), (trail.z, METRES)))
     return {"time": time, "x": x, "z": z, "colour": trail.colour}
 
