@@ -86,9 +86,11 @@ def report(
     from seisblock.present.figures.fonts import MISSING, drawable
     from seisblock.present.files import refuse_collisions, write_text
     from seisblock.present.pages.report import report as page
+    from seisblock.present.suffixes import check_text
     from seisblock.studies.assessment import assess
 
     refuse_collisions(output)
+    check_text(output, "HTML")
     with quietly(quiet):
         names = body or DEFAULT_BODIES
         if not body:
