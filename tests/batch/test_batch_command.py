@@ -59,6 +59,7 @@ def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE_S", 0.5)
     (folder / "wrong.csv").write_text("name,width,height,colour\na,1,2,red\n")
     line = LINE if "--bodies" not in change else LINE.replace("--bodies bodies.csv ", "")
+    line = line if "--solver" not in change else line.replace("--solver rock ", "")
     answer = run(f"{line} {change}")
     assert answer.exit_code == 3 and said in answer.stderr
     assert [line[:10] for line in answer.stderr.splitlines() if "no notice" not in line] == ["seisblock:"]
