@@ -125,7 +125,7 @@ def parse_length(text: str | float, *, what: str = "length") -> float:
         if len(pieces) > 1 and not _PIECE.sub("", text).strip() and all(a > b > 0.0 for a, b in pairwise(units)):
             return round(sum(float(number) * unit for (number, _), unit in zip(pieces, units, strict=True)), 15)
     value = _parse(text, LENGTH_UNITS, "m", what)
-    if abs(value) > LARGEST_BARE and (not isinstance(text, str) or _is_bare(text)):
+    if abs(value) > LARGEST_BARE and (not isinstance(text, str) or is_bare(text)):
         raise UnitError(
             "{what} of {value:g} m? without a unit a length is in metres: "
             "write {value:g}cm or {value:g}mm, or {value:g}m if it is so large",
@@ -158,7 +158,7 @@ def parse_quantity(text: str | float, units: Mapping[str, float], *, what: str) 
     >>> parse_quantity("60 cm/s", VELOCITY_UNITS, what="the median"), parse_quantity(0.6, VELOCITY_UNITS, what="the median")
     ((0.6, True), (0.6, False))
     """
-    bare = not isinstance(text, str) or _is_bare(text)
+    bare = not isinstance(text, str) or is_bare(text)
     return _parse(text.strip() if isinstance(text, str) else text, {"": 1.0, **units}, "", what), not bare
 
 
@@ -206,7 +206,7 @@ def _matched(text: str) -> re.Match[str] | None:
     return _NUMBER.match(text) if len(text) <= LONGEST_TEXT else None
 
 
-def _is_bare(text: str) -> bool:
+def is_bare(text: str) -> bool:
     """Return whether a text is a number alone."""
     match = _matched(text)
     return match is not None and not match[2]
