@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Mapping
 from itertools import pairwise
 from typing import NamedTuple
@@ -79,6 +80,9 @@ MASS_UNITS = {"kg": 1.0, "t": 1e3, "g": 1e-3}
 LONGEST_TEXT = 200
 """No number with its unit is longer."""
 
+WIDE = ("<wide>", "<square>")
+"""What Unicode calls letters as wide as a Chinese one, and units that stand in the room of one."""
+
 _PIECE = re.compile(r"\s*+((?<!\d)\d++(?:\.\d*+)?|\.\d++)\s*+([^\d\s.+-]++)")
 _NUMBER = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(.*\S|)\s*\Z")
 
@@ -120,6 +124,7 @@ def parse_length(text: str | float, *, what: str = "length") -> float:
     (0.2424, 0.7272)
     """
     if isinstance(text, str):
+        text = narrowed(text)
         pieces = _PIECE.findall(text) if len(text) <= LONGEST_TEXT else []
         units = [LENGTH_UNITS.get(unit, 0.0) for _, unit in pieces]
         if len(pieces) > 1 and not _PIECE.sub("", text).strip() and all(a > b > 0.0 for a, b in pairwise(units)):
@@ -133,6 +138,21 @@ def parse_length(text: str | float, *, what: str = "length") -> float:
             value=value,
         )
     return value
+
+
+def narrowed(text: str) -> str:
+    """Return a text whose full-width letters, digits and signs of units are those of a keyboard; what is longer than a number stays.
+
+    Raised digits and fractions stay, too: ten to the second is not 102.
+
+    Examples
+    --------
+    >>> narrowed("２４ｃｍ"), narrowed("24㎝"), narrowed("10²m")
+    ('24cm', '24cm', '10²m')
+    """
+    if len(text) > LONGEST_TEXT or text.isascii():
+        return text
+    return "".join(unicodedata.normalize("NFKC", each) if unicodedata.decomposition(each).startswith(WIDE) else each for each in text)
 
 
 def parse_quantity(text: str | float, units: Mapping[str, float], *, what: str) -> tuple[float, bool]:
@@ -203,7 +223,7 @@ def parse_acceleration(text: str, *, what: str = "acceleration") -> float:
 
 def _matched(text: str) -> re.Match[str] | None:
     """Return a number and its unit, or None: a text that is too long for them is not even looked at."""
-    return _NUMBER.match(text) if len(text) <= LONGEST_TEXT else None
+    return _NUMBER.match(narrowed(text)) if len(text) <= LONGEST_TEXT else None
 
 
 def is_bare(text: str) -> bool:
