@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Mapping
 from itertools import pairwise
 from typing import NamedTuple
@@ -79,6 +80,9 @@ MASS_UNITS = {"kg": 1.0, "t": 1e3, "g": 1e-3}
 LONGEST_TEXT = 200
 """No number with its unit is longer."""
 
+WIDE = ("<wide>", "<square>")
+"""What Unicode calls letters as wide as a Chinese one, and units that stand in the room of one."""
+
 _PIECE = re.compile(r"\s*+((?<!\d)\d++(?:\.\d*+)?|\.\d++)\s*+([^\d\s.+-]++)")
 _NUMBER = re.compile(r"\s*+([-+]?+(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?+\d++)?+)\s*+(.*\S|)\s*\Z")
 
@@ -120,12 +124,13 @@ def parse_length(text: str | float, *, what: str = "length") -> float:
     (0.2424, 0.7272)
     """
     if isinstance(text, str):
+        text = narrowed(text)
         pieces = _PIECE.findall(text) if len(text) <= LONGEST_TEXT else []
         units = [LENGTH_UNITS.get(unit, 0.0) for _, unit in pieces]
         if len(pieces) > 1 and not _PIECE.sub("", text).strip() and all(a > b > 0.0 for a, b in pairwise(units)):
             return round(sum(float(number) * unit for (number, _), unit in zip(pieces, units, strict=True)), 15)
     value = _parse(text, LENGTH_UNITS, "m", what)
-    if abs(value) > LARGEST_BARE and (not isinstance(text, str) or _is_bare(text)):
+    if abs(value) > LARGEST_BARE and (not isinstance(text, str) or is_bare(text)):
         raise UnitError(
             "{what} of {value:g} m? without a unit a length is in metres: "
             "write {value:g}cm or {value:g}mm, or {value:g}m if it is so large",
@@ -133,6 +138,21 @@ def parse_length(text: str | float, *, what: str = "length") -> float:
             value=value,
         )
     return value
+
+
+def narrowed(text: str) -> str:
+    """Return a text whose full-width letters, digits and signs of units are those of a keyboard; what is longer than a number stays.
+
+    Raised digits and fractions stay, too: ten to the second is not 102.
+
+    Examples
+    --------
+    >>> narrowed("２４ｃｍ"), narrowed("24㎝"), narrowed("10²m")
+    ('24cm', '24cm', '10²m')
+    """
+    if len(text) > LONGEST_TEXT or text.isascii():
+        return text
+    return "".join(unicodedata.normalize("NFKC", each) if unicodedata.decomposition(each).startswith(WIDE) else each for each in text)
 
 
 def parse_quantity(text: str | float, units: Mapping[str, float], *, what: str) -> tuple[float, bool]:
@@ -158,7 +178,7 @@ def parse_quantity(text: str | float, units: Mapping[str, float], *, what: str) 
     >>> parse_quantity("60 cm/s", VELOCITY_UNITS, what="the median"), parse_quantity(0.6, VELOCITY_UNITS, what="the median")
     ((0.6, True), (0.6, False))
     """
-    bare = not isinstance(text, str) or _is_bare(text)
+    bare = not isinstance(text, str) or is_bare(text)
     return _parse(text.strip() if isinstance(text, str) else text, {"": 1.0, **units}, "", what), not bare
 
 
@@ -203,10 +223,10 @@ def parse_acceleration(text: str, *, what: str = "acceleration") -> float:
 
 def _matched(text: str) -> re.Match[str] | None:
     """Return a number and its unit, or None: a text that is too long for them is not even looked at."""
-    return _NUMBER.match(text) if len(text) <= LONGEST_TEXT else None
+    return _NUMBER.match(narrowed(text)) if len(text) <= LONGEST_TEXT else None
 
 
-def _is_bare(text: str) -> bool:
+def is_bare(text: str) -> bool:
     """Return whether a text is a number alone."""
     match = _matched(text)
     return match is not None and not match[2]

@@ -20,6 +20,11 @@ from seisblock.units import SHAKU, SUN, parse_acceleration, parse_length, parse_
         ("2shaku4sun", 2 * SHAKU + 4 * SUN),
         ("5ft 3in", 5 * 0.3048 + 3 * 0.0254),
         ("1m20cm", 1.2),
+        ("24㎝", 0.24),
+        ("240㎜", 0.24),
+        ("２４ｃｍ", 0.24),
+        ("１ｍ20㎝", 1.2),
+        ("０．２４", 0.24),
         ("20", 20.0),
         ("24m", 24.0),
         (24e-2, 0.24),
@@ -30,7 +35,7 @@ def test_lengths(text, metres):
     assert parse_length(text) == pytest.approx(metres, rel=1e-14)
 
 
-@pytest.mark.parametrize("text", ["4寸2尺", "2尺4", "2尺-4寸", "2尺4尺", "24 furlong", "2尺4furlong", "", "nan"])
+@pytest.mark.parametrize("text", ["4寸2尺", "2尺4", "2尺-4寸", "2尺4尺", "24 furlong", "2尺4furlong", "", "nan", "10²m", "1½m", "24㎠"])
 def test_what_is_no_length(text):
     """Units in the wrong order, twice, unknown, or none at all after a first."""
     with pytest.raises(InputError):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from seisblock import checks
 from seisblock.errors import ParameterError
-from seisblock.units import parse_length
+from seisblock.units import narrowed, parse_length
 
 HALF = 0.5
 """At this share of the width per side nothing is left to stand on."""
@@ -86,7 +86,7 @@ def parse_inset(text: str | float) -> Inset:
     >>> parse_inset("1cm").of(0.24)
     0.01
     """
-    match = _PLAIN.match(text) if isinstance(text, str) else None
+    match = _PLAIN.match(narrowed(text)) if isinstance(text, str) else None
     if match is None and isinstance(text, str):
         return Inset(length_m=parse_length(text, what="inset"))
     if match is None:

@@ -12,7 +12,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, record_options
 from seisblock.cli.quiet import quietly
-from seisblock.cli.types import Count
+from seisblock.cli.types import MU, Count
 from seisblock.words import noted
 
 SOLVERS = ("respond", "rock", "slide", "jump", "uplift", "stack")
@@ -36,7 +36,7 @@ SOLVERS = ("respond", "rock", "slide", "jump", "uplift", "stack")
     help="A table of bodies (.csv: name, width, height in m, mu, ...), a file that describes one, or a bundled body; may be repeated.",
 )
 @option("--solver", type=OneOf(SOLVERS), default="respond", show_default=True, help="Which model follows them.")
-@option("--mu", type=float, section="Body", metavar="MU", help="Static friction coefficient of bodies that tell none, 1.")
+@option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient of bodies that tell none, 1.")
 @option("--vertical/--no-vertical", default=None, help="Whether the vertical component acts. [default: as with the solver's own command]")
 @option(
     "--runs",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -79,17 +80,25 @@ def run(
             client = None if cluster is None else stack.enter_context(connected(cluster))
             journal = stack.enter_context(_journal(journal_path(out), plan, resume=resume))
             reasons = _solve(files, plan, journal, keys, workers=workers, client=client)
-            write = write_parquet if out.suffix.lower() == PARQUET else _write_csv
-            with progress("writing {file}", file=str(out)):
-                write(out, columns, (cells_of(columns, row) for rows in map(journal.rows, keys) for row in tally.counted(rows)))
+            rows_of_all = (row for rows in map(journal.rows, keys) for row in tally.counted(rows))
+            kept = any(not row.get(REASON) for key in keys for row in journal.rows(key))
+            if kept:
+                write = write_parquet if out.suffix.lower() == PARQUET else _write_csv
+                with progress("writing {file}", file=str(out)):
+                    write(out, columns, (cells_of(columns, row) for row in rows_of_all))
+            else:
+                deque(rows_of_all, maxlen=0)  # counted alone: a table of failures would stand in the way of the line put right
             journal.remove()
-        say("wrote {path}", path=out)
+        if kept:
+            say("wrote {path}", path=out)
     if as_json:
         answer(to_json(document(tally, plan, str(out), notes)))
     else:
         show(shown.tables(tally, reasons))
     if not tally.answers:
-        raise RecordError("no row of {path} has an answer: its column `failure` says why", path=out)
+        if out.exists():
+            raise RecordError("no row has an answer: {path} is left as it was", path=out)
+        raise RecordError("no row has an answer: {path} is not written", path=out)
 
 
 def _whole(out: Path, columns: Mapping[str, type], plan: Plan, files: Sequence[str], paths: set[str]) -> Iterator[list[Row]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -81,7 +82,20 @@ class Command(click.Command):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take the line apart."""
         with asking_for_options(self, ctx):
+            if not ctx.resilient_parsing:
+                self._refuse_repeated(ctx, args)
             return super().parse_args(ctx, args)
+
+    def _refuse_repeated(self, ctx: click.Context, args: list[str]) -> None:
+        """Refuse an option that takes one value and stands twice: the last would go before the others, without a word."""
+        _, _, order = self.make_parser(ctx).parse_args(list(args))
+        given = Counter(order)
+        if self.get_help_option(ctx) in given:
+            return
+        for each, count in given.items():
+            if count > 1 and isinstance(each, click.Option) and not (each.multiple or each.is_flag or each.count):
+                text = tell("{option} takes one value, found {count}: leave one of them", option=max(each.opts, key=len), count=count)
+                raise click.UsageError(text, ctx)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         """Return ``--help``, described in English until it is told: click keeps the option for the next call."""

@@ -13,6 +13,7 @@ from seisblock.cli.options import Source, gravity_option, output_options, record
 from seisblock.cli.output import Output
 from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.talk import say
+from seisblock.cli.types import MU
 
 
 @click.command(
@@ -24,11 +25,11 @@ from seisblock.cli.talk import say
 @rocking_options
 @option(
     "--mu",
-    type=float,
+    type=MU,
     section="Body",
     help="Static friction under the block, 1, for what it does with all of its motions. [default: the body's own, else feet that hold]",
 )
-@option("--mu-kinetic", type=float, section="Body", help="Kinetic friction, 1. [default: the body's own, else as --mu]")
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction, 1. [default: the body's own, else as --mu]")
 @gravity_option
 @output_options(histories=False, film=False)
 def criteria(

@@ -65,7 +65,7 @@ def emit(
         raise OutputError("{command} has no animation here: leave --animate out", command=document.command)
     check_output(output)
     if output.csv is not None:
-        from seisblock.present.files import write_histories
+        from seisblock.present.histories import write_histories
 
         write = csv or (lambda path: write_histories(path, responses))
         if output.csv == STDOUT:

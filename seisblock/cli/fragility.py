@@ -12,7 +12,7 @@ from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import Command, option
 from seisblock.cli.options import Source, gravity_option, output_options, suite_record_options
 from seisblock.cli.output import Output
-from seisblock.cli.types import FLOATS, Count
+from seisblock.cli.types import FLOATS, MU, Count
 from seisblock.words import noted
 
 SOLVERS = ("respond", "rock", "slide", "stack")
@@ -61,7 +61,7 @@ METHODS = ("stripes", "ida", "cloud")
 )
 @option(
     "--mu",
-    type=float,
+    type=MU,
     section="Body",
     metavar="MU",
     help="Static friction coefficient of the body, or of those of --bodies that tell none, 1.",

@@ -19,7 +19,7 @@ from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
-from seisblock.cli.types import FLOATS, INSET, LENGTH, Count
+from seisblock.cli.types import FLOATS, INSET, LENGTH, MU, Count
 from seisblock.words import noted, said, tell
 
 DEFAULT_BLOCK = "chozusha"
@@ -55,8 +55,8 @@ JUMPED = (
 @option("--jumped", type=LENGTH, metavar="M", section="Body", help="How far a two-layer block was displaced, m or with a unit.")
 @two_layer_option(f"jumped: bundled body or TOML file. [default: {DEFAULT_BLOCK}]")
 @side_option("jumped: which side of the block in plan lies along the motion.")
-@option("--mu", type=float, section="Body", help="slid: static friction, 1. jumped: of the landed foot. [default: jumped: the body's own]")
-@option("--mu-kinetic", type=float, section="Body", help="Kinetic friction, 1. [default: slid: as --mu; jumped: the body's own]")
+@option("--mu", type=MU, section="Body", help="slid: static friction, 1. jumped: of the landed foot. [default: jumped: the body's own]")
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction, 1. [default: slid: as --mu; jumped: the body's own]")
 @option("--restitution-x", type=float, section="Body", help="jumped: ratio of horizontal velocities at the impact. [default: the body's]")
 @option("--restitution-y", type=float, section="Body", help="jumped: ratio of vertical velocities at the impact. [default: the body's]")
 @option(

@@ -17,7 +17,7 @@ from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, checked, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
-from seisblock.cli.types import LENGTH, LENGTHS, MASSES
+from seisblock.cli.types import LENGTH, LENGTHS, MASSES, MU
 from seisblock.words import said, tell
 
 DEFAULT_BLOCK = "chozusha"
@@ -40,8 +40,8 @@ DEFAULT_BLOCK = "chozusha"
 )
 @option("--heights", type=LENGTHS, metavar="H1,H2", section="Body", help="Heights of the upper and the lower layer, m or with units.")
 @option("--masses", type=MASSES, metavar="M1,M2", section="Body", help="Masses of the upper and the lower layer, kg or with units.")
-@option("--mu", type=float, help="Static friction of the landed foot, 1. [default: the body's own, else required]")
-@option("--mu-kinetic", type=float, help="Kinetic friction, 1. [default: the body's own, else as --mu]")
+@option("--mu", type=MU, help="Static friction of the landed foot, 1. [default: the body's own, else required]")
+@option("--mu-kinetic", type=MU, help="Kinetic friction, 1. [default: the body's own, else as --mu]")
 @option("--restitution-x", type=float, help="Ratio of horizontal velocities at the impact, 0 to 1. [default: the body's own, else 0.95]")
 @option("--restitution-y", type=float, help="Ratio of vertical velocities at the impact, 0 to 1. [default: the body's own, else 0.85]")
 @option("--drop", type=LENGTH, default=0.0, help="Height of the floor above the ground on which it lands, m or with a unit. [default: 0]")

@@ -115,6 +115,7 @@ def map(  # noqa: A001 - the command's name
     from seisblock.errors import RecordError
     from seisblock.present.documents.map import document
     from seisblock.present.files import refuse_collisions
+    from seisblock.present.suffixes import check_text
     from seisblock.present.text import map as shown
     from seisblock.readers import REAL_SAMPLE
     from seisblock.readers.dispatch import Options
@@ -125,6 +126,9 @@ def map(  # noqa: A001 - the command's name
     if source.component and source.target_pga is None:
         raise click.UsageError(tell("map looks in every direction: --component only says of what --target-pga is the peak"))
     refuse_collisions(*(path for path in (geojson, html) if path is not None))
+    for path, form in ((geojson, "GeoJSON"), (html, "HTML")):
+        if path is not None:
+            check_text(path, form)
     surveyed = None if survey is None else read_surveys(survey)
     subject = _subject(cemetery, given, solver, vertical=vertical, runs=runs, seed=seed, gravity=gravity)
     if not source.record:

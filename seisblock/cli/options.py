@@ -93,7 +93,7 @@ _RECORD_OPTIONS = (
         callback=_positive,
         metavar="GAL",
         section="Record",
-        help="Scale so that the largest PGA of the components solved is this, gal.",
+        help="Scale so that the largest PGA of the components solved is this, gal: in the whole record, before --floor and --window.",
     ),
     option(
         "--window",
@@ -108,7 +108,7 @@ _RECORD_OPTIONS = (
         callback=_positive,
         metavar="HZ",
         section="Record",
-        help="Zero-phase high-pass (4th-order Butterworth) before anything else, Hz. [default: none]",
+        help="Zero-phase high-pass (4th-order Butterworth), after --demean and before --scale, Hz. [default: none]",
     ),
     option(
         "--floor",

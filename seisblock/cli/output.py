@@ -7,6 +7,7 @@ from pathlib import Path
 
 from seisblock.errors import OutputError
 from seisblock.present.files import check_figure, check_film, refuse_collisions
+from seisblock.present.suffixes import check_text
 from seisblock.units import Size
 
 STDOUT = Path("-")
@@ -50,6 +51,8 @@ def check_output(output: Output) -> None:
         check_film(output.animate)
     _check_stdout(output)
     refuse_collisions(*(None if path == STDOUT else path for path in (output.csv, output.animate, output.plot)))
+    if output.csv is not None and output.csv != STDOUT:
+        check_text(output.csv, "CSV")
 
 
 def _check_stdout(output: Output) -> None:

@@ -129,7 +129,8 @@ def overturn_rate(
     """Tell which share of a cemetery's gravestones falls (Furukawa et al. 2009).
 
     A stone falls when its height over width exceeds a(f)/PGA. Without RECORD the curve of rates against PGA is printed, or the rate
-    at --pga and --frequency; with one the rate for each horizontal component and for the larger of them.
+    at --pga and --frequency; with one the rate for each horizontal component and for the larger of them. --csv holds what is printed,
+    --json the curve, too.
     """
     from seisblock.bodies.cemetery.table import read_cemetery
     from seisblock.present.documents.overturn_rate import document, parameters_of
@@ -173,8 +174,11 @@ def overturn_rate(
 
     def csv(path: Path) -> None:
         from seisblock.present.files import write_table
-        from seisblock.present.text.overturn_rate import curve_columns
+        from seisblock.present.text.overturn_rate import curve_columns, rate_columns
 
+        if found:
+            write_table(path, *rate_columns(found))
+            return
         write_table(path, *curve_columns(curve, study.curve_of(after, method, frequencies=frequencies) if after else None))
 
     emit(answer, output, tables=tables, figure=figure, csv=csv)

@@ -14,7 +14,7 @@ from seisblock.cli.idle import refuse_without
 from seisblock.cli.options import Source, gravity_option, record_options
 from seisblock.cli.quiet import quietly
 from seisblock.cli.talk import say, warn
-from seisblock.cli.types import LENGTH
+from seisblock.cli.types import LENGTH, MU
 from seisblock.errors import InputError
 from seisblock.words import language, said
 
@@ -36,9 +36,9 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
 )
 @side_option("Side of a two-layer body along the motion.")
 @option(
-    "--mu", type=float, section="Body", help="Static friction under the bodies, 1, for sliding. [default: the body's own, else no sliding]"
+    "--mu", type=MU, section="Body", help="Static friction under the bodies, 1, for sliding. [default: the body's own, else no sliding]"
 )
-@option("--mu-kinetic", type=float, section="Body", help="Kinetic friction, 1. [default: as --mu]")
+@option("--mu-kinetic", type=MU, section="Body", help="Kinetic friction, 1. [default: as --mu]")
 @option(
     "--frequency-vertical",
     type=float,
@@ -86,9 +86,11 @@ def report(
     from seisblock.present.figures.fonts import MISSING, drawable
     from seisblock.present.files import refuse_collisions, write_text
     from seisblock.present.pages.report import report as page
+    from seisblock.present.suffixes import check_text
     from seisblock.studies.assessment import assess
 
     refuse_collisions(output)
+    check_text(output, "HTML")
     with quietly(quiet):
         names = body or DEFAULT_BODIES
         if not body:

@@ -14,6 +14,7 @@ from seisblock.cli.command import Command, option
 from seisblock.cli.emit import emit
 from seisblock.cli.options import checked, output_options
 from seisblock.cli.output import Output
+from seisblock.cli.talk import say
 from seisblock.words import tell
 
 if TYPE_CHECKING:
@@ -47,7 +48,12 @@ _YEARS = checked(partial(checks.positive, unit="years"))
     section="Body",
     help="Curves that seisblock fragility --json printed.",
 )
-@option("--median", metavar="X", section="Body", help="Or its median, with a unit such as 0.4g, 60cm/s, or in that of the hazard, SI.")
+@option(
+    "--median",
+    metavar="X",
+    section="Body",
+    help="Or its median, with a unit such as 0.4g, 60cm/s; a bare number is in SI, where the levels of the hazard are, too.",
+)
 @option("--beta", type=float, metavar="B", section="Body", help="And its dispersion, the standard deviation of the logarithm, 1.")
 @option(
     "--im",
@@ -109,10 +115,14 @@ def _given(path: Path, asked: dict[str, Any]) -> tuple[Hazard, tuple[GivenFragil
     """Return the hazard, and the curves that belong to it."""
     from seisblock.studies.hazard.given import fragility_in, matching, read_fragility
     from seisblock.studies.hazard.table import read_hazard
+    from seisblock.units import is_bare
 
     if asked["fragility"] is None:
         site = read_hazard(path, im=asked["im"])
-        return site, (fragility_in(site, asked["median"], asked["beta"]),)
+        given = fragility_in(site, asked["median"], asked["beta"])
+        if is_bare(asked["median"]) and given.unit != "1":
+            say("the median, {median}, has no unit: it is taken in {unit}", median=asked["median"].strip(), unit=given.unit)
+        return site, (given,)
     curves = read_fragility(asked["fragility"])
     site = read_hazard(path, im=asked["im"] or curves[0].im)
     return site, matching(curves, site)

@@ -18,7 +18,7 @@ from seisblock.cli.output import Output
 from seisblock.cli.progress import progress
 from seisblock.cli.sweeping import drawing, swept
 from seisblock.cli.talk import say
-from seisblock.cli.types import Count
+from seisblock.cli.types import MU, Count
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.words import noted, said, tell
 
@@ -39,7 +39,7 @@ VERSIONS = 200
 @record_options
 @block_options
 @rocking_options
-@option("--mu", type=float, section="Body", help="Friction of the ground, 1: say whether rocking needs more. [default: not looked at]")
+@option("--mu", type=MU, section="Body", help="Friction of the ground, 1: say whether rocking needs more. [default: not looked at]")
 @option("--margin", is_flag=True, help="Find from which factor on the record on it falls, and how likely it falls at 1.")
 @option("--margin-limit", type=float, default=3.0, show_default=True, help="Largest factor of that search, 1.")
 @option(

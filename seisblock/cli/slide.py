@@ -15,7 +15,7 @@ from seisblock.cli.options import Source, gravity_option, output_options, record
 from seisblock.cli.output import Output
 from seisblock.cli.progress import progress
 from seisblock.cli.talk import say
-from seisblock.cli.types import FLOATS, LENGTH
+from seisblock.cli.types import FLOATS, LENGTH, MUS
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.words import said, tell
 
@@ -49,14 +49,14 @@ def _needed(ctx: click.Context, param: click.Parameter, value: Any) -> Any:
 @record_options
 @option(
     "--mu",
-    type=FLOATS,
+    type=MUS,
     callback=_needed,
     metavar="MU",
     section="Body",
     help="Static friction coefficient, 1; a list or a range first:last:step makes a study, as with --mu-kinetic, --kappa, --slope "
     "and --vertical-scale.  [required]",
 )
-@option("--mu-kinetic", type=FLOATS, metavar="MU", section="Body", help="Kinetic friction coefficient, 1. [default: as --mu]")
+@option("--mu-kinetic", type=MUS, metavar="MU", section="Body", help="Kinetic friction coefficient, 1. [default: as --mu]")
 @option("--kappa", type=FLOATS, metavar="RATIO", section="Body", help="Kinetic over static friction, 1, instead of --mu-kinetic.")
 @option(
     "--slope",

@@ -18,7 +18,7 @@ from seisblock.cli.options import Source, gravity_option, output_options, record
 from seisblock.cli.output import Output
 from seisblock.cli.rock import along, need_vertical
 from seisblock.cli.sweeping import sweeps
-from seisblock.cli.types import FLOATS, INSET, LENGTHS, Count
+from seisblock.cli.types import FLOATS, INSET, LENGTHS, MUS, Count
 from seisblock.errors import ParameterError
 from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.words import noted, said
@@ -55,7 +55,7 @@ SMALLEST_REACH, LARGEST_REACH = 0.2, 1.5
 )
 @option(
     "--mu",
-    type=FLOATS,
+    type=MUS,
     section="Body",
     metavar="LIST|RANGE",
     help="Friction, 1, for --kind sliding and modes. [default: 0.02 to 0.8; or what the record can move]",

@@ -15,7 +15,7 @@ from seisblock.cli.inputs import load, motions
 from seisblock.cli.options import Source, gravity_option, output_options, record_options
 from seisblock.cli.output import Output
 from seisblock.cli.talk import say
-from seisblock.cli.types import INSET, Touching
+from seisblock.cli.types import INSET, MU, Touching
 from seisblock.cli.versions import version_options, widths_of
 from seisblock.words import said
 
@@ -75,10 +75,10 @@ COARSEST = 29
     help="How far in from each side of its base every stone's worn edges lie: a share of the width (0.1, 10%), or m with a unit (1cm); "
     "--contact edges. [default: the file's own, or 0]",
 )
-@option("--mu", type=float, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
+@option("--mu", type=MU, help="Friction of every joint, 1. [default: the file's own; wagata 0.438]")
 @option(
     "--mu-kinetic",
-    type=float,
+    type=MU,
     help="Friction of every joint that slides, 1; at most that of any joint at rest; --law rigid. [default: the file's own, or as --mu]",
 )
 @option(

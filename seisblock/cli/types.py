@@ -8,10 +8,11 @@ from typing import Any
 import click
 
 from seisblock.bodies.inset import Inset, parse_inset
+from seisblock.cli.command import Finite
 from seisblock.errors import InputError
 from seisblock.limits import check_budget
 from seisblock.records.storey import Storey, parse_storey
-from seisblock.units import LENGTH_UNITS, Size, parse_length, parse_mass
+from seisblock.units import LENGTH_UNITS, Size, narrowed, parse_length, parse_mass
 from seisblock.words import noted, said, tell
 
 SMALLEST_SIDE, LARGEST_SIDE = 0.04, 1.2
@@ -103,6 +104,17 @@ class InsetType(click.ParamType):  # type: ignore[type-arg]
             self.fail(tell(error.said), param, ctx)
 
 
+class Share(Finite):
+    """A number, or per cent: ``0.2``, ``20%``."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number."""
+        text = narrowed(value).strip() if isinstance(value, str) else ""
+        if not text.endswith("%"):
+            return super().convert(value, param, ctx)
+        return round(super().convert(text[:-1], param, ctx) / 100.0, 15)
+
+
 class Floats(click.ParamType):  # type: ignore[type-arg]
     """One number, a list ``a,b,c``, or a range ``first:last:step`` that includes its last value."""
 
@@ -156,7 +168,7 @@ class SizeType(click.ParamType):  # type: ignore[type-arg]
         """Return width and height, m, and the unit of the first."""
         if isinstance(value, Size):
             return value
-        sides = value.lower().replace("×", "x").split("x")
+        sides = narrowed(value).lower().replace("×", "x").split("x")
         if len(sides) != 2:
             self.fail(tell("{value!r} is not a width and a height such as 18x12 (cm)", value=value), param, ctx)
         try:
@@ -205,11 +217,18 @@ class StoreyType(click.ParamType):  # type: ignore[type-arg]
             self.fail(tell(error.said), param, ctx)
 
 
+def _share(text: str) -> float:
+    """Return a share, 0.2 or 20%."""
+    return float(MU.convert(text, None, None)) if narrowed(text).strip().endswith("%") else float(text)
+
+
 LENGTH = Length()
 MASS = Mass()
 INSET = InsetType()
 FLOATS = Floats()
 LENGTHS = Floats(unit=parse_length)
+MU = Share()
+MUS = Floats(unit=_share)
 MASSES = Floats(unit=parse_mass)
 WINDOW = WindowType()
 STOREY = StoreyType()

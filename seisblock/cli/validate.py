@@ -29,6 +29,7 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: boo
     """
     from seisblock.cli.progress import progress
     from seisblock.present.files import refuse_collisions, write_text
+    from seisblock.present.suffixes import check_text
     from seisblock.present.text import validate as shown
     from seisblock.validation import cases_of
     from seisblock.validation.case import counts
@@ -36,6 +37,7 @@ def validate(ctx: click.Context, paper: tuple[str, ...], quick: bool, every: boo
     chosen = [case for case in cases_of(paper) if case.quick or not quick]
     if html is not None:
         refuse_collisions(html)
+        check_text(html, "HTML")
     with quietly(quiet):
         results = []
         with progress("validating") as advance:

@@ -22,7 +22,6 @@ from seisblock.ledger import refuse_collision, wrote
 from seisblock.present.formulas import guarded, unguarded
 from seisblock.present.leftovers import PREFIX, held, sweep
 from seisblock.records import Record
-from seisblock.results import Response
 from seisblock.typing import FloatArray
 from seisblock.words import said
 
@@ -34,9 +33,6 @@ TIME_DECIMALS = 9
 
 SPELT_OUT = "backslashreplace"
 """How bytes in names of files that are no UTF-8 are written."""
-
-BLOCK = 2**14
-"""Rows of a time history that are made at a time."""
 
 
 @contextlib.contextmanager
@@ -258,13 +254,6 @@ def _cell(text: str, kind: type) -> Any:
     return text == str(True) if kind is bool else unguarded(text) if kind is str else kind(text)
 
 
-def of_records(header: Sequence[str], tables: Sequence[Iterable[Sequence[Any]]]) -> tuple[list[str], Iterator[list[Any]]]:
-    """Return the heading and the rows of one table per record, one below the other; of several the first column says which record."""
-    several = len(tables) > 1
-    rows = ([*([index] if several else []), *row] for index, table in enumerate(tables) for row in table)
-    return [*(["record_index"] if several else []), *header], rows
-
-
 def plain(values: FloatArray) -> list[float]:
     """Return the numbers of a column as they are written: a zero has no sign.
 
@@ -275,24 +264,3 @@ def plain(values: FloatArray) -> list[float]:
     """
     numbers: list[float] = (values + 0.0).tolist()
     return numbers
-
-
-def write_histories(path: Path | str, responses: Sequence[Response[Any]]) -> None:
-    """Write the time histories of responses, one below the other, with the component in the first column and the phase in the last.
-
-    Rows stand at the samples and at both limits of every event; floats keep all their digits.
-    """
-    if not responses:
-        raise OutputError("cannot write {path}: there is no time history to write", path=path)
-    names = list(dict.fromkeys(name for response in responses for name in response.to_columns()))
-    write_table(path, ["component", *names, "phase"], (row for response in responses for row in _rows(response, names)))
-
-
-def _rows(response: Response[Any], names: Sequence[str]) -> Iterator[Sequence[Any]]:
-    """Yield the rows of a time history, a block of them made at a time."""
-    columns, phase = response.to_columns(), response.phase_of_row()
-    phases = np.array([phase.name for phase in response.phases] or [""])
-    for begin in range(0, response.time.size, BLOCK):
-        part = slice(begin, begin + BLOCK)
-        cells = [plain(columns[name][part]) if name in columns else [""] * phase[part].size for name in names]
-        yield from zip([response.motion.name] * phase[part].size, *cells, phases[phase[part]].tolist(), strict=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
@@ -23,6 +24,27 @@ VERTICAL = "UD"
 
 IMPOSSIBLE = 1e9
 """No number beyond this, m/s^2, is an acceleration of the ground: squares of it would leave the range of numbers."""
+
+
+_BEARING = re.compile(r"([NS])(\d{1,2}(?:\.\d{1,9})?)?([EW])", re.IGNORECASE)
+_DEGREES = re.compile(r"(\d{1,3}(?:\.\d{1,9})?)(?:°|度|deg)", re.IGNORECASE)
+
+
+def azimuth_meant(name: str) -> float | None:
+    """Return the azimuth, degrees clockwise from north, that a bearing means; None where it is none.
+
+    Examples
+    --------
+    >>> [azimuth_meant(name) for name in ("N45E", "S30.5W", "NW", "45°", "EW")]
+    [45.0, 210.5, 315.0, 45.0, None]
+    """
+    if degrees := _DEGREES.fullmatch(name.strip()):
+        return float(degrees[1])
+    found = _BEARING.fullmatch(name.strip())
+    if found is None or float(found[2] or 45.0) > 90.0:
+        return None
+    angle = float(found[2] or 45.0)
+    return {"NE": angle, "SE": 180.0 - angle, "SW": 180.0 + angle, "NW": 360.0 - angle}[(found[1] + found[3]).upper()]
 
 
 def frozen(values: ArrayLike) -> FloatArray:
@@ -188,9 +210,11 @@ class Record(Drawn):
         for candidate in self.components:
             if candidate.code.upper() == code.upper():
                 return candidate
-        raise ComponentError(
-            "{source}: no component {code!r}; it has {codes}", source=self.source or said("record"), code=code, codes=self.codes
-        )
+        where, azimuth = self.source or said("record"), azimuth_meant(code)
+        if azimuth is not None:
+            text = "{source}: no component {code!r}; it has {codes}; an azimuth is in degrees clockwise from north: write {azimuth:g}"
+            raise ComponentError(text, source=where, code=code, codes=self.codes, azimuth=azimuth)
+        raise ComponentError("{source}: no component {code!r}; it has {codes}", source=where, code=code, codes=self.codes)
 
     def with_components(self, components: Sequence[Component], did: str, **changes: object) -> Record:
         """Return a record with other samples, and `did` added to its history."""

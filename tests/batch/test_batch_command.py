@@ -59,6 +59,7 @@ def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE_S", 0.5)
     (folder / "wrong.csv").write_text("name,width,height,colour\na,1,2,red\n")
     line = LINE if "--bodies" not in change else LINE.replace("--bodies bodies.csv ", "")
+    line = line if "--solver" not in change else line.replace("--solver rock ", "")
     answer = run(f"{line} {change}")
     assert answer.exit_code == 3 and said in answer.stderr
     assert [line[:10] for line in answer.stderr.splitlines() if "no notice" not in line] == ["seisblock:"]
@@ -66,10 +67,24 @@ def test_bad_input_is_one_sentence(folder, change, said, monkeypatch):
 
 
 def test_all_that_fails_is_a_failure(folder):
-    """The table is written, and the exit code says that it holds no answer."""
-    answer = run("batch gone.csv --bodies bodies.csv --solver rock --out t.csv")
-    assert answer.exit_code == 3 and "failure" in answer.stderr
-    assert "gone.csv" in Path("t.csv").read_text()
+    """No table is written, the reason is said, and the line that is put right runs; a table that was there stays."""
+    for suffix in ("csv", "parquet"):
+        line = f"--bodies bodies.csv --solver rock --out t.{suffix}"
+        answer = run(f"batch gone.csv {line}")
+        assert answer.exit_code == 3 and "no row has an answer" in answer.stderr and "is not written" in answer.stderr
+        assert "gone.csv: no such file" in answer.stdout and "wrote" not in answer.stderr
+        assert not list(folder.glob(f"t.{suffix}*"))
+        assert run(f"batch records/r0.csv {line}").exit_code == 0
+        whole = Path(f"t.{suffix}").read_bytes()
+        refused = run(f"batch gone.csv {line} --force")
+        assert refused.exit_code == 3 and "is left as it was" in refused.stderr
+        assert Path(f"t.{suffix}").read_bytes() == whole and len(list(folder.glob(f"t.{suffix}*"))) == 1
+
+
+def test_every_reason_is_said_where_there_is_no_table(folder):
+    """Otherwise the file would hold those that are not printed."""
+    answer = run(f"batch {' '.join(f'gone{i}.csv' for i in range(8))} --bodies bodies.csv --solver rock --out t.csv")
+    assert all(f"gone{i}.csv" in answer.stdout for i in range(8)) and "in the file" not in answer.stdout
 
 
 def test_what_it_comes_to(folder):

@@ -110,6 +110,17 @@ def test_bad_input(words, code, says, tmp_path):
     assert says in " ".join(result.stderr.split())
 
 
+def test_records_of_other_days_are_doubted():
+    """Two records of April and November 2016, one of which tells no earthquake: the answer stands, beside a sentence with the span."""
+    result = CliRunner().invoke(main, ["map", "synthetic_jma.csv", "hanmer_springs_2016", "--json"])
+    assert result.exit_code == 0 and len(json.loads(result.stdout)["results"]) == 2
+    (doubt,) = (each for each in json.loads(result.stdout)["warnings"] if "days apart" in each)
+    assert doubt.startswith("the records begin 212 days apart, 2016-04-16 01:25:00 JST (SYN") and "2016-11-1" in doubt
+    assert "are these of two?" in " ".join(result.stderr.split())
+    alone = CliRunner().invoke(main, ["map", "hanmer_springs_2016", "elcentro_1940_ns"])
+    assert alone.exit_code == 0 and "days apart" not in alone.stderr
+
+
 @pytest.mark.parametrize(
     ("words", "says", "heads"),
     [

@@ -165,3 +165,14 @@ def test_without_a_record_the_sample_is_measured(run):
     result = run("--json")
     assert json.loads(result.stdout)["record"]["samples"] > 1000
     assert "bundled sample" in result.stderr
+
+
+def test_what_is_done_to_a_record_stands_in_the_help_in_its_order(run):
+    """The mean goes before the high-pass, which said that it comes first; a target PGA is that of the whole record, not of the window."""
+    found = json.loads(run("elcentro_1940_ns", "--window", "20:", "--target-pga", "300", "--highpass", "0.1", "--demean", "--json").stdout)
+    steps = [next(i for i, did in enumerate(found["record"]["history"]) if word in did) for word in ("mean", "pass", "PGA", "window")]
+    assert steps == sorted(steps)
+    assert 0.1 < found["results"][0]["pga_m_s2"] < 2.9
+    told = " ".join(run("--help").stdout.split())
+    assert "in the whole record, before --floor and --window" in told
+    assert "after --demean and before --scale" in told and "before anything else" not in told

@@ -170,13 +170,43 @@ def test_frequencies_of_a_record(document, sines):
 
 
 def test_files(run, sines):
-    """--csv writes the curve, --plot a figure."""
-    done = run("--cemetery", "aoyama.csv", sines, "--both", "--csv", "curve.csv", "--plot", "rate.png")
+    """--csv writes the curve where no shaking is named, --plot a figure."""
+    done = run("--cemetery", "aoyama.csv", "--both", "--csv", "curve.csv", "--plot", "rate.png")
     assert done.exit_code == 0
     rows = list(csv.DictReader(Path("curve.csv").read_text(encoding="utf-8").splitlines()))
     assert list(rows[0]) == ["pga_m_s2", "frequency_hz", "rate", "rate_reinforced"]
     assert len(rows) == 6 * 36
     assert Path("rate.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["sines.csv"],
+        ["sines.csv", "--both"],
+        ["--pga", "300,725", "--frequency", "1"],
+        ["sines.csv", "elcentro_1940_ns"],
+        ["sines.csv", "--criterion", "simulate"],
+    ],
+    ids=" ".join,
+)
+def test_the_file_holds_what_the_table_does(run, document, sines, words):
+    """--csv of a record, or of bare numbers, has a row for each of the results that the document holds (it held the curve alone)."""
+    words = ["--cemetery", "aoyama.csv", *words]
+    assert run(*words, "--csv", "rates.csv").exit_code == 0
+    rows = list(csv.DictReader(Path("rates.csv").read_text(encoding="utf-8").splitlines()))
+    found = document(*words)["results"]
+    assert len(rows) == len(found)
+    for row, each in zip(rows, found, strict=True):
+        after = each["reinforced"] or {}
+        told = {**each, **{f"{name}_reinforced": value for name, value in after.items()}}
+        for key, of in (("rate", each), ("rate_reinforced", after)):
+            if of:
+                limits = of["rate_interval"]
+                told |= {key.replace("rate", "rate_low"): limits[0], key.replace("rate", "rate_high"): limits[1]}
+        assert row == {name: "" if told[name] is None else str(told[name]) for name in row}
+        assert {"component", "pga_m_s2", "rate", "rate_low", "rate_high"} <= row.keys()
+        assert ("rate_reinforced" in row) == bool(after)
 
 
 @pytest.mark.parametrize(

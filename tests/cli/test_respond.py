@@ -53,7 +53,7 @@ def test_the_document_keeps_the_contract():
 
 def test_the_first_line_says_what_happened_and_the_second_how_sure_that_is():
     """Verdict, share of versions, then the table."""
-    lines = run("elcentro_1940_ns", *CABINET, "--mu", "0.1", "--runs", "20", "--quiet").stdout.splitlines()
+    lines = run("elcentro_1940_ns", *CABINET[:4], "--mu", "0.1", "--runs", "20", "--quiet").stdout.splitlines()
     assert lines[0].startswith("NS: slides ") and "never rocks" in lines[0] + lines[1]
     assert any("20 plausible versions" in line for line in lines[1:4])
 
@@ -112,7 +112,7 @@ def test_slide_says_which_bodies_rock_instead(monkeypatch):
 
 BAD = (
     (("--width", "45cm", "--height", "180cm"), "how rough"),
-    ((*CABINET, "--mu", "-0.1"), "mu|friction"),
+    ((*CABINET[:4], "--mu", "-0.1"), "mu|friction"),
     ((*CABINET, "--mu-kinetic", "0.5"), "kinetic"),
     ((*CABINET, "--restitution", "1"), "restitution"),
     ((*CABINET, "--rocking-restitution", "1.5"), "restitution"),
@@ -209,7 +209,10 @@ def test_a_fall_after_the_record_is_said(tmp_path):
     push.write_text("time,NS (m/s2)\n" + "\n".join(rows) + "\n")
     words = (push, "--width", "30cm", "--height", "100cm", "--mu", "0.6", "--runs", "0", "--quiet")
     assert re.search(r"NS: overturns to -NS at 2\.\d\d s, after the record", run(*words).stdout)
-    assert "record" not in run("elcentro_1940_ns", *CABINET, "--mu", "0.6", "--scale", "4", "--runs", "0", "--quiet").stdout.splitlines()[0]
+    assert (
+        "record"
+        not in run("elcentro_1940_ns", *CABINET[:4], "--mu", "0.6", "--scale", "4", "--runs", "0", "--quiet").stdout.splitlines()[0]
+    )
 
 
 def test_where_friction_meets_slenderness_it_slides():

@@ -69,7 +69,7 @@ def test_files(run, tmp_path):
         ((*LINE, "--fragility", "f.json"), "give --fragility FILE, or --median and --beta"),
         ((*LINE, "--years", "0"), "must be positive"),
         ((*LINE, "--stood", "-5"), "must be positive"),
-        ((*LINE, "--im", "pga"), "one column of levels"),
+        ((*LINE, "--im", "pga"), "synthetic_hazard.csv: its levels are of pgv, and pga is asked for: give a hazard in pga, or"),
         ((*LINE, "--im", "sa"), "needs its period"),
         (("--median", "0.6", "--beta", "0", *LINE[4:]), "beta, the dispersion of a fragility, must be positive"),
         ((*LINE[:4], "--hazard", "."), "cannot read"),
@@ -81,6 +81,30 @@ def test_what_is_wrong_is_one_sentence(run, words, told):
     """An exit code, a sentence, no traceback."""
     done = run(*words)
     assert done.exit_code in (2, 3) and told in done.stderr and "Traceback" not in done.output
+
+
+def test_a_fragility_in_another_measure_than_the_hazard(run, tmp_path):
+    """What is wrong is said: the measures differ (it was said that a column is missing, and the column named)."""
+    curve = {"body": "a", "limit": "overturns", "im": "pgv", "unit": "m/s", "median": 0.6, "beta": 0.4}
+    (tmp_path / "f.json").write_text(json.dumps({"schema": "seisblock/fragility/1", "results": [curve]}))
+    (tmp_path / "h.csv").write_text("pga_g,annual_rate\n0.1,0.01\n0.4,0.000625\n")
+    done = run("--fragility", "f.json", "--hazard", "h.csv")
+    assert done.exit_code == 3
+    told = "h.csv: its levels are of pga, and pgv is asked for: give a hazard in pgv, or a fragility in pga"
+    assert told in " ".join(done.stderr.split())
+
+
+def test_the_unit_of_a_bare_median_is_said_and_doubted(run):
+    """60 cm/s written as 60 is 60 m/s: which unit it was taken in is said, and the doubt is about the median, not about the table."""
+    words = ("--beta", "0.4", "--im", "pgv", "--hazard", "synthetic_hazard.csv")
+    told = " ".join(run("--median", "60", *words).stderr.split())
+    assert "the median, 60, has no unit: it is taken in m/s" in told
+    assert "the median, 60 m/s, is far from every level of the hazard, 0.05 to 2 m/s: is its unit right?" in told
+    assert "more levels would tell" not in told
+    told = " ".join(run("--median", "0.6", *words).stderr.split())
+    assert "is taken in m/s" in told and "far from" not in told
+    assert "is far from" not in run("--median", "3m/s", *words).stderr and "taken" not in run("--median", "3m/s", *words).stderr
+    assert "is far from every level" in " ".join(run("--median", "0.04cm/s", *words).stderr.split())
 
 
 def test_no_output_falls_on_the_hazard(run, tmp_path):

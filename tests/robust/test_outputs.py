@@ -391,6 +391,9 @@ REFUSED = {
     "a film without ffmpeg": (["--animate", "out.mp4"], "ffmpeg is not installed"),
     "a folder that is not there": (["--csv", "nowhere/out.csv"], "there is no directory nowhere"),
     "two files of one name": (["--csv", "a.png", "--plot", "./a.png"], "one file"),
+    "a table that says it is a workbook": (["--csv", "out.xlsx"], "what is written there is CSV, the name must end in .csv, .txt"),
+    "a table that says it is a picture": (["--csv", "out.PNG"], "the name must end in .csv, .txt"),
+    "a table that says it is compressed": (["--csv", "out.csv.gz"], "the name must end in .csv, .txt"),
     "a size of no figure": (["--size", "18x12"], "give --plot, too"),
     "dots of no figure": (["--dpi", "100"], "give --plot, too"),
     "a slow motion of no film": (["--slow", "4"], "give --animate, too"),
@@ -406,6 +409,31 @@ def test_where_an_answer_goes_is_looked_at_before_it_is_computed(what, folder, m
     done = run("stack", "not_there.csv", *words)
     assert done.exit_code == 3 and says in " ".join(done.stderr.split())
     assert sorted(path.name for path in folder.iterdir()) == ["in.csv"]
+
+
+OTHER_NAMES = (
+    ("report not_there.csv -o page.pdf", "what is written there is HTML, the name must end in .html, .htm"),
+    ("validate --quick --html page.xlsx", "the name must end in .html, .htm"),
+    ("map not_there.csv --html page.png", "the name must end in .html, .htm"),
+    ("map not_there.csv --geojson points.shp", "what is written there is GeoJSON, the name must end in .geojson, .json"),
+    ("measure not_there.csv --csv rows.json", "the name must end in .csv, .txt"),
+    ("overturn-rate --cemetery aoyama.csv --csv rows.tsv", "the name must end in .csv, .txt"),
+)
+
+
+@pytest.mark.parametrize(("line", "says"), OTHER_NAMES)
+def test_a_text_is_not_written_under_the_name_of_another_format(line, says, folder):
+    """A name that says PDF, and holds HTML, opens in nothing; what has no suffix, or one of the user's own, is written as ever."""
+    done = run(*line.split())
+    assert done.exit_code == 3 and says in " ".join(done.stderr.split()), done.output
+    assert sorted(path.name for path in folder.iterdir()) == ["in.csv"]
+
+
+@pytest.mark.parametrize("name", ["rows", "rows.txt", "rows.CSV", "rows.run1", "v1.2"])
+def test_names_that_say_nothing_else_are_taken(name, folder):
+    """Whoever names a table without a suffix, or with one of their own, gets it."""
+    assert run("overturn-rate", "--cemetery", "aoyama.csv", "--csv", name).exit_code == 0
+    assert (folder / name).read_text().startswith("pga_m_s2,")
 
 
 @pytest.mark.parametrize("words", [("report", "-o"), ("validate", "--html")], ids=" ".join)

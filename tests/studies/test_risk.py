@@ -74,7 +74,7 @@ def test_what_is_far_away_has_no_rounding():
     found = find_risk(Lognormal(1e4, 0.1), site())
     assert 0.0 < found.annual_rate < 1e-20 and found.beyond_levels_share > 0.999
     assert all(each.annual_rate >= 0.0 for each in found.disaggregation)
-    assert "beyond the levels" in found.notes[0]
+    assert "far from every level" in found.notes[0]
 
 
 def test_branches_and_what_stood():

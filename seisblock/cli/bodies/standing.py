@@ -14,7 +14,7 @@ from seisblock.cli import offered
 from seisblock.cli.bodies.block import BodyChoice, choose_block
 from seisblock.cli.bodies.options import block_options
 from seisblock.cli.command import option
-from seisblock.cli.types import LENGTH
+from seisblock.cli.types import LENGTH, MU
 from seisblock.errors import BodyError
 from seisblock.words import said
 
@@ -29,10 +29,8 @@ class StandingChoice(BodyChoice):
 
 
 _FRICTION = (
-    option("--mu", type=float, section="Body", metavar="MU", help="Static friction coefficient, 1. [default: the body's own; else needed]"),
-    option(
-        "--mu-kinetic", type=float, section="Body", metavar="MU", help="Kinetic friction coefficient, 1, at most --mu. [default: as --mu]"
-    ),
+    option("--mu", type=MU, section="Body", metavar="MU", help="Static friction coefficient, 1. [default: the body's own; else needed]"),
+    option("--mu-kinetic", type=MU, section="Body", metavar="MU", help="Kinetic friction coefficient, 1, at most --mu. [default: as --mu]"),
     option(
         "--surface",
         section="Body",

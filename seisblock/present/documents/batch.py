@@ -20,7 +20,7 @@ class BatchParameters(Struct, frozen=True, kw_only=True):
     ----------
     solver : str
     table : str
-        The file with a row for each record, component and body.
+        The file with a row for each record, component and body; it is not written where no row has an answer.
     components : list of str
         Codes or azimuths; empty for all horizontals.
     runs, seed : int
@@ -60,7 +60,7 @@ BATCH = Kind("batch", BatchParameters, BatchEntry, TOTALS)
 
 
 def document(tally: Tally, plan: Plan, table: str, notes: Sequence[str]) -> Document:
-    """Return the document of a batch whose table is written."""
+    """Return the document of a batch that is done."""
     found = (
         (None, BatchEntry(body=c.body, answers_count=c.answers, failures_count=c.failures, happened_count=c.happened))
         for c in tally.ranked()

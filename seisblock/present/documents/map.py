@@ -9,6 +9,7 @@ from msgspec import Meta, Struct
 
 from seisblock.present.documents.kind import Document, EarthquakeEntry, Kind, Result, entry_of_earthquake
 from seisblock.references import papers
+from seisblock.studies.stations.earthquakes import A_DAY
 from seisblock.studies.stations.effects import StandingBody, WhatStands
 from seisblock.studies.stations.row import row_of
 from seisblock.studies.stations.survey import StationAnswer, Stations
@@ -158,6 +159,10 @@ UNMAPPED = noted("{station}: its file does not say where it is: it is listed, an
 FAILED = noted("{station}: {failure}")
 DOUBTED = noted("{count} record(s) are doubtful; {station}: {doubt}")
 
+FAR_APART = noted(
+    "the records begin {days:.0f} days apart, {first} ({one}) and {last} ({other}): a map is of one earthquake, are these of two?"
+)
+
 
 def document(found: Stations, subject: WhatStands | None, surveys: Sequence[SurveyAnswer] = (), *, upstairs: bool = False) -> Document:
     """Return the document of an earthquake's stations, the worst first.
@@ -215,11 +220,22 @@ def survey_entry(answer: SurveyAnswer) -> SurveyEntry:
 
 
 def warnings(found: Stations) -> list[str]:
-    """Return what is to be known of some stations, a sentence each: no answer, no place; of doubts how many records have them."""
-    told: list[str] = [_failure(each) for each in found.answers if each.failure]
+    """Return what is to be known of some stations, a sentence each: no answer, no place, other days; how many records are doubtful."""
+    told: list[str] = _days_apart(found)
+    told += [_failure(each) for each in found.answers if each.failure]
     told += [said(UNMAPPED, station=each.label) for each in found.answers if each.pga_m_s2 is not None and not each.is_mapped]
     doubted = [each for each in found.answers if each.doubts]
     return [*told, said(DOUBTED, count=len(doubted), station=doubted[0].label, doubt=doubted[0].doubts[0])] if doubted else told
+
+
+def _days_apart(found: Stations) -> list[str]:
+    """Return that some records began on other days than others, which no header of an earthquake tells."""
+    began = sorted(((each.start, each) for each in found.answers if each.start is not None), key=lambda pair: pair[0])
+    if not began or began[-1][0] - began[0][0] <= A_DAY:
+        return []
+    (start, one), (end, other) = began[0], began[-1]
+    days = (end - start) / A_DAY
+    return [said(FAR_APART, days=days, first=one.local_start, one=one.label, last=other.local_start, other=other.label)]
 
 
 def _failure(answer: StationAnswer) -> str:

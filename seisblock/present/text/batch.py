@@ -46,7 +46,7 @@ def tables(tally: Tally, said: Mapping[str, str]) -> Iterator[Any]:
     whole = tell(_HAPPENED[solver], happened=tally.happened, answers=tally.answers)
     yield line(tell("{whole} (bodies: {bodies}, records: {records})", whole=whole, bodies=len(tally.bodies), records=tally.records), "bold")
     ranked = tally.ranked()
-    if ranked:
+    if ranked and tally.answers:
         heads = [tell("body"), tell("runs"), tell(_HEADING[solver]), tell("share"), tell("no answer")]
         rows = [
             [c.body, c.answers, c.happened, roughly(c.happened / c.answers) if c.answers else None, c.failures]
@@ -57,7 +57,8 @@ def tables(tally: Tally, said: Mapping[str, str]) -> Iterator[Any]:
     if tally.failures:
         yield line(tell("rows without an answer: {count}", count=tally.failures), "yellow")
         reasons = sorted(tally.reasons.items(), key=lambda each: -each[1])
-        for why, count in reasons[:MOST_REASONS]:
+        most = MOST_REASONS if tally.answers else len(reasons)  # without an answer there is no file
+        for why, count in reasons[:most]:
             yield line(f"  {count} x {tell(said.get(why, why))}")
-        if len(reasons) > MOST_REASONS:
-            yield line("  " + tell("and {count} other reasons, in the file", count=len(reasons) - MOST_REASONS))
+        if len(reasons) > most:
+            yield line("  " + tell("and {count} other reasons, in the file", count=len(reasons) - most))

@@ -11,6 +11,7 @@ from rich.text import Text
 from seisblock.criteria.card import ACCELERATION, Row, once_each
 from seisblock.present.edges import edges
 from seisblock.present.files import write_table
+from seisblock.present.histories import by_record, of_records
 from seisblock.present.scales import acceleration_unit, velocity_unit
 from seisblock.present.text.agreement import agreement_line
 from seisblock.present.text.respond import verdict as fate
@@ -133,25 +134,24 @@ def _verdict(row: Row, card: Card) -> str:
 
 
 def write(path: Path, cards: Sequence[Card]) -> None:
-    """Write all rows as CSV, SI."""
+    """Write all rows as CSV, SI; of several records the first column says which."""
     header = ["component", "criterion", "where", "unit", "frequency", "frequency_hz", "threshold", "demand", "overturns", "simulated"]
-    write_table(
-        path,
-        header,
-        (
-            [
-                card.component,
-                row.criterion,
-                row.where,
-                row.unit,
-                row.frequency or "",
-                "" if row.frequency_hz is None else row.frequency_hz,
-                row.threshold,
-                row.demand,
-                row.overturns,
-                card.outcome.overturned,
-            ]
-            for card in cards
-            for row in card.rows
-        ),
-    )
+    parts = by_record(cards, lambda card: card.record)
+    write_table(path, *of_records(header, [[cells for card in part for cells in _cells(card)] for part in parts]))
+
+
+def _cells(card: Card) -> Iterator[list[Any]]:
+    """Yield what is written of each criterion."""
+    for row in card.rows:
+        yield [
+            card.component,
+            row.criterion,
+            row.where,
+            row.unit,
+            row.frequency or "",
+            "" if row.frequency_hz is None else row.frequency_hz,
+            row.threshold,
+            row.demand,
+            row.overturns,
+            card.outcome.overturned,
+        ]

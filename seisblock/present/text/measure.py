@@ -10,7 +10,8 @@ from rich.text import Text
 
 from seisblock.limits import check_curves
 from seisblock.measures import FilterRange, RecordMeasures, ground_history
-from seisblock.present.files import BLOCK, of_records, plain
+from seisblock.present.files import plain
+from seisblock.present.histories import BLOCK, of_records
 from seisblock.present.scales import acceleration_unit, length_unit, velocity_unit
 from seisblock.present.text.tables import acceleration, answered, line, number, seconds, table, told_acceleration
 from seisblock.records import Record

@@ -10,6 +10,7 @@ from typing import Any
 from rich.text import Text
 
 from seisblock.present.files import write_table
+from seisblock.present.histories import by_record, of_records
 from seisblock.present.text.spectrum import thinned
 from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
@@ -96,21 +97,23 @@ def _title(motion: Motion, found: ModeMap) -> str:
 
 
 def write(path: Path, maps: Maps) -> None:
-    """Write every cell as a row of CSV, SI."""
+    """Write every cell as a row of CSV, SI; of several records with their index."""
     header = ["component", "size_m", "b_over_h", "mu", "mode", "max_rotation_ratio", "slip_path_m", "final_displacement_m"]
-    rows = (
-        [
-            motion.name,
-            float(found.size_m[i]),
-            float(found.b_over_h[i]),
-            float(mu),
-            GOVERNING[found.governing[i, j]],
-            float(found.max_rotation_ratio[i, j]),
-            float(found.slip_path_m[i, j]),
-            float(found.final_displacement_m[i, j]),
-        ]
-        for motion, found in maps
-        for i in range(found.size_m.size)
-        for j, mu in enumerate(found.mu)
-    )
-    write_table(path, header, rows)
+    parts = by_record(maps, lambda each: each[0].record)
+    write_table(path, *of_records(header, [(row for each in part for row in _rows(*each)) for part in parts]))
+
+
+def _rows(motion: Motion, found: ModeMap) -> Iterator[list[Any]]:
+    """Yield the row of each cell."""
+    for i in range(found.size_m.size):
+        for j, mu in enumerate(found.mu):
+            yield [
+                motion.name,
+                float(found.size_m[i]),
+                float(found.b_over_h[i]),
+                float(mu),
+                GOVERNING[found.governing[i, j]],
+                float(found.max_rotation_ratio[i, j]),
+                float(found.slip_path_m[i, j]),
+                float(found.final_displacement_m[i, j]),
+            ]

@@ -1,4 +1,4 @@
-"""How an overturning rate is told: a table per record, a sentence on dowels, and the curve as columns of frequencies."""
+"""How an overturning rate is told: a table per record, a sentence on dowels, and the curve as columns of frequencies; and as CSV."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
+from seisblock.present.histories import of_records
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.agreement import rates_line
 from seisblock.present.text.measure import usual_filters
@@ -25,6 +26,19 @@ MOST_VERDICTS = 4
 
 USUAL_HZ = 1.0
 """Frequency of the shaking that a curve is told at, about that of strong motion."""
+
+OF_RATE = (
+    "component",
+    "of",
+    "pga_m_s2",
+    "equivalent_frequency_hz",
+    "threshold_ratio",
+    "least_overturned_ratio",
+    "fallen",
+    "stones",
+    "rate",
+)
+"""What ``--csv`` says of one shaking, before the limits of the interval."""
 
 SHOWN_EVERY = 1.0
 """Step of the curve's rows in the table, m/s^2; the whole curve is in --json and --csv."""
@@ -169,9 +183,24 @@ def _curve(title: str, curve: Sequence[CurvePoint], *, gal: bool) -> Any:
 
 
 def curve_columns(curve: Sequence[CurvePoint], reinforced: Sequence[CurvePoint] | None) -> tuple[list[str], list[list[float]]]:
-    """Return the header and the rows of ``--csv``: PGA (m/s^2), frequency (Hz), rate, and the rate with more dowels where it is known."""
+    """Return the header and the rows of ``--csv`` without shaking: PGA (m/s^2), frequency (Hz), rates without and with more dowels."""
     header = ["pga_m_s2", "frequency_hz", "rate"] + (["rate_reinforced"] if reinforced else [])
     rows = [[p.pga_m_s2, p.frequency_hz, p.rate] for p in curve]
     if reinforced:
         rows = [[*row, point.rate] for row, point in zip(rows, reinforced, strict=True)]
     return header, rows
+
+
+def rate_columns(groups: Sequence[tuple[Record | None, Sequence[CemeteryRate]]]) -> tuple[list[str], Iterator[list[Any]]]:
+    """Return the header and the rows of ``--csv`` where shakings were named: one each, SI, with what more dowels change."""
+    header = [*OF_RATE, "rate_low", "rate_high"]
+    compared = any(each.reinforced is not None for _, results in groups for each in results)
+    header += [f"{name}_reinforced" for name in ("fallen", "rate", "rate_low", "rate_high")] if compared else []
+    return of_records(header, [map(_written, results) for _, results in groups])
+
+
+def _written(each: CemeteryRate) -> list[Any]:
+    """Return the row of one shaking."""
+    after = each.reinforced
+    row = [getattr(each, name) for name in OF_RATE] + [*each.rate_interval]
+    return row if after is None else [*row, after.fallen, after.rate, *after.rate_interval]

@@ -11,7 +11,7 @@ import numpy as np
 from rich.text import Text
 
 from seisblock.present.documents.slide import SLIDE_POINT, point_entry
-from seisblock.present.files import of_records
+from seisblock.present.histories import of_records
 from seisblock.present.scales import Unit, length_cell, length_unit, told_length
 from seisblock.present.text.tables import NOTHING, answered, line, table
 from seisblock.records import Record

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from seisblock.present.files import write_table
+from seisblock.present.histories import by_record, of_records
 from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
 from seisblock.studies.rocking.spectra import RockingSpectrum
@@ -72,7 +73,7 @@ def thinned(count: int, most: int) -> IntArray:
 
 
 def write(path: Path, spectra: Spectra) -> None:
-    """Write every block as a row of CSV, SI; of all directions with the share in which it falls, and the worst."""
+    """Write every block as a row of CSV, SI: of all directions with share and worst direction, of several records with their index."""
     around = any(found.azimuths_deg is not None for _, found in spectra)
     header = [
         "component",
@@ -84,7 +85,8 @@ def write(path: Path, spectra: Spectra) -> None:
         "overturned",
         *(["overturning_rate", "worst_azimuth_deg"] if around else []),
     ]
-    write_table(path, header, (row for motion, found in spectra for row in _rows(motion, found)))
+    parts = by_record(spectra, lambda each: each[0].record)
+    write_table(path, *of_records(header, [(row for each in part for row in _rows(*each)) for part in parts]))
 
 
 def _rows(motion: Motion, found: RockingSpectrum) -> Iterator[list[Any]]:

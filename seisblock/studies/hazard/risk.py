@@ -30,6 +30,9 @@ from seisblock.studies.hazard.curve import Hazard, HazardCurve
 from seisblock.typing import FloatArray
 from seisblock.words import said
 
+FAR_BEYOND = 10.0
+"""So many times the last level of a hazard, or its first over so much, and a median is doubted: gal for m/s^2, or cm/s for m/s, are 100."""
+
 LARGE_OUTSIDE = 0.02
 """Share of the frequency from beyond the ends of a hazard curve, from which on it is said."""
 
@@ -185,7 +188,7 @@ def find_risk(fragility: Lognormal, hazard: Hazard, *, years: float = 50.0, stoo
         beyond_levels_share=outside / total if total > 0.0 else 0.0,
         stood_years=None if stood_years is None else float(stood_years),
         annual_rate_after=None if after is None else float(after @ rates),
-        notes=(*hazard.notes, *_doubts(outside, total)),
+        notes=(*hazard.notes, *(_far(fragility, hazard, union) or _doubts(outside, total))),
     )
 
 
@@ -226,6 +229,15 @@ def _disaggregated(levels: FloatArray, rates: FloatArray, total: float) -> tuple
         RiskShare(low, high, float(rate), float(rate) / total if total > 0.0 else 0.0)
         for low, high, rate in zip(ends[:-1], ends[1:], rates, strict=True)
     )
+
+
+def _far(fragility: Lognormal, hazard: Hazard, levels: FloatArray) -> tuple[str, ...]:
+    """Return what is to be said of a median that no level of the table is near."""
+    least, most = float(levels[0]), float(levels[-1])
+    if least / FAR_BEYOND <= fragility.median <= FAR_BEYOND * most:
+        return ()
+    text = "the median, {median:.4g} {unit}, is far from every level of the hazard, {least:.4g} to {most:.4g} {unit}: is its unit right?"
+    return (said(text, median=fragility.median, unit=hazard.unit, least=least, most=most),)
 
 
 def _doubts(outside: float, total: float) -> tuple[str, ...]:

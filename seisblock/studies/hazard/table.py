@@ -151,7 +151,7 @@ def measure_of(heading: str) -> tuple[IntensityMeasure, float] | None:
 
 def _columns(cells: Sequence[str], wanted: IntensityMeasure | None) -> _Columns:
     """Return what the columns of a table mean."""
-    names, passed, measures, rates = [], [], {}, {}
+    names, passed, measures, others, rates = [], [], {}, [], {}
     for cell in cells:
         told, key = measure_of(cell), plain(cell)
         years = _IN_YEARS.fullmatch(key)
@@ -163,7 +163,11 @@ def _columns(cells: Sequence[str], wanted: IntensityMeasure | None) -> _Columns:
             names.append("rate")
         else:
             names.append(_OTHERS.get(key, ""))
+            others += [] if told is None else [told[0].name]
             passed += [] if names[-1] or not cell else [cell]
+    if not measures and others and wanted is not None:
+        text = "its levels are of {found}, and {im} is asked for: give a hazard in {im}, or a fragility in {found}"
+        raise HazardError(text, found=others, im=wanted.name)
     if len(measures) != 1:
         text = "expected one column of levels, such as {known}; found {found}"
         raise HazardError(text, known=TOLD_AS, found=list(measures) or list(cells))

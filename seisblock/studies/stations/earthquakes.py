@@ -10,6 +10,9 @@ from seisblock.words import said
 APART_KM = 100.0
 """Epicentres further apart than any two solutions of one earthquake are those of two."""
 
+A_DAY = timedelta(days=1)
+"""Records that begin further apart are hardly of one earthquake, whatever the clocks of their instruments."""
+
 APART = timedelta(minutes=3)
 """Origin times further apart are those of two earthquakes; old headers tell the minute."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from datetime import datetime
 from functools import partial
 from itertools import groupby
 from os import PathLike
@@ -67,6 +68,8 @@ class StationAnswer:
         Least and largest acceleration of the horizontal of the larger peak, in equal stretches of the record.
     duration_s : float
         That of the record.
+    start : datetime or None
+        Of the record, UTC.
     """
 
     record: str
@@ -87,6 +90,7 @@ class StationAnswer:
     origin_told: str = ""
     outline: tuple[tuple[float, float], ...] = ()
     duration_s: float = 0.0
+    start: datetime | None = None
 
     @property
     def is_mapped(self) -> bool:
@@ -232,6 +236,7 @@ def _answer(
         "latitude": site.latitude_deg,
         "longitude": site.longitude_deg,
         "epicentral_distance_km": epicentral_distance_km(prepared),
+        "start": prepared.start,
         "local_start": told_time(prepared, prepared.start),
         "doubts": tuple(sentences([prepared])),
         "history": prepared.history,

@@ -1,0 +1,49 @@
+"""Where several records stand in one table of ``--csv``, its first column says which; a single record's has none."""
+
+import csv
+import math
+
+import pytest
+from click.testing import CliRunner
+
+from seisblock.cli import main
+
+OF_EVERY_KIND = (
+    ["slide", "--mu", "0.05"],
+    ["slide", "--mu", "0.05,0.1"],
+    ["rock", "--block", "gravestone"],
+    ["respond", "--block", "gravestone", "--mu", "0.5"],
+    ["jump"],
+    ["uplift", "--width", "1m", "--height", "3m", "--frequency-vertical", "8"],
+    ["stack", "--stones", "column"],
+    ["criteria", "--block", "gravestone"],
+    ["spectrum", "--sizes", "1", "--height-over-width", "3"],
+    ["spectrum", "--kind", "sliding", "--mu", "0.05"],
+    ["spectrum", "--kind", "modes", "--mu", "0.2", "--sizes", "1", "--height-over-width", "3"],
+)
+
+
+@pytest.fixture
+def two(tmp_path, monkeypatch):
+    """Two records of one name of component."""
+    monkeypatch.chdir(tmp_path)
+    for name, gal in (("one.csv", 120.0), ("two.csv", 90.0)):
+        rows = (f"{i * 0.02:.2f},{gal * math.sin(2 * math.pi * 2.0 * i * 0.02):.6f}\n" for i in range(51))
+        (tmp_path / name).write_text("time (s),NS (gal),UD (gal)\n" + "".join(row.rstrip() + ",0\n" for row in rows))
+    return ["one.csv", "two.csv"]
+
+
+@pytest.mark.parametrize("words", OF_EVERY_KIND, ids=" ".join)
+def test_the_first_column_says_which_record(words, two, tmp_path):
+    """The rows of each record are those of a table of it alone, with its place in the list before them."""
+    tables = {}
+    for name, records in (("both", two), ("first", two[:1]), ("second", two[1:])):
+        done = CliRunner().invoke(main, [*words, *records, "--component", "NS", "--csv", f"{name}.csv"])
+        assert done.exit_code == 0, done.output
+        with (tmp_path / f"{name}.csv").open(newline="") as stream:
+            tables[name] = list(csv.reader(stream))
+    head, *rows = tables["both"]
+    assert head == ["record_index", *tables["first"][0]]
+    assert [row[1:] for row in rows if row[0] == "0"] == tables["first"][1:]
+    assert [row[1:] for row in rows if row[0] == "1"] == tables["second"][1:]
+    assert len(rows) == len(tables["first"]) + len(tables["second"]) - 2
