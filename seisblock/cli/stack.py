@@ -288,7 +288,7 @@ def _study(
         study_document(study, rigid, scaled, records, reinforced=reinforced, **chosen),
         output,
         tables=lambda: shown.tables(study, rigid, scaled, reinforced=reinforced, gal=output.gal),
-        csv=lambda path: shown.write(study, path),
+        csv=lambda path: shown.write(study, scaled, path),
         figure=lambda: _draw(study, rigid, scaled, reinforced=reinforced, gal=output.gal),
     )
 

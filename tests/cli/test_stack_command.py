@@ -158,10 +158,14 @@ def test_own_stones(pulse, tmp_path):
     assert "upper is so squat that an impact ends its rocking" in told  # Housner's ratio would be negative
 
 
-def test_records_beside_the_study(pulse):
-    """With RECORD the study also scales it to each amplitude, and says its equivalent frequency (fig. 10)."""
-    (found,) = answer(pulse, "--criterion", "--grid", "14", "--contact", "edges", "--without", "mizubachi")["results"]
+def test_records_beside_the_study(pulse, tmp_path):
+    """With RECORD the study also scales it to each amplitude, and says its equivalent frequency (fig. 10); the CSV holds both."""
+    table = tmp_path / "study.csv"
+    (found,) = answer(pulse, "--criterion", "--grid", "14", "--contact", "edges", "--without", "mizubachi", "--csv", table)["results"]
     (scaled,) = found["scaled_records"]
+    written = list(csv.DictReader(table.open(encoding="utf-8", newline="")))
+    assert [row["motion"] for row in written] == [*["sine"] * len(found["thresholds"]), "NS"]
+    assert float(written[-1]["frequency_hz"]) == scaled["thresholds"][0]["frequency_hz"]
     assert len(scaled["thresholds"]) == 1
     assert 0.4 < scaled["thresholds"][0]["frequency_hz"] < 1.2
 

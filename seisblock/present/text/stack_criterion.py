@@ -51,8 +51,16 @@ def _sentence(study: CriterionStudy, fit: GravestoneFit, equation: str, *, gal: 
     return tell("Least squares of eq. (8): {ours}; published {equation}: {others}.", ours=ours, equation=equation, others=others)
 
 
-def write(study: CriterionStudy, path: Path) -> None:
-    """Write the thresholds as CSV, SI."""
+def write(study: CriterionStudy, scaled: Scaled, path: Path) -> None:
+    """Write the thresholds as CSV, SI; with scaled records, a first column says of what motion each is."""
     header = ["frequency_hz", "pga_m_s2", "height_over_width", "fallen"]
-    rows = [[t.frequency_hz, t.pga_m_s2, "" if t.ratio is None else t.ratio, " ".join(t.fallen)] for t in study.thresholds]
-    write_table(path, header, rows)
+    if not scaled:
+        write_table(path, header, map(_written, study.thresholds))
+        return
+    every = {"sine": study.thresholds, **scaled}
+    write_table(path, ["motion", *header], ([name, *_written(each)] for name, found in every.items() for each in found))
+
+
+def _written(found: Threshold) -> list[str | float]:
+    """Return a threshold as it stands in CSV."""
+    return [found.frequency_hz, found.pga_m_s2, "" if found.ratio is None else found.ratio, " ".join(found.fallen)]
