@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from seisblock.readers.directions import direction_of
+from seisblock.readers.directions import direction_of, without_company
 from seisblock.words import noted
 
 TIME = "TIME"
@@ -15,10 +15,6 @@ _NAMES = {
     TIME: ("time", "t", "relativetime", "elapsedtime", "時間", "時刻", "経過時間", "秒"),
 }
 _NAME = {spelling: code for code, spellings in _NAMES.items() for spelling in spellings}
-_QUANTITY = re.compile(
-    r"^(?:acc(?:el(?:eration)?)?|a)[ ,_.-]+(?=.)|^acc(?=[xyz]$)|^a(?=[xyz]$)|(?<=.)[ _-]+(?:acc(?:el(?:eration)?)?|component|comp)$|加速度",
-    re.IGNORECASE,
-)
 _BRACKETED = re.compile(r"^(.*?)\s*[(\[{<]\s*([^)\]}>]*?)\s*[)\]}>]\s*$")
 _WITHIN = re.compile(r"^(.*?)\s*[(\[{<]\s*([^)\]}>]*?)\s*[)\]}>]\W")
 _SUFFIXED = re.compile(
@@ -91,9 +87,8 @@ def split_unit(text: str) -> tuple[str, str]:
 
 
 def bare_name(text: str) -> str:
-    """Return a column's name without unit and without the word acceleration: ``x`` of ``acc_x (gal)``."""
-    name = split_unit(text)[0]
-    return (_QUANTITY.sub("", name) or name).strip()
+    """Return a column's name without unit and without the words acceleration, component and direction: ``x`` of ``acc_x (gal)``."""
+    return without_company(split_unit(text)[0])
 
 
 def other_quantity(text: str) -> str | None:
