@@ -94,6 +94,19 @@ def judge_promised(data: bytes, record: Record) -> str:
     return "" if found == record.samples else f"{record.samples} samples where the header promises {found}"
 
 
+def judge_cwa(data: bytes, record: Record) -> str:
+    """Compare count and extremes with the header's."""
+    stated = re.search(rb"RecordLength\(sec\):\s*([\d.]+)", data)
+    if stated and abs(float(stated[1]) / record.dt - record.samples) > 2.0:
+        return f"{record.samples} samples where the header promises {float(stated[1])} s"
+    for letter, code in zip("UNE", ("UD", "NS", "EW"), strict=True):
+        told = re.search(rf"AmplitudeMAX. {letter}:\s*([\d.]+)~\s*(-[\d.]+)\s".encode(), data)
+        row = 100 * record.component(code).acceleration
+        if told and max(abs(row.max() - float(told[1])), abs(row.min() - float(told[2]))) > 0.0012:
+            return f"{code}: extremes are not the header's"
+    return ""
+
+
 def judge_jma(data: bytes, record: Record) -> str:
     """JMA ends each line and publishes whole seconds."""
     seconds = record.samples * record.dt
@@ -220,6 +233,7 @@ WRITERS: dict[str, Writer] = {
     "esm": lambda rows: layouts.esm(rows[0]).encode(),
     "geonet-v1": lambda rows: layouts.geonet(rows).encode(),
     "geonet-v2": lambda rows: layouts.geonet(rows, volume=2).encode(),
+    "cwa": lambda rows: layouts.cwa(rows).encode(),
     "comma": _table(",", "time,NS (gal),EW (gal),UD (gal)"),
     "blank": _table(" ", "t(s) ns_gal ew_gal ud_gal"),
     "semicolon": _table(";", "time;N10E (m/s2);N80W (m/s2);UD (m/s2)", "{:.5f}", 100.0),
@@ -247,6 +261,7 @@ JUDGES: dict[str, Callable[[bytes, Record], str]] = {
     "esm": judge_promised,
     "geonet-v1": judge_promised,
     "geonet-v2": judge_promised,
+    "cwa": judge_cwa,
     "comma": judge_clock,
     "blank": judge_clock,
     "semicolon": judge_clock,

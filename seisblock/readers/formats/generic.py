@@ -20,13 +20,13 @@ from seisblock.records import Component, Doubt, Record
 from seisblock.words import noted, said
 
 # PICKLE runs whatever the file says; the others have a reader here
-_NOT_TRIED = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET", "KNET", "GSE1", "GSE2"}
+_NOT_TRIED = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET", "CWA", "KNET", "GSE1", "GSE2"}
 _CRASHING = {"GSE1", "GSE2"}
 """Formats whose decoder in obspy ends the process (segmentation fault) on a damaged file."""
 
 _GSE = re.compile(rb"^WID[12] ", re.MULTILINE)
 _KNOWN = noted(
-    "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, CSMIP, COSMOS, SMC, ESM, GeoNet, a plain table, a bundle of those, nor a "
+    "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, CSMIP, COSMOS, SMC, ESM, GeoNet, CWA, a plain table, a bundle of those, nor a "
     "waveform format of obspy"
 )
 _LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
@@ -116,7 +116,7 @@ def _traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[str]]
     if waveform not in ENTRY_POINTS["waveform"] or waveform == "PICKLE":
         usable = ", ".join(sorted(set(ENTRY_POINTS["waveform"]) - _CRASHING - {"PICKLE"}))
         raise ParameterError(
-            "unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSMIP, COSMOS, SMC, ESM, GEONET, CSV, or OBSPY: "
+            "unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSMIP, COSMOS, SMC, ESM, GEONET, CWA, CSV, or OBSPY: "
             "and one of {usable}",
             waveform=waveform,
             usable=usable,
