@@ -45,6 +45,7 @@ ACCELERATION_UNITS = {
     "m/s^2": 1.0,
     "m/s/s": 1.0,
     "g": STANDARD_GRAVITY,
+    "mg": 1e-3 * STANDARD_GRAVITY,
 }
 
 

@@ -6,7 +6,7 @@ import codecs
 
 from seisblock.errors import RecordFormatError
 from seisblock.readers import bundle
-from seisblock.readers.formats import at2, cosmos, csmip, cwa, esm, generic, geonet, jma_csv, knet, knet_csv, plain_csv, smc
+from seisblock.readers.formats import at2, cosmos, csmip, cwa, esm, generic, geonet, jma_csv, knet, knet_csv, plain_csv, smc, table_layout
 from seisblock.readers.lines import lines_of
 from seisblock.readers.source import Blob
 
@@ -44,4 +44,4 @@ def format_of(blob: Blob) -> str:
         lines = lines_of(blob)
     except RecordFormatError:
         return OBSPY
-    return plain_csv.FORMAT if plain_csv.looks_like_csv(lines) else OBSPY
+    return plain_csv.FORMAT if table_layout.looks_like_csv(lines) else OBSPY

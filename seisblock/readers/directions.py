@@ -12,7 +12,7 @@ _POINTS = {
     270.0: ("w", "west", "westward"),
 }
 _UP = ("ud", "u", "z", "up", "updn", "updown", "upward", "vertical", "vert", "ver", "v", "上下", "鉛直", "垂直")
-_DOWN = ("dwn", "down", "dn", "downward")
+_DOWN = ("d", "dwn", "down", "dn", "downward")
 _AXES = {
     "X": ("x",),
     "Y": ("y",),

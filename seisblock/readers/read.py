@@ -47,7 +47,7 @@ def read(
     format : str or None
         ``JMA-CSV``, ``KNET``, ``KIKNET``, ``KNET-CSV``, ``AT2``, ``CSMIP``, ``COSMOS``, ``SMC``, ``ESM``, ``GEONET``, ``CWA``, ``CSV``, or
         ``OBSPY:`` and a format of obspy. None: the content decides.
-    units : {"gal", "m/s2", "mm/s2", "g"} or None
+    units : {"gal", "m/s2", "mm/s2", "g", "mg"} or None
         Of files that do not name theirs.
     dt : float or None, s
         Sampling interval of files that do not tell theirs.

@@ -125,6 +125,16 @@ def judge_clock(data: bytes, record: Record) -> str:
     return "uneven times were believed" if steps.size and np.abs(steps - np.median(steps)).max() > 2e-6 else ""
 
 
+def judge_moments(data: bytes, record: Record) -> str:
+    """Every line that begins with a moment is a sample, at an even time."""
+    lines = [line for line in data.decode("latin-1").splitlines() if re.match(r"\s*2020", line)]
+    seconds = [_number(line.split(",")[0][-6:]) or 0.0 for line in lines]
+    if len(lines) != record.samples:
+        return f"{record.samples} samples from {len(lines)} lines"
+    steps = np.diff(seconds)
+    return "uneven times were believed" if steps.size and np.abs(steps - np.median(steps)).max() > 2e-6 else ""
+
+
 def judge_sac(data: bytes, record: Record) -> str:
     """Compare the extremes with the header's: 32-bit words 1 and 2, in mm/s^2."""
     found = 1e3 * np.array([record.components[0].acceleration.min(), record.components[0].acceleration.max()])
@@ -167,6 +177,13 @@ def _table(separator: str, header: str, form: str = "{:.3f}", unit: float = 1.0)
         return (header + "\n" + "".join(separator.join([f"{t:.2f}", *map(form.format, line)]) + "\n" for t, *line in lines)).encode()
 
     return written
+
+
+def _clock_table(rows: Rows) -> bytes:
+    """Return a table whose times a clock tells, with its units in a line of their own."""
+    lines = zip(T, *rows, strict=True)
+    body = "".join(f"2020-01-02T03:04:{5 + t:06.3f},{a:.3f},{b:.3f},{c:.3f}\n" for t, a, b, c in lines)
+    return ("time,NS,EW,UD\n,gal,gal,gal\n" + body).encode()
 
 
 def _obspy(waveform: str, count: int = 1) -> Writer:
@@ -237,6 +254,7 @@ WRITERS: dict[str, Writer] = {
     "comma": _table(",", "time,NS (gal),EW (gal),UD (gal)"),
     "blank": _table(" ", "t(s) ns_gal ew_gal ud_gal"),
     "semicolon": _table(";", "time;N10E (m/s2);N80W (m/s2);UD (m/s2)", "{:.5f}", 100.0),
+    "clock": _clock_table,
     "one column": lambda rows: ("NS (gal)\n" + "".join(f"{x:.3f}\n" for x in rows[0])).encode(),
     "slist": _obspy("SLIST"),
     "tspair": _obspy("TSPAIR"),
@@ -265,6 +283,7 @@ JUDGES: dict[str, Callable[[bytes, Record], str]] = {
     "comma": judge_clock,
     "blank": judge_clock,
     "semicolon": judge_clock,
+    "clock": judge_moments,
     "slist": judge_slist,
     "tspair": judge_slist,
     "sac": judge_sac,
