@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 from seisblock import checks
 from seisblock.errors import ParameterError, UnitError
+from seisblock.remarks import is_asked_from_outside, remark
+from seisblock.words import said
 
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity, m/s^2 (CGPM 1901)."""
@@ -134,6 +136,30 @@ def parse_length(text: str | float, *, what: str = "length") -> float:
             value=value,
         )
     return value
+
+
+def remark_on_lengths(name: str, depth: int = 3, /, **lengths: float | None) -> None:
+    """Warn of lengths, m, that a program gives and the command line would refuse without their unit.
+
+    Parameters
+    ----------
+    name : str
+        Of the body.
+    depth : int
+        How far away the program is, see :func:`~seisblock.remarks.is_asked_from_outside`: from the check of a dataclass three calls.
+    lengths : float or None, m
+        By their names; None where not given.
+    """
+    long = {what: value for what, value in lengths.items() if value is not None and value > LARGEST_BARE}
+    if long and is_asked_from_outside(depth):
+        text = said(
+            "{name}: {lengths}? lengths are in m here: {value:g} cm are {metres:g}",
+            name=name,
+            lengths=[f"{what} = {value:g} m" for what, value in long.items()],
+            value=next(iter(long.values())),
+            metres=0.01 * next(iter(long.values())),
+        )
+        remark(text, depth)
 
 
 def parse_quantity(text: str | float, units: Mapping[str, float], *, what: str) -> tuple[float, bool]:
