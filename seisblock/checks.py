@@ -216,6 +216,25 @@ def numbers(what: str, values: Any, /) -> FloatArray:
     return np.asarray(given, dtype=np.float64)
 
 
+def row(what: str, values: Any, /) -> FloatArray:
+    """Return one row of numbers, (n,); whether they are finite and in range is asked elsewhere.
+
+    Examples
+    --------
+    >>> row("the acceleration", [[1.0, 2.0]])
+    Traceback (most recent call last):
+    seisblock.errors.ParameterError: the acceleration must be one row of samples, of shape (n,), found shape (1, 2): give one component
+    """
+    found = numbers(what, values)
+    if found.ndim != 1:
+        raise ParameterError(
+            "{what} must be one row of samples, of shape (n,), found shape {shape}: give one component",
+            what=said(what),
+            shape=str(found.shape),
+        )
+    return found
+
+
 def whole(what: str, value: Any, /, *, least: int) -> int:
     """Return a whole number that is so large at least.
 

@@ -11,6 +11,8 @@ from typing import NamedTuple
 
 from seisblock import checks
 from seisblock.errors import ParameterError, UnitError
+from seisblock.remarks import is_asked_from_outside, remark
+from seisblock.words import said
 
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity, m/s^2 (CGPM 1901)."""
@@ -46,6 +48,7 @@ ACCELERATION_UNITS = {
     "m/s^2": 1.0,
     "m/s/s": 1.0,
     "g": STANDARD_GRAVITY,
+    "mg": 1e-3 * STANDARD_GRAVITY,
 }
 
 
@@ -153,6 +156,30 @@ def narrowed(text: str) -> str:
     if len(text) > LONGEST_TEXT or text.isascii():
         return text
     return "".join(unicodedata.normalize("NFKC", each) if unicodedata.decomposition(each).startswith(WIDE) else each for each in text)
+
+
+def remark_on_lengths(name: str, depth: int = 3, /, **lengths: float | None) -> None:
+    """Warn of lengths, m, that a program gives and the command line would refuse without their unit.
+
+    Parameters
+    ----------
+    name : str
+        Of the body.
+    depth : int
+        How far away the program is, see :func:`~seisblock.remarks.is_asked_from_outside`: from the check of a dataclass three calls.
+    lengths : float or None, m
+        By their names; None where not given.
+    """
+    long = {what: value for what, value in lengths.items() if value is not None and value > LARGEST_BARE}
+    if long and is_asked_from_outside(depth):
+        text = said(
+            "{name}: {lengths}? lengths are in m here: {value:g} cm are {metres:g}",
+            name=name,
+            lengths=[f"{what} = {value:g} m" for what, value in long.items()],
+            value=next(iter(long.values())),
+            metres=0.01 * next(iter(long.values())),
+        )
+        remark(text, depth)
 
 
 def parse_quantity(text: str | float, units: Mapping[str, float], *, what: str) -> tuple[float, bool]:

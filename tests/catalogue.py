@@ -26,7 +26,7 @@ from seisblock.words import LANGUAGES, LOCALES
 
 PACKAGE = Path(seisblock.__file__).parent
 SAYING = {"said", "tell", "noted", "say", "warn", "insist", "progress", "at_work", "error"}
-CHECKS = {"finite", "positive", "not_negative", "within", "fraction", "function", "numbers", "whole"}
+CHECKS = {"finite", "positive", "not_negative", "within", "fraction", "function", "numbers", "row", "whole"}
 """Functions whose first argument is a text for people; so is that of every error of ours, and of every check of a number."""
 
 CLICKS = (

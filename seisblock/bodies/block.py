@@ -10,7 +10,7 @@ from seisblock import checks
 from seisblock.bodies.inset import Inset
 from seisblock.bodies.ranges import Ranges
 from seisblock.errors import BodyError
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.units import LARGEST_BARE, STANDARD_GRAVITY, remark_on_lengths
 from seisblock.words import noted, said
 
 if TYPE_CHECKING:
@@ -68,6 +68,11 @@ class Block:
     BodyError
         If a size, the mass or the inertia is not positive, or the centre of gravity does not lie above what is left of the base.
 
+    Warns
+    -----
+    UserWarning
+        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+
     Examples
     --------
     >>> block = Block(width=0.242, height=0.726)
@@ -92,29 +97,21 @@ class Block:
             value = getattr(self, key)
             if value is not None:
                 checks.positive("{name}: {what}", value, unit, error=BodyError, name=self.name, what=what)
+        if self.width > LARGEST_BARE or self.height > LARGEST_BARE or (self.depth is not None and self.depth > LARGEST_BARE):
+            remark_on_lengths(self.name, width=self.width, height=self.height, depth=self.depth)  # blocks are built in inner loops
         if self.ranges is not None:
             checks.instance(self.ranges, Ranges)
-        if not 0.0 <= self.inset < self.width / 2:
-            raise BodyError(
-                "{name}: the inset must lie between 0 and half the width, {half:g} m; found {inset} m",
-                name=self.name,
-                half=self.width / 2,
-                inset=self.inset,
-            )
-        if not abs(self.centroid_offset) < self.width / 2 - self.inset:
-            raise BodyError(
-                "{name}: the centre of gravity must lie above the base, within {half:g} m of its middle; found an offset of {offset} m",
-                name=self.name,
-                half=self.width / 2 - self.inset,
-                offset=self.centroid_offset,
-            )
+        half = self.width / 2
+        if not 0.0 <= self.inset < half:
+            text = "{name}: the inset must lie between 0 and half the width, {half:g} m; found {inset} m"
+            raise BodyError(text, name=self.name, half=half, inset=self.inset)
+        half -= self.inset
+        if not abs(self.centroid_offset) < half:
+            text = "{name}: the centre of gravity must lie above the base, within {half:g} m of its middle; found an offset of {offset} m"
+            raise BodyError(text, name=self.name, half=half, offset=self.centroid_offset)
         if self.centroid_height is not None and self.centroid_height > self.height:
-            raise BodyError(
-                "{name}: the centre of gravity, at {centre} m, lies above the height of {height} m",
-                name=self.name,
-                centre=self.centroid_height,
-                height=self.height,
-            )
+            text = "{name}: the centre of gravity, at {centre} m, lies above the height of {height} m"
+            raise BodyError(text, name=self.name, centre=self.centroid_height, height=self.height)
 
     @property
     def total_mass(self) -> float:

@@ -10,7 +10,8 @@ import numpy as np
 from seisblock import checks
 from seisblock.errors import BodyError
 from seisblock.typing import FloatArray
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.units import STANDARD_GRAVITY, remark_on_lengths
+from seisblock.words import said
 
 CORNERS = ((1, 1), (1, -1), (-1, 1), (-1, -1))
 """Signs of x and y of corners 1 to 4 of the base; corner 4 is the paper's ([Okumura1987]_ eq. (23))."""
@@ -47,6 +48,11 @@ class SpringBlock:
     BodyError
         If a size, the mass or a stiffness is not positive, or the damping is outside [0, 1).
 
+    Warns
+    -----
+    UserWarning
+        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+
     Examples
     --------
     >>> block = SpringBlock.from_frequency(1.0, 1.0, 1.0, frequency_vertical=1.0, beta=0.5)
@@ -66,6 +72,7 @@ class SpringBlock:
         checks.positive("depth of the block", self.depth, "m", error=BodyError)
         checks.positive("height of the block", self.height, "m", error=BodyError)
         checks.positive("mass of the block", self.mass, "kg", error=BodyError)
+        remark_on_lengths(said("block"), width=self.width, depth=self.depth, height=self.height)
         if len(self.stiffness) != 3:
             raise BodyError("stiffness takes three numbers, kx, ky and kz in N/m per corner; found {count}", count=len(self.stiffness))
         for axis, value in zip("xyz", self.stiffness, strict=True):
@@ -92,6 +99,7 @@ class SpringBlock:
         checks.positive("vertical frequency", frequency_vertical, "Hz", error=BodyError)
         checks.positive("beta, the ratio of horizontal to vertical frequency,", beta, error=BodyError)
         checks.positive("mass of the block", mass, "kg", error=BodyError)
+        remark_on_lengths(said("block"), 2, width=width, depth=depth, height=height)
         vertical = mass * (2.0 * math.pi * frequency_vertical) ** 2 / 4.0
         return cls(width, depth, height, mass, (beta**2 * vertical, beta**2 * vertical, vertical), damping)
 

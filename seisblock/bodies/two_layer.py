@@ -12,7 +12,7 @@ from seisblock import checks
 from seisblock.bodies.block import Block
 from seisblock.bodies.toml import length, lengths, masses, number, of_kind, read_table, refuse_unknown, subtable, text
 from seisblock.errors import BodyError, ParameterError
-from seisblock.units import STANDARD_GRAVITY
+from seisblock.units import STANDARD_GRAVITY, remark_on_lengths
 from seisblock.words import noted, said
 
 _POSITIVE = {
@@ -44,6 +44,11 @@ class TwoLayerBlock:
     ------
     BodyError
         If a size or mass is not positive.
+
+    Warns
+    -----
+    UserWarning
+        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
     """
 
     width: float
@@ -57,6 +62,7 @@ class TwoLayerBlock:
     def __post_init__(self) -> None:
         for key, (what, unit) in _POSITIVE.items():
             checks.positive("{name}: {what}", getattr(self, key), unit, error=BodyError, name=self.name, what=what)
+        remark_on_lengths(self.name, width=self.width, depth=self.depth, upper_height=self.upper_height, lower_height=self.lower_height)
 
     @property
     def height(self) -> float:

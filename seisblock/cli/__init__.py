@@ -202,7 +202,7 @@ def main() -> None:
     """Tell what ground motion does to objects that nobody bolted down.
 
     RECORD is any strong-motion file: JMA CSV, K-NET or KiK-net (one file of the set, or the downloaded bundle), PEER AT2,
-    CSMIP, COSMOS, SMC, ESM, GeoNet, plain CSV, or anything ObsPy reads. Left out, a bundled sample record is used.
+    CSMIP, COSMOS, SMC, ESM, GeoNet, CWA, plain CSV, or anything ObsPy reads. Left out, a bundled sample record is used.
     """
 
 

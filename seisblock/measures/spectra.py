@@ -84,7 +84,7 @@ def response_spectrum(
     Raises
     ------
     ParameterError
-        If a period is not positive or the damping outside its range.
+        If the accelerations are no row, a period is not positive, or the damping outside its range.
 
     Examples
     --------
@@ -96,7 +96,9 @@ def response_spectrum(
     if isinstance(acceleration, (Motion, Record)):
         found = type(acceleration).__name__
         raise KindError("accelerations are needed, found a {found}: give motion.horizontal and motion.dt", found=found)
-    acceleration = checks.numbers("the accelerations", acceleration)
+    acceleration = checks.row("the accelerations", acceleration)
+    if acceleration.size < 2:
+        raise ParameterError("a motion needs at least 2 samples, found {count}", count=acceleration.size)
     checks.positive("the sampling interval", dt, "s")
     wanted = default_periods() if periods is None else np.atleast_1d(checks.numbers("the periods", periods))
     if not (np.isfinite(wanted).all() and (wanted > 0).all()):

@@ -15,7 +15,7 @@ from seisblock.words import said
 UNDERSTOOD = said(
     "a direction (NS, EW, UD; N10E or 10°; X, Y, Z; L, T, V; HNN, HNE, HNZ), time, or an acceleration by its unit, as in 'table (gal)'"
 )
-_NO_NAME = {"true", "false", "nan", "inf", "null", "none", "yes", "no"}
+_NO_NAME = {"true", "false", "nan", "inf", "null", "none", "yes"}
 _RIGHT_ANGLE = 1.0
 """How far from perpendicular, in degrees, two bare numbers may be and still be taken for azimuths."""
 

@@ -6,7 +6,7 @@ import codecs
 
 from seisblock.errors import RecordFormatError
 from seisblock.readers import bundle
-from seisblock.readers.formats import at2, cosmos, csmip, esm, generic, geonet, jma_csv, knet, knet_csv, plain_csv, smc
+from seisblock.readers.formats import at2, cosmos, csmip, cwa, esm, generic, geonet, jma_csv, knet, knet_csv, plain_csv, smc, table_layout
 from seisblock.readers.lines import lines_of
 from seisblock.readers.source import Blob
 
@@ -17,6 +17,7 @@ _CLAIMS = (
     (jma_csv.is_jma_csv, jma_csv.FORMAT),
     (knet.is_knet, knet.FORMAT),
     (knet_csv.is_knet_csv, knet_csv.FORMAT),
+    (cwa.is_cwa, cwa.FORMAT),
     (geonet.is_geonet, geonet.FORMAT),
     (cosmos.is_cosmos, cosmos.FORMAT),
     (csmip.is_csmip, csmip.FORMAT),
@@ -43,4 +44,4 @@ def format_of(blob: Blob) -> str:
         lines = lines_of(blob)
     except RecordFormatError:
         return OBSPY
-    return plain_csv.FORMAT if plain_csv.looks_like_csv(lines) else OBSPY
+    return plain_csv.FORMAT if table_layout.looks_like_csv(lines) else OBSPY

@@ -6,13 +6,13 @@ import re
 from dataclasses import dataclass
 
 _POINTS = {
-    0.0: ("ns", "n", "north", "northsouth", "northward", "南北", "南北動", "南北成分"),
-    90.0: ("ew", "e", "east", "eastwest", "eastward", "東西", "東西動", "東西成分"),
+    0.0: ("ns", "n", "north", "northsouth", "northward", "南北"),
+    90.0: ("ew", "e", "east", "eastwest", "eastward", "東西"),
     180.0: ("s", "south", "southward"),
     270.0: ("w", "west", "westward"),
 }
-_UP = ("ud", "u", "z", "up", "updn", "updown", "upward", "vertical", "vert", "ver", "v", "上下", "上下動", "上下成分", "鉛直")
-_DOWN = ("dwn", "down", "dn", "downward")
+_UP = ("ud", "u", "z", "up", "updn", "updown", "upward", "vertical", "vert", "ver", "v", "上下", "鉛直", "垂直")
+_DOWN = ("d", "dwn", "down", "dn", "downward")
 _AXES = {
     "X": ("x",),
     "Y": ("y",),
@@ -24,6 +24,15 @@ _AXES = {
 }
 _POINT = {word: azimuth for azimuth, words in _POINTS.items() for word in words}
 _AXIS = {word: code for code, words in _AXES.items() for word in words}
+_AROUND = re.compile(
+    r"^(?:acc(?:el(?:eration)?)?|a|(?:component|comp|cmp|direction|dir)(?=[ ,_.:-]+\D))[ ,_.:-]+(?=.)"
+    r"|^(?:acc|a)(?=[xyz]$)|^acc(?=(?:ns|ew|ud)$)|(?<=^ns|^ew|^ud)acc$"
+    r"|(?<=.)[ ,_.-]+(?:acc(?:el(?:eration)?)?|component|comp|cmp|direction|dir)\.?$"
+    r"|加速度|成分|方向|波形|向き|(?<=.)動$",
+    re.IGNORECASE,
+)
+"""What stands around a direction and tells none."""
+
 _QUADRANT = re.compile(r"([NS])(\d{1,2}(?:\.\d+)?)([EW])", re.IGNORECASE)
 _DEGREES = re.compile(r"(?:az(?:imuth)?)?(\d{1,3}(?:\.\d+)?)(deg(?:rees?)?|°|度)?", re.IGNORECASE)
 _SEED = re.compile(r"(?:.*\.)?([FGDCESHBMLV][NLGH])([NEZ123])", re.IGNORECASE)
@@ -61,6 +70,20 @@ def towards(azimuth_deg: float, *, bare: bool = False) -> Direction:
     return Direction({0.0: "NS", 90.0: "EW"}.get(azimuth, f"{azimuth:g}"), azimuth, bare=bare)
 
 
+def without_company(text: str) -> str:
+    """Return a name without the words component, direction and acceleration around what it says; such a word alone stays.
+
+    Examples
+    --------
+    >>> [without_company(name) for name in ("UD成分", "南北方向", "上下動", "加速度NS", "NS component", "acc_x", "HNE_acc", "加速度")]
+    ['UD', '南北', '上下', 'NS', 'NS', 'x', 'HNE', '加速度']
+    """
+    bare, found = text.strip(), _AROUND.sub("", text.strip())
+    while found and found != bare:
+        bare, found = found.strip(), _AROUND.sub("", found.strip())
+    return bare
+
+
 def direction_of(text: str) -> Direction | None:
     """Return the direction that a word means, or None.
 
@@ -68,7 +91,8 @@ def direction_of(text: str) -> Direction | None:
     ----------
     text : str
         ``NS``, ``N-S``, ``E/W``, ``north``, ``東西``; ``N10E``, ``S80W``; ``10``, ``280°``; ``UP``, ``DWN``; ``X``, ``Y``, ``Z``; ``L``,
-        ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``. A lone ``T`` is not among them: it may be the time.
+        ``V``, ``radial``; ``HNN``, ``HNE``, ``HNZ``, ``HN1``; each with a word for component around it: ``UD成分``, ``東西方向``,
+        ``上下動``, ``NS component``. A lone ``T`` is not among them: it may be the time.
 
     Examples
     --------
@@ -77,6 +101,7 @@ def direction_of(text: str) -> Direction | None:
     >>> direction_of("pressure") is None
     True
     """
+    text = without_company(text)
     word = re.sub(r"[\s_\-./]", "", text)
     key = word.lower()
     if key in _POINT:

@@ -12,6 +12,7 @@ from seisblock.readers.detect import BUNDLE, OBSPY, format_of
 from seisblock.readers.formats.at2 import read_at2
 from seisblock.readers.formats.cosmos import read_cosmos
 from seisblock.readers.formats.csmip import read_csmip
+from seisblock.readers.formats.cwa import read_cwa
 from seisblock.readers.formats.esm import read_esm
 from seisblock.readers.formats.generic import read_generic
 from seisblock.readers.formats.geonet import read_geonet
@@ -29,6 +30,7 @@ _SELF_DESCRIBING: dict[str, Callable[[Blob], Record | list[Record]]] = {
     "JMA-CSV": read_jma_csv,
     "KNET": read_knet,
     "KNET-CSV": read_knet_csv,
+    "CWA": read_cwa,
     "GEONET": read_geonet,
     "COSMOS": read_cosmos,
     "CSMIP": read_csmip,
@@ -36,7 +38,15 @@ _SELF_DESCRIBING: dict[str, Callable[[Blob], Record | list[Record]]] = {
     "ESM": read_esm,
     "AT2": read_at2,
 }
-_SPELLINGS = {"JMA": "JMA-CSV", "JMACSV": "JMA-CSV", "KIKNET": "KNET", "KNETCSV": "KNET-CSV", "K-NET": "KNET", "KIK-NET": "KNET"}
+_SPELLINGS = {
+    "JMA": "JMA-CSV",
+    "JMACSV": "JMA-CSV",
+    "KIKNET": "KNET",
+    "KNETCSV": "KNET-CSV",
+    "K-NET": "KNET",
+    "KIK-NET": "KNET",
+    "CWB": "CWA",
+}
 
 
 @dataclass(frozen=True)
@@ -85,8 +95,8 @@ def _of_bundle(blob: Blob, options: Options) -> list[Record]:
     if not parts:
         held = [m.basename for m in members[:8]] or said("nothing but plots")
         raise RecordFormatError(
-            "{name}: no record in this bundle, only {held}: expected files of K-NET, KiK-net, JMA, AT2, CSMIP, COSMOS, SMC, ESM or GeoNet, "
-            "or plain tables",
+            "{name}: no record in this bundle, only {held}: expected files of K-NET, KiK-net, JMA, AT2, CSMIP, COSMOS, SMC, ESM, GeoNet "
+            "or CWA, or plain tables",
             name=blob.name,
             held=held,
         )

@@ -92,7 +92,7 @@ def lines_of(blob: Blob) -> Sequence[str]:
     if len(data) < source.LARGE or not _is_plain(blob):
         return decode(blob).split("\n")
     marks, count = _marks(blob)
-    for encoding in ("utf-8", "cp932"):
+    for encoding in ("utf-8", "cp932", "euc_jp"):
         found = Lines(data, encoding, marks, 0, count)
         try:
             for _ in found.pieces():
@@ -100,7 +100,7 @@ def lines_of(blob: Blob) -> Sequence[str]:
         except UnicodeDecodeError:
             continue
         return found
-    raise RecordFormatError("{name} is not text (neither UTF-8 nor Shift-JIS): expected a record in a text format", name=blob.name)
+    raise RecordFormatError("{name} is not text (neither UTF-8, Shift-JIS nor EUC-JP): expected a record in a text format", name=blob.name)
 
 
 def mapped(lines: Sequence[str], change: Callable[[str], str]) -> Sequence[str]:

@@ -5,24 +5,35 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from seisblock.readers.directions import direction_of
+from seisblock.readers.directions import direction_of, without_company
 from seisblock.words import noted
 
 TIME = "TIME"
 
 _NAMES = {
     "ACC": ("acc", "acceleration", "accel", "a", "加速度"),
-    TIME: ("time", "t", "relativetime", "elapsedtime", "時間", "時刻", "経過時間", "秒"),
+    TIME: (
+        "time",
+        "t",
+        "relativetime",
+        "elapsedtime",
+        "datetime",
+        "timestamp",
+        "sec",
+        "secs",
+        "seconds",
+        "時間",
+        "時刻",
+        "経過時間",
+        "日時",
+        "秒",
+    ),
 }
 _NAME = {spelling: code for code, spellings in _NAMES.items() for spelling in spellings}
-_QUANTITY = re.compile(
-    r"^(?:acc(?:el(?:eration)?)?|a)[ ,_.-]+(?=.)|^acc(?=[xyz]$)|^a(?=[xyz]$)|(?<=.)[ _-]+(?:acc(?:el(?:eration)?)?|component|comp)$|加速度",
-    re.IGNORECASE,
-)
 _BRACKETED = re.compile(r"^(.*?)\s*[(\[{<]\s*([^)\]}>]*?)\s*[)\]}>]\s*$")
 _WITHIN = re.compile(r"^(.*?)\s*[(\[{<]\s*([^)\]}>]*?)\s*[)\]}>]\W")
 _SUFFIXED = re.compile(
-    r"^(.*?)[ _]+((?:cm|mm|m)[/_ ]?s(?:ec)?[\^_]?2|(?:cm|mm|m)/s(?:ec)?/s(?:ec)?|(?:cm|mm|m)/s(?:ec)?|gals?|kines?|g|ガル|sec|s|ms)$",
+    r"^(.*?)[ _]+((?:cm|mm|m)[/_ ]?s(?:ec)?[\^_]?2|(?:cm|mm|m)/s(?:ec)?/s(?:ec)?|(?:cm|mm|m)/s(?:ec)?|gals?|kines?|m?g|ガル|sec|s|ms)$",
     re.IGNORECASE,
 )
 _UNITS = {
@@ -34,6 +45,9 @@ _UNITS = {
     "mms2": "mm/s2",
     "g": "g",
     "gs": "g",
+    "mg": "mg",
+    "millig": "mg",
+    "milli-g": "mg",
 }
 _TIME_UNITS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "秒": 1.0, "ms": 1e-3, "msec": 1e-3, "min": 60.0}
 _OTHER_UNITS = {
@@ -58,7 +72,7 @@ def tidy(text: str) -> str:
 
 
 def normal_unit(text: str) -> str | None:
-    """Return ``gal``, ``m/s2``, ``mm/s2`` or ``g`` for any spelling of an acceleration unit, else None.
+    """Return ``gal``, ``m/s2``, ``mm/s2``, ``g`` or ``mg`` (a thousandth of g) for any spelling of an acceleration unit, else None.
 
     Examples
     --------
@@ -72,6 +86,11 @@ def normal_unit(text: str) -> str | None:
 def time_unit(text: str) -> float | None:
     """Return the value of a unit of time in seconds, or None."""
     return _TIME_UNITS.get(tidy(text).lower())
+
+
+def is_unit(text: str) -> bool:
+    """Return whether a text is a unit: of acceleration, of time, or of what a table holds beside them."""
+    return bool(normal_unit(text) or time_unit(text) or tidy(text).lower() in _OTHER_UNIT)
 
 
 def split_unit(text: str) -> tuple[str, str]:
@@ -91,9 +110,8 @@ def split_unit(text: str) -> tuple[str, str]:
 
 
 def bare_name(text: str) -> str:
-    """Return a column's name without unit and without the word acceleration: ``x`` of ``acc_x (gal)``."""
-    name = split_unit(text)[0]
-    return (_QUANTITY.sub("", name) or name).strip()
+    """Return a column's name without unit and without the words acceleration, component and direction: ``x`` of ``acc_x (gal)``."""
+    return without_company(split_unit(text)[0])
 
 
 def other_quantity(text: str) -> str | None:

@@ -1,8 +1,8 @@
-"""JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM and GeoNet as waveform formats of obspy, by entry points, in anyone's script.
+"""JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM, GeoNet and CWA as waveform formats of obspy, by entry points, in anyone's script.
 
 Samples of these streams are accelerations in m/s^2 and ``stats.calib`` is 1; obspy's own K-NET reader gives counts and a ``calib`` to
 m/s^2, so that ``data * calib`` is in m/s^2 for all of them. What else the header says stands under ``stats.jmacsv``, ``stats.knetcsv``,
-``stats.at2``, ``stats.csmip``, ``stats.cosmos``, ``stats.smc``, ``stats.esm`` and ``stats.geonet``.
+``stats.at2``, ``stats.csmip``, ``stats.cosmos``, ``stats.smc``, ``stats.esm``, ``stats.geonet`` and ``stats.cwa``.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ from seisblock.readers.formats.cosmos import is_cosmos as _claims_cosmos
 from seisblock.readers.formats.cosmos import read_cosmos as _parse_cosmos
 from seisblock.readers.formats.csmip import is_csmip as _claims_csmip
 from seisblock.readers.formats.csmip import read_csmip as _parse_csmip
+from seisblock.readers.formats.cwa import is_cwa as _claims_cwa
+from seisblock.readers.formats.cwa import read_cwa as _parse_cwa
 from seisblock.readers.formats.esm import is_esm as _claims_esm
 from seisblock.readers.formats.esm import read_esm as _parse_esm
 from seisblock.readers.formats.geonet import is_geonet as _claims_geonet
@@ -160,6 +162,22 @@ def read_geonet(filename: str | Path | BinaryIO, **_: Any) -> Any:
         If the file breaks its format, or holds no even accelerations.
     """
     return _stream(_parse_geonet(_blob(filename)), "geonet")
+
+
+def is_cwa(filename: str | Path | BinaryIO) -> bool:
+    """Return whether a file is a strong-motion text file of Taiwan's CWA: its header tells the sequence of the columns."""
+    return _claims_cwa(_head(filename))
+
+
+def read_cwa(filename: str | Path | BinaryIO, **_: Any) -> Any:
+    """Return an obspy Stream, m/s^2, of the components in a strong-motion text file of Taiwan's CWA.
+
+    Raises
+    ------
+    RecordFormatError
+        If the file breaks its format.
+    """
+    return _stream([_parse_cwa(_blob(filename))], "cwa")
 
 
 def _head(filename: str | Path | BinaryIO) -> bytes:

@@ -45,9 +45,9 @@ def read(
         A file of any format told below, or the name of a bundled sample. One component of a three-file set (K-NET, KiK-net, PEER AT2,
         SMC, ESM, COSMOS) stands for its siblings beside it. Several paths are read as ONE record.
     format : str or None
-        ``JMA-CSV``, ``KNET``, ``KIKNET``, ``KNET-CSV``, ``AT2``, ``CSMIP``, ``COSMOS``, ``SMC``, ``ESM``, ``GEONET``, ``CSV``, or
+        ``JMA-CSV``, ``KNET``, ``KIKNET``, ``KNET-CSV``, ``AT2``, ``CSMIP``, ``COSMOS``, ``SMC``, ``ESM``, ``GEONET``, ``CWA``, ``CSV``, or
         ``OBSPY:`` and a format of obspy. None: the content decides.
-    units : {"gal", "m/s2", "mm/s2", "g"} or None
+    units : {"gal", "m/s2", "mm/s2", "g", "mg"} or None
         Of files that do not name theirs.
     dt : float or None, s
         Sampling interval of files that do not tell theirs.

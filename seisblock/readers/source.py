@@ -219,7 +219,7 @@ def digest(blobs: Iterable[Blob]) -> str:
 
 
 def decode(blob: Blob) -> str:
-    """Return the text of a file in UTF-8 (with or without BOM), UTF-16 with BOM, or Shift-JIS (cp932), lines ending in LF.
+    """Return the text of a file in UTF-8 (with or without BOM), UTF-16 with BOM, Shift-JIS (cp932) or EUC-JP, lines ending in LF.
 
     Raises
     ------
@@ -232,13 +232,13 @@ def decode(blob: Blob) -> str:
     elif is_binary(data):
         encodings = []
     else:
-        encodings = ["utf-8-sig", "cp932"]
+        encodings = ["utf-8-sig", "cp932", "euc_jp"]
     for encoding in encodings:
         try:
             return data.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
         except UnicodeDecodeError:
             continue
-    raise RecordFormatError("{name} is not text (neither UTF-8 nor Shift-JIS): expected a record in a text format", name=blob.name)
+    raise RecordFormatError("{name} is not text (neither UTF-8, Shift-JIS nor EUC-JP): expected a record in a text format", name=blob.name)
 
 
 def is_binary(data: bytes) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple, TypeAlias
@@ -12,6 +11,9 @@ import numpy as np
 from seisblock import checks
 from seisblock.errors import ComponentError, ParameterError
 from seisblock.records.record import Component, Record, frozen, sealed
+from seisblock.records.signs import IMPLAUSIBLE_PGA
+from seisblock.records.turning import mixed_towards, oriented_pair, resolved
+from seisblock.remarks import is_asked_from_outside, remark
 from seisblock.showing import Drawn
 from seisblock.typing import ArrayLike, FloatArray
 from seisblock.words import said
@@ -22,6 +24,9 @@ UP: Final = 2
 
 ALL_AZIMUTHS = "all-azimuths"
 """What asks for every direction in the place of a component."""
+
+LARGEST_INTERVAL = 0.1
+"""A sampling interval beyond this, s, is none of ground motion: a rate, or another unit."""
 
 LONG = 2**20
 """Samples (three hours at 100 Hz) beyond which nothing holds a motion or a trajectory whole that need not."""
@@ -84,16 +89,37 @@ class Motion(Drawn):
     def from_arrays(
         cls, horizontal: ArrayLike, dt: float, *, vertical: ArrayLike | None = None, name: str = "", start_s: float = 0.0
     ) -> Motion:
-        """Return a motion from a horizontal and an optional vertical acceleration, (n,), m/s^2."""
-        along = checks.numbers("the horizontal acceleration", horizontal)
+        """Return a motion from a horizontal and an optional vertical acceleration, (n,), m/s^2.
+
+        Parameters
+        ----------
+        horizontal, vertical : (n,) array, m/s^2
+            Ground acceleration along +x, and upwards where there is any.
+        dt, name, start_s
+            As for the class.
+
+        Raises
+        ------
+        ParameterError
+            If an array is no row of finite numbers, the two differ in length, or the interval is not positive.
+
+        Warns
+        -----
+        UserWarning
+            If it reaches more than 5 g, or the interval is more than 0.1 s: the unit is probably another.
+        """
+        along = checks.row("the horizontal acceleration", horizontal)
         rows = np.zeros((3, along.size))
         rows[ALONG] = along
         if vertical is not None:
-            up = checks.numbers("the vertical acceleration", vertical)
+            up = checks.row("the vertical acceleration", vertical)
             if up.shape != along.shape:
                 raise ParameterError("horizontal and vertical differ in length: {along} and {up} samples", along=along.size, up=up.size)
             rows[UP] = up
-        return cls(rows, dt, name=name, start_s=start_s)
+        motion = cls(rows, dt, name=name, start_s=start_s)
+        if is_asked_from_outside(1):
+            _remark_on(motion, 2)
+        return motion
 
     @property
     def horizontal(self) -> FloatArray:
@@ -184,6 +210,11 @@ def motion_of(record: Record, component: str) -> Motion:
     ComponentError
         If there is no such component, or an azimuth is asked of a record without two oriented horizontals.
 
+    Warns
+    -----
+    UserWarning
+        If a program asks, and it reaches more than 5 g, of which the record's doubts say nothing, or its interval is more than 0.1 s.
+
     Examples
     --------
     >>> from seisblock.readers import read
@@ -197,9 +228,24 @@ def motion_of(record: Record, component: str) -> Motion:
     nothing = np.zeros(record.samples)
     up = nothing if record.vertical is None else record.vertical.acceleration
     if record.samples > LONG:
-        return Motion((along, across or nothing, up), record.dt, name=component, start_s=record.offset_s, record=record)
-    rows = sealed(np.stack([along, nothing if across is None else across(slice(None)), up]))
-    return Motion(rows, record.dt, name=component, start_s=record.offset_s, record=record)
+        rows: Rows = (along, across or nothing, up)
+    else:
+        rows = sealed(np.stack([along, nothing if across is None else across(slice(None)), up]))
+    motion = Motion(rows, record.dt, name=component, start_s=record.offset_s, record=record)
+    if is_asked_from_outside(1):
+        _remark_on(motion, 2)
+    return motion
+
+
+def _remark_on(motion: Motion, depth: int) -> None:
+    """Warn of a motion that a program gives in another unit, by its size or its interval."""
+    doubted = motion.record is not None and any(doubt.kind == "size" for doubt in motion.record.doubts)
+    peak = max(max(float(row.max()), -float(row.min())) for row in (motion.horizontal, motion.vertical))
+    if peak > IMPLAUSIBLE_PGA and not doubted:
+        remark(said("a motion reaches {peak:.4g} m/s^2, more than 5 g: is it in m/s^2? 1 gal is 0.01 m/s^2", peak=peak), depth)
+    if motion.dt > LARGEST_INTERVAL:
+        text = "the sampling interval is {dt:g} s: is it in s, and no rate in Hz? ground motion is sampled every 0.1 s or more often"
+        remark(said(text, dt=motion.dt), depth)
 
 
 def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Callable[[slice], FloatArray] | None]:
@@ -227,8 +273,8 @@ def _along_and_across(record: Record, component: str) -> tuple[FloatArray, Calla
         if opposite is not None and sum(c.azimuth_deg is not None for c in record.horizontals) < 2:
             return sealed(-opposite.acceleration), None
         pair = oriented_pair(record)
-        along = _resolve(pair, azimuth)
-    return along, _towards(pair, azimuth - 90.0)
+        along = resolved(pair, azimuth)
+    return along, mixed_towards(pair, azimuth - 90.0)
 
 
 def _as_azimuth(component: str) -> float | None:
@@ -249,48 +295,3 @@ def _recorded(record: Record, component: str, azimuth: float) -> Component | Non
         if named or candidate.azimuth_deg == azimuth % 360.0:
             return candidate
     return None
-
-
-def oriented_pair(record: Record) -> tuple[Component, Component]:
-    """Return two horizontals of known azimuth, from which any other direction follows.
-
-    Examples
-    --------
-    >>> from seisblock.readers import read
-    >>> [component.code for component in oriented_pair(read("synthetic_jma.csv"))]
-    ['NS', 'EW']
-    """
-    oriented = [c for c in record.horizontals if c.azimuth_deg is not None]
-    if len(oriented) < 2:
-        raise ComponentError(
-            "{source}: turning to an azimuth needs two horizontal components of known direction; it has {codes}",
-            source=record.source or said("record"),
-            codes=record.codes,
-        )
-    return oriented[0], oriented[1]
-
-
-def _resolve(pair: tuple[Component, Component], azimuth_deg: float) -> FloatArray:
-    """Return the acceleration towards an azimuth from two horizontals, which need not be orthogonal."""
-    return _towards(pair, azimuth_deg)(slice(None))
-
-
-def _towards(pair: tuple[Component, Component], azimuth_deg: float) -> Callable[[slice], FloatArray]:
-    """Return what makes parts of the acceleration towards an azimuth from two horizontals."""
-    first, second = pair
-    # for exact axes keep the samples bit by bit: "numbers round-trip"
-    for component in pair:
-        if component.azimuth_deg == azimuth_deg % 360.0:
-            return component.acceleration.__getitem__
-    a, b, t = (math.radians(angle or 0.0) for angle in (first.azimuth_deg, second.azimuth_deg, azimuth_deg))
-    span = math.sin(b - a)
-    if abs(span) < 1e-6:
-        raise ComponentError("the two horizontal components are parallel: no other direction follows from them")
-
-    def mixed(part: slice) -> FloatArray:
-        # north/east of the ground from its two projections, then projected on the azimuth
-        found = first.acceleration[part] * (math.sin(b - t) / span)
-        found += second.acceleration[part] * (math.sin(t - a) / span)
-        return sealed(found)
-
-    return mixed

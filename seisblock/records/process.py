@@ -12,8 +12,8 @@ from seisblock.errors import ComponentError, ParameterError, RecordError
 from seisblock.records.cuts import CUT
 from seisblock.records.doubts import settled
 from seisblock.records.filters import HIGHPASS_ORDER, highpass_samples
-from seisblock.records.motion import _resolve, oriented_pair
 from seisblock.records.record import Component, Record, sealed
+from seisblock.records.turning import oriented_pair, resolved
 from seisblock.typing import FloatArray
 from seisblock.units import GAL
 from seisblock.words import said
@@ -259,7 +259,7 @@ def towards(record: Record, azimuth_deg: float) -> Component:
     checks.instance(record, Record)
     if isinstance(azimuth_deg, str) or not np.isfinite(azimuth_deg):
         raise ComponentError("the azimuth must be a finite number of degrees, found {found}", found=azimuth_deg)
-    return Component(f"{azimuth_deg:g}", _resolve(oriented_pair(record), azimuth_deg), azimuth_deg % 360.0)
+    return Component(f"{azimuth_deg:g}", resolved(oriented_pair(record), azimuth_deg), azimuth_deg % 360.0)
 
 
 def rotate(record: Record, azimuth_deg: float) -> Record:

@@ -12,6 +12,7 @@ CLOCKS = {
     "UTC": timedelta(0),
     "GMT": timedelta(0),
     "JST": timedelta(hours=9),
+    "GMT+08": timedelta(hours=8),
     "PST": timedelta(hours=-8),
     "PDT": timedelta(hours=-7),
     "MST": timedelta(hours=-7),

@@ -14,7 +14,7 @@ from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.limits import check_budget
 from seisblock.records import Motion, Record, motion_of
 from seisblock.records.given import Factor, vertical_gain
-from seisblock.records.motion import oriented_pair
+from seisblock.records.turning import oriented_pair
 from seisblock.typing import FloatArray
 from seisblock.words import noted
 

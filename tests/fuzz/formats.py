@@ -94,6 +94,19 @@ def judge_promised(data: bytes, record: Record) -> str:
     return "" if found == record.samples else f"{record.samples} samples where the header promises {found}"
 
 
+def judge_cwa(data: bytes, record: Record) -> str:
+    """Compare count and extremes with the header's."""
+    stated = re.search(rb"RecordLength\(sec\):\s*([\d.]+)", data)
+    if stated and abs(float(stated[1]) / record.dt - record.samples) > 2.0:
+        return f"{record.samples} samples where the header promises {float(stated[1])} s"
+    for letter, code in zip("UNE", ("UD", "NS", "EW"), strict=True):
+        told = re.search(rf"AmplitudeMAX. {letter}:\s*([\d.]+)~\s*(-[\d.]+)\s".encode(), data)
+        row = 100 * record.component(code).acceleration
+        if told and max(abs(row.max() - float(told[1])), abs(row.min() - float(told[2]))) > 0.0012:
+            return f"{code}: extremes are not the header's"
+    return ""
+
+
 def judge_jma(data: bytes, record: Record) -> str:
     """JMA ends each line and publishes whole seconds."""
     seconds = record.samples * record.dt
@@ -109,6 +122,16 @@ def judge_clock(data: bytes, record: Record) -> str:
     if len(rows) != record.samples:
         return f"{record.samples} samples from {len(rows)} lines"
     steps = np.diff(times)
+    return "uneven times were believed" if steps.size and np.abs(steps - np.median(steps)).max() > 2e-6 else ""
+
+
+def judge_moments(data: bytes, record: Record) -> str:
+    """Every line that begins with a moment is a sample, at an even time."""
+    lines = [line for line in data.decode("latin-1").splitlines() if re.match(r"\s*2020", line)]
+    seconds = [_number(line.split(",")[0][-6:]) or 0.0 for line in lines]
+    if len(lines) != record.samples:
+        return f"{record.samples} samples from {len(lines)} lines"
+    steps = np.diff(seconds)
     return "uneven times were believed" if steps.size and np.abs(steps - np.median(steps)).max() > 2e-6 else ""
 
 
@@ -154,6 +177,13 @@ def _table(separator: str, header: str, form: str = "{:.3f}", unit: float = 1.0)
         return (header + "\n" + "".join(separator.join([f"{t:.2f}", *map(form.format, line)]) + "\n" for t, *line in lines)).encode()
 
     return written
+
+
+def _clock_table(rows: Rows) -> bytes:
+    """Return a table whose times a clock tells, with its units in a line of their own."""
+    lines = zip(T, *rows, strict=True)
+    body = "".join(f"2020-01-02T03:04:{5 + t:06.3f},{a:.3f},{b:.3f},{c:.3f}\n" for t, a, b, c in lines)
+    return ("time,NS,EW,UD\n,gal,gal,gal\n" + body).encode()
 
 
 def _obspy(waveform: str, count: int = 1) -> Writer:
@@ -220,9 +250,11 @@ WRITERS: dict[str, Writer] = {
     "esm": lambda rows: layouts.esm(rows[0]).encode(),
     "geonet-v1": lambda rows: layouts.geonet(rows).encode(),
     "geonet-v2": lambda rows: layouts.geonet(rows, volume=2).encode(),
+    "cwa": lambda rows: layouts.cwa(rows).encode(),
     "comma": _table(",", "time,NS (gal),EW (gal),UD (gal)"),
     "blank": _table(" ", "t(s) ns_gal ew_gal ud_gal"),
     "semicolon": _table(";", "time;N10E (m/s2);N80W (m/s2);UD (m/s2)", "{:.5f}", 100.0),
+    "clock": _clock_table,
     "one column": lambda rows: ("NS (gal)\n" + "".join(f"{x:.3f}\n" for x in rows[0])).encode(),
     "slist": _obspy("SLIST"),
     "tspair": _obspy("TSPAIR"),
@@ -247,9 +279,11 @@ JUDGES: dict[str, Callable[[bytes, Record], str]] = {
     "esm": judge_promised,
     "geonet-v1": judge_promised,
     "geonet-v2": judge_promised,
+    "cwa": judge_cwa,
     "comma": judge_clock,
     "blank": judge_clock,
     "semicolon": judge_clock,
+    "clock": judge_moments,
     "slist": judge_slist,
     "tspair": judge_slist,
     "sac": judge_sac,

@@ -1,4 +1,4 @@
-"""Synthetic files in the layouts of CSMIP, COSMOS, SMC, ESM and GeoNet, written for tests: no agency's numbers are in them."""
+"""Synthetic files in the layouts of CSMIP, COSMOS, SMC, ESM, GeoNet and CWA, written for tests: no agency's numbers are in them."""
 
 from __future__ import annotations
 
@@ -95,6 +95,39 @@ def esm(row, *, stream: str = "HNE", data: str = "ACCELERATION") -> str:
         "USER5": "",
     }
     return "".join(f"{key}: {value}\n" for key, value in keys.items()) + "".join(f"{x:.6f}\n" for x in row)
+
+
+def cwa(rows: Rows, *, event: bool = True, sequence: str = "Time U(+); N(+); E(+)") -> str:
+    """Return north, east and up in the layout of CWA: of its data centre, in local time, or of single files, in UTC."""
+    north, east, up = (np.round(row, 3) for row in rows)
+    zone, hours = ("(GMT+08)", 11) if event else ("", 3)
+    text = [
+        "Earthquake Information, SYNTHETIC, NOT a recording",
+        f"Origin Time{zone}: 2020/01/02-{hours:02d}:04:00",
+        "EpicenterLongitude(E): 121.69",
+        "EpicenterLatitude(N):  24.14",
+        "Depth(km): 10.0",
+        "Magnitude(Ml): 6.1",
+        "Station Information",
+        "StationLongitude(E): 121.092",
+        "StationLatitude(N): 22.860",
+        "StationName: Test Town Hall",
+    ]
+    record = [
+        "StationCode: SYN1",
+        "InstrumentKind: none(SYNTHETIC)",
+        f"StartTime{zone}: 2020/01/02-{hours:02d}:04:05.250 ",
+        f"RecordLength(sec): {len(up) * DT:8.3f}",
+        f"SampleRate(Hz): {1 / DT:.0f}",
+        "AmplitudeUnit:  gal. DCoffset(corr)",
+        *(f"AmplitudeMAX. {name}:{row.max():9.3f}~{row.min():9.3f}" for name, row in zip("UNE", (up, north, east), strict=True)),
+        f"DataSequence: {sequence}",
+        "Data: 4F10.3 ",
+    ]
+    held = {"Time": DT * np.arange(len(up)), "U": up, "N": north, "E": east}
+    columns = [held[name] for name in sequence.replace("(+)", "").replace(";", "").split()]
+    body = "".join("".join(f"{x:10.3f}" for x in row) + "\n" for row in zip(*columns, strict=True))
+    return "".join(f"#{line}\n" for line in ((text if event else []) + record)) + body
 
 
 def geonet(rows: Rows, *, volume: int = 1, names: Sequence[str] = ("N10E", "N80W", "Up")) -> str:

@@ -65,6 +65,44 @@ def test_three_components_stay_three(table, header, expected):
         np.testing.assert_array_equal(component.acceleration, samples)
 
 
+@pytest.mark.parametrize(
+    "form",
+    [
+        "{}成分",
+        "{}方向",
+        "{}動",
+        "{}動成分",
+        "{}加速度",
+        "加速度{}",
+        "{}方向加速度",
+        "{} 成分",
+        "{}_component",
+        "{} comp.",
+        "Comp. {}",
+        "direction: {}",
+        "Acceleration {}",
+        "{}-acc",
+        "acc.{}",
+    ],
+)
+@pytest.mark.parametrize(
+    "names", [("NS", "EW", "UD"), ("南北", "東西", "上下"), ("南北", "東西", "鉛直"), ("N", "E", "Z"), ("N-S", "E-W", "U-D")]
+)
+@pytest.mark.parametrize("unit", ["(gal)", "[gal]", ""])
+def test_words_for_component_and_direction_hide_no_vertical(table, form, names, unit):
+    """Whatever word for component, direction or acceleration stands around it, the vertical is the vertical."""
+    header = ",".join(["経過時間(s)", *(form.format(name) + unit for name in names)])
+    record = read(table(header), units=None if unit else "gal")
+    assert codes(record) == [("NS", 0.0), ("EW", 90.0), ("UD", None)]
+    assert record.doubts == ()
+
+
+def test_a_number_behind_such_a_word_is_no_azimuth(table):
+    """``component 1`` and ``comp 2`` are channels, not the azimuths 1 and 2; the words alone are names."""
+    assert codes(read(table("time,component 1 (gal),comp 2 (gal),UD (gal)"))) == [("COMPONENT 1", None), ("COMP 2", None), ("UD", None)]
+    assert codes(read(table("time,成分 (gal)", T, NORTH))) == [("成分", None)]
+
+
 def test_a_unit_of_acceleration_beats_the_time(table):
     """``L,T,V (gal)``: T is transverse, and the one unit that is written counts for all, which is told."""
     record = read(table("L,T,V (gal)", NORTH, EAST, UP), dt=0.01)

@@ -101,7 +101,12 @@ LINES_DAMAGED = {
 SILENT = {("one column", "a line lost"), ("one column", "a line twice"), ("one column", "the last line lost")}
 """A column of bare numbers that ends with a whole line says of itself nothing that a reader could hold against it."""
 
-BARE = {("comma", "the last line lost"), ("blank", "the last line lost"), ("semicolon", "the last line lost")}
+BARE = {
+    ("comma", "the last line lost"),
+    ("blank", "the last line lost"),
+    ("semicolon", "the last line lost"),
+    ("clock", "the last line lost"),
+}
 """So does a table with a clock that ends with a whole line: it is a shorter record."""
 
 TEXTS = sorted(set(WRITERS) - {"mseed", "sac", "tar", "tar.gz", "zip"})

@@ -50,7 +50,7 @@ def test_lines_are_those_of_the_whole(text, encoding, small_pieces):
 
 def test_what_is_no_text_is_refused(small_pieces):
     """A byte that neither encoding knows, however late it comes."""
-    with pytest.raises(RecordFormatError, match="neither UTF-8 nor Shift-JIS"):
+    with pytest.raises(RecordFormatError, match="neither UTF-8, Shift-JIS nor EUC-JP"):
         lines_of(Blob("x", b"1,2\n" * 20 + b"\x81 \n"))
 
 

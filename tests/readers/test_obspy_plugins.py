@@ -1,4 +1,4 @@
-"""obspy reads JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM and GeoNet through the plugins, and they claim nothing else."""
+"""obspy reads JMA CSV, K-NET CSV, AT2, CSMIP, COSMOS, SMC, ESM, GeoNet and CWA through the plugins, and they claim nothing else."""
 
 from __future__ import annotations
 
@@ -27,6 +27,7 @@ OURS = {
     "cosmos": (FORMATS["cosmos"].data, obspy_plugins.is_cosmos, obspy_plugins.read_cosmos),
     "smc": (FORMATS["smc"].data, obspy_plugins.is_smc, obspy_plugins.read_smc),
     "esm": (FORMATS["esm"].data, obspy_plugins.is_esm, obspy_plugins.read_esm),
+    "cwa": (FORMATS["cwa"].data, obspy_plugins.is_cwa, obspy_plugins.read_cwa),
     "geonet": (FORMATS["geonet-v1"].data, obspy_plugins.is_geonet, obspy_plugins.read_geonet),
 }
 CLAIMS = {claims for _, claims, _ in OURS.values()}

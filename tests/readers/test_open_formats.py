@@ -1,4 +1,4 @@
-"""CSMIP, COSMOS, SMC, ESM and GeoNet: read to the header's own peak; siblings, azimuths and places are kept; what is no record is named."""
+"""CSMIP, COSMOS, SMC, ESM, GeoNet, CWA: read to the header's own peak; siblings, azimuths, places are kept; what is no record is named."""
 
 from __future__ import annotations
 
@@ -16,8 +16,17 @@ from seisblock.records.site import earthquake_of, site_of, told_time
 from tests.fuzz.formats import ROWS, WRITERS
 from tests.readers import layouts
 
-OPEN = ("csmip-v1", "csmip-v2", "cosmos", "smc", "esm", "geonet-v1", "geonet-v2")
-DIGIT = {"csmip-v1": 1e-5, "csmip-v2": 5.1e-6, "cosmos": 1e-6, "smc": 6e-5, "esm": 1e-6, "geonet-v1": 5.1e-5, "geonet-v2": 5.1e-5}
+OPEN = ("csmip-v1", "csmip-v2", "cosmos", "smc", "esm", "geonet-v1", "geonet-v2", "cwa")
+DIGIT = {
+    "csmip-v1": 1e-5,
+    "csmip-v2": 5.1e-6,
+    "cosmos": 1e-6,
+    "smc": 6e-5,
+    "esm": 1e-6,
+    "geonet-v1": 5.1e-5,
+    "geonet-v2": 5.1e-5,
+    "cwa": 5.1e-6,
+}
 """Half a unit of the last digit that each format prints of these samples, m/s^2."""
 
 
@@ -54,6 +63,7 @@ def test_samples_and_peak_are_those_of_the_header(kind, tmp_path):
         ("smc", b"1.0001000E+02"),
         ("esm", b"100.011000"),
         ("geonet-v1", b"1000.1 mm/s/s"),
+        ("cwa", b"100.011~"),
     ],
 )
 def test_another_peak_is_a_doubt(kind, peak, tmp_path):

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from seisblock.errors import InputError, ParameterError, RecordError, RecordFormatError, UnitError
 from seisblock.readers import read
+from seisblock.records import motion_of
 from seisblock.units import STANDARD_GRAVITY
 
 ROWS = "0.00{0}1{0}2{0}3\n0.01{0}4{0}5{0}6\n0.02{0}7{0}8{0}9\n"
@@ -69,6 +70,92 @@ def test_a_header_in_a_comment_counts(table):
     assert record.codes == ("ACC",)
     assert record.dt == 0.005
     assert record.components[0].acceleration[0] == 4.6e-4 * STANDARD_GRAVITY
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "time,NS,EW,UD\ns,gal,gal,gal",
+        "Time,N-S,E-W,U-D\n(sec),(cm/s2),(cm/s2),(cm/s2)",
+        "時刻,南北,東西,上下\n秒,gal,gal,gal",
+        "t,NS (gal),EW,UD\n,gal,gal,gal",
+        "time,NS成分,EW成分,UD成分\n[s],[gal],[gal],[gal]",
+        "sec;NS;EW;UD\ns;gal;gal;gal",
+        "time NS EW UD\n# a comment\n(s) (gal) (gal) (gal)",
+        ",NS (gal),EW (gal),UD (gal)",
+        ",NS,EW,UD\ns,gal,gal,gal",
+    ],
+)
+def test_units_in_a_line_of_their_own_and_a_column_without_a_name(table, head):
+    """The second line may hold the units; a first column without a name that climbs is the time."""
+    record = read(table(head + "\n" + ROWS.format(next((c for c in ";," if c in head), " "))))
+    assert (record.codes, record.dt) == (("NS", "EW", "UD"), 0.01)
+    np.testing.assert_array_equal(record.component("EW").acceleration, [0.02, 0.05, 0.08])
+    assert any("first column" in line for line in record.history) == (head == ",NS (gal),EW (gal),UD (gal)")
+
+
+@pytest.mark.parametrize("name", ["", "index", "No", "No.", "番号"])
+def test_numbers_of_lines_are_left_out(table, name):
+    """The index that pandas writes, with or without a name, and a column of running numbers: told, not taken for the time."""
+    record = read(table(f"{name},NS (gal),UD (gal)\n" + "".join(f"{i},{i % 7},{i % 5}\n" for i in range(60))), dt=0.01)
+    assert record.codes == ("NS", "UD")
+    assert record.history == (f"left out column '{name or 'index'}': a number of the line",)
+    with pytest.raises(ParameterError, match="`dt`"):
+        read(table(f"{name},NS (gal)\n0,1\n1,2\n2,3\n"))
+
+
+@pytest.mark.parametrize(
+    ("form", "start", "clock"),
+    [
+        ("2024-01-01T{}", "2024-01-01T23:59:59.750000+00:00", None),
+        ("2024/1/1 {}", "2024-01-01T23:59:59.750000+00:00", None),
+        ("2024-01-01T{}Z", "2024-01-01T23:59:59.750000+00:00", None),
+        ("2024-01-01 {}+09:00", "2024-01-01T14:59:59.750000+00:00", "JST"),
+        ("{}", None, None),
+    ],
+)
+def test_times_that_a_clock_tells(table, form, start, clock):
+    """Dates and times of the day give interval and start, past midnight, too; without a zone they are UTC, which is told."""
+    seconds = [86399.75 + 0.005 * i for i in range(100)]
+    cells = [f"{int(s // 3600) % 24:02d}:{int(s // 60) % 60:02d}:{s % 60:06.3f}" for s in seconds]
+    days = [
+        form.format(cell) if s < 86400 else form.replace("01-01", "01-02").replace("/1/1", "/1/2").format(cell)
+        for s, cell in zip(seconds, cells, strict=True)
+    ]
+    record = read(table("時刻,NS (gal),UD (gal)\n" + "".join(f"{day},{i},1\n" for i, day in enumerate(days))))
+    assert (record.dt, record.samples, record.codes) == (0.005, 100, ("NS", "UD"))
+    assert (record.start.isoformat() if record.start else None) == start
+    assert record.metadata.get("clock") == clock
+    assert any("UTC" in line for line in record.history) == (start is not None and "Z" not in form and clock is None)
+    assert "first_time_s" not in record.metadata
+
+
+def test_a_thousandth_of_g_and_exponents_of_fortran(table):
+    """``mg`` is a thousandth of g, in a name, in a line of units and as an option; ``1.5D-03`` is 1.5e-3."""
+    for text, options in (
+        ("time,NS (mg)\n0,100\n0.01,-250\n", {}),
+        ("time,ns_mg\n0,100\n0.01,-250\n", {}),
+        ("time,NS\ns,mg\n0,100\n0.01,-250\n", {}),
+        ("time NS\n0 100\n0.01 -250\n", {"units": "mg"}),
+        ("time NS_g\n0.00D+00  1.0D-01\n0.10D-01  -.25D0\n", {}),
+        ("0.0D0 0.1D0\n1.0D-2 -2.5D-1\n2.0D-2 0.D0\n", {"units": "g"}),
+    ):
+        np.testing.assert_allclose(read(table(text), **options).components[0].acceleration[:2], [0.980665, -2.4516625], rtol=1e-15)
+
+
+def test_south_west_and_down(table):
+    """South is azimuth 180, west 270, and down is turned: north is minus south, east minus west, up minus down."""
+    record = read(table("time,S (gal),W (gal),D (gal)\n" + ROWS.format(",")))
+    assert [(c.code, c.azimuth_deg) for c in record.components] == [("180", 180.0), ("270", 270.0), ("UD", None)]
+    np.testing.assert_allclose(motion_of(record, "0").horizontal, [-0.01, -0.04, -0.07], rtol=1e-12)
+    np.testing.assert_allclose(motion_of(record, "90").horizontal, [-0.02, -0.05, -0.08], rtol=1e-12)
+    np.testing.assert_array_equal(record.vertical.acceleration, [-0.03, -0.06, -0.09])
+    assert "positive down" in record.history[0]
+
+
+def test_letters_of_other_encodings(table):
+    """EUC-JP is read where it cannot be Shift-JIS."""
+    assert read(table("時間(s),南北(gal),東西(gal),上下(gal)\n" + ROWS.format(","), "euc_jp")).codes == ("NS", "EW", "UD")
 
 
 def test_without_a_header_an_even_first_column_is_time(table):
@@ -166,8 +253,24 @@ def test_times_printed_to_too_few_digits_are_named(table, dt, printed):
         ("time,NS (gal),N-S (gal)\n0,1,1\n0.01,2,2\n", {}, RecordFormatError, "several columns mean NS"),
         ("time,NS (gal),EW (gal),foo\n0,1,2,3\n0.01,2,3,4\n", {}, RecordFormatError, "column not understood: 'foo'; expected a direction"),
         ("time (JST),NS (gal)\n0,1\n0.01,2\n", {}, UnitError, "unknown unit of time 'JST'"),
-        ("abc def\n", {}, RecordFormatError, "no format known"),
-        ("# only\n# comments\n", {}, RecordFormatError, "no format known"),
+        ("abc def\n", {}, RecordFormatError, "no format known here: it begins 'abc def'; not JMA CSV"),
+        ("# only\n# comments\n", {}, RecordFormatError, "no format known here: it begins '# only'"),
+        (
+            "Station: X\nDate: 2024\n\ntime (s),NS (gal)\n0,1\n0.01,2\n",
+            {},
+            RecordFormatError,
+            "the names of the columns stand in line 4 only ('time (s),NS (gal)'), and the file begins 'Station: X': take the lines above",
+        ),
+        ("S,E,D\ngal,gal,kg\n1,2,3\n2,3,4\n", {"dt": 0.01}, UnitError, "column 'S' has no unit"),
+        (",NS (gal)\n1,1\n3,2\n4,2\n", {"dt": 0.01}, RecordFormatError, "column not understood: ''"),
+        ("time,NS (gal)\n16:10:00.00,1\n16:10:00.01,2\n16:10:60.02,3\n", {}, RecordFormatError, "line 4: expected a number in column time"),
+        (
+            "time,NS (gal)\n2024-02-30T00:00:00,1\n2024-03-01T00:00:01,2\n",
+            {},
+            RecordFormatError,
+            "line 2: expected a number in column time",
+        ),
+        ("time,NS (gal)\n16:10:00.00,1\n16:10:00.01,2\n16:10:00.03,3\n", {}, RecordFormatError, "its time is uneven"),
     ],
 )
 def test_bad_tables_get_one_sentence(table, text, options, error, says):

@@ -12,6 +12,7 @@ from seisblock import checks
 from seisblock.bodies.inset import SHARP, Inset
 from seisblock.errors import BodyError, ParameterError
 from seisblock.typing import FloatArray
+from seisblock.units import remark_on_lengths
 
 GROUND = "ground"
 """What the lowest stones stand on."""
@@ -52,6 +53,11 @@ class PileStone:
         If a size or the density is not positive, or the friction negative; if a round stone is not as deep as it is wide, the shape is
         unknown, or the inset leaves nothing of the base.
 
+    Warns
+    -----
+    UserWarning
+        If a program gives a length beyond 20 m, which is probably meant in cm or mm.
+
     Examples
     --------
     >>> drum = PileStone("drum", 1.0, 1.0, 0.5, shape="round")
@@ -77,6 +83,7 @@ class PileStone:
         checks.positive("depth of the stone {name}", self.depth, "m", error=BodyError, name=self.name)
         checks.positive("height of the stone {name}", self.height, "m", error=BodyError, name=self.name)
         checks.positive("density of the stone {name}", self.density, "kg/m^3", error=BodyError, name=self.name)
+        remark_on_lengths(self.name, width=self.width, depth=self.depth, height=self.height)
         if self.mu is not None:
             checks.not_negative("friction under the stone {name}", self.mu, error=BodyError, name=self.name)
         if self.mu_kinetic is not None:

@@ -14,21 +14,18 @@ from seisblock.errors import ParameterError, RecordFormatError, UnitError
 from seisblock.readers.cells import turned_si
 from seisblock.readers.directions import Direction, direction_of
 from seisblock.readers.formats.generic_doubts import doubts_of_file
+from seisblock.readers.formats.unknown import unknown
 from seisblock.readers.naming import normal_unit
 from seisblock.readers.source import LONGEST_SHOWN, Blob
 from seisblock.records import Component, Doubt, Record
-from seisblock.words import noted, said
+from seisblock.words import said
 
 # PICKLE runs whatever the file says; the others have a reader here
-_NOT_TRIED = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET", "KNET", "GSE1", "GSE2"}
+_NOT_TRIED = {"PICKLE", "JMACSV", "KNETCSV", "AT2", "CSMIP", "COSMOS", "SMC", "ESM", "GEONET", "CWA", "KNET", "GSE1", "GSE2"}
 _CRASHING = {"GSE1", "GSE2"}
 """Formats whose decoder in obspy ends the process (segmentation fault) on a damaged file."""
 
 _GSE = re.compile(rb"^WID[12] ", re.MULTILINE)
-_KNOWN = noted(
-    "JMA CSV, K-NET, KiK-net, K-NET CSV, PEER AT2, CSMIP, COSMOS, SMC, ESM, GeoNet, a plain table, a bundle of those, nor a "
-    "waveform format of obspy"
-)
 _LETTERS = {"N": "NS", "E": "EW", "Z": "UD"}
 
 
@@ -60,7 +57,7 @@ def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) 
         suffix = "".join(c for c in Path(blob.basename).suffix[:12] if c.isalnum() or c == ".")
         path = Path(directory) / f"record{suffix}"
         path.write_bytes(blob.data)
-        name = _recognise(blob.name, path) if waveform is None else waveform.upper()
+        name = _recognise(blob, path) if waveform is None else waveform.upper()
         traces, warned = _traces(blob.name, path, name)
     doubts = doubts_of_file(blob.data, name, traces, warned)
     if units is None:
@@ -75,7 +72,7 @@ def read_generic(blob: Blob, *, units: str | None, waveform: str | None = None) 
     return [_record(blob.name, traces.pop(), name, unit, doubts) for _ in range(len(traces))]
 
 
-def _recognise(name: str, path: Path) -> str:
+def _recognise(blob: Blob, path: Path) -> str:
     """Return obspy's name of the format of a file."""
     from obspy.core.util.base import ENTRY_POINTS, buffered_load_entry_point
 
@@ -92,8 +89,8 @@ def _recognise(name: str, path: Path) -> str:
             continue
     with path.open("rb") as file:
         if is_gse(file.read(4096)):
-            _refuse(name, "GSE")
-    raise RecordFormatError("{name} is in no format known here: not {known}", name=name, known=said(_KNOWN))
+            _refuse(blob.name, "GSE")
+    raise unknown(blob)
 
 
 def _refuse(name: str, waveform: str) -> NoReturn:
@@ -116,7 +113,7 @@ def _traces(name: str, path: Path, waveform: str) -> tuple[list[Any], list[str]]
     if waveform not in ENTRY_POINTS["waveform"] or waveform == "PICKLE":
         usable = ", ".join(sorted(set(ENTRY_POINTS["waveform"]) - _CRASHING - {"PICKLE"}))
         raise ParameterError(
-            "unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSMIP, COSMOS, SMC, ESM, GEONET, CSV, or OBSPY: "
+            "unknown format {waveform!r}: give JMA-CSV, KNET, KIKNET, KNET-CSV, AT2, CSMIP, COSMOS, SMC, ESM, GEONET, CWA, CSV, or OBSPY: "
             "and one of {usable}",
             waveform=waveform,
             usable=usable,

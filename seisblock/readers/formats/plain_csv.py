@@ -2,55 +2,34 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
+from datetime import datetime
 from functools import partial
 
 import numpy as np
 
-from seisblock.errors import ParameterError, RecordFormatError, UnitError
+from seisblock.errors import InputError, ParameterError, RecordFormatError, UnitError
 from seisblock.readers.cells import columns_of, turned_si
 from seisblock.readers.clock import even_dt
-from seisblock.readers.columns import Column, Columns, columns_of_header, means_something
+from seisblock.readers.columns import Column, Columns, columns_of_header
 from seisblock.readers.decimals import doubts_of_decimals, doubts_of_end
 from seisblock.readers.formats.table_comments import doubts_of_comments
+from seisblock.readers.formats.table_layout import FORTRAN, is_data, layout_of, preamble
+from seisblock.readers.formats.table_names import CLIMBING, LOOKED_AT, name_of_first
+from seisblock.readers.header import JST
 from seisblock.readers.lines import lines_of, mapped
+from seisblock.readers.moments import Moment, moment_in, seconds_instead
 from seisblock.readers.naming import TIME
 from seisblock.readers.source import Blob
 from seisblock.records import Component, Doubt, Record
 from seisblock.typing import FloatArray
-from seisblock.words import said
+from seisblock.words import noted, said
 
 FORMAT = "CSV"
 _QUOTED = re.compile(r'(?<![^\s,;])"([^"]*)"(?![^\s,;])')
-_WIDTH_TOLERANT = {",", ";", "\t"}
-
-
-@dataclass(frozen=True)
-class TableLayout:
-    """Where the numbers of a table begin and what its columns are called."""
-
-    names: tuple[str, ...]
-    body: int
-    separator: str | None
-    decimal_comma: bool = False
-
-
-def looks_like_csv(lines: Sequence[str]) -> bool:
-    """Return whether a text is a table of numbers, or at least has a header that names components or units."""
-    body = next((i for i, line in enumerate(lines) if _is_data(line)), None)
-    if body is None:
-        return False
-    separator = separator_of(lines[body])
-    if _all_numbers(lines[body], separator):
-        return True
-    names = _split(lines[body], separator)
-    if means_something(names):
-        return True
-    following = next((line for line in lines[body + 1 :] if _is_data(line)), "")
-    return _all_numbers(following, separator_of(following)) and len(_split(following, separator_of(following))) == len(names)
+_CLIMBS = noted("took the first column, which climbs evenly, as the time in s")
 
 
 def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = None) -> Record:
@@ -61,8 +40,9 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     blob : Blob
         Cells are separated by commas, semicolons (then a decimal comma is allowed), tabs or blanks; ``#`` starts a comment. The first line
         may name the columns (:func:`seisblock.readers.columns.columns_of_header`), a unit may stand in a name: ``EW (gal)``, ``ew_gal``,
-        ``NS[m/s^2]``. A time column gives the sampling interval and must be even within the digits printed. Without names, a first
-        column that climbs evenly is the time.
+        ``NS[m/s^2]``, or in a line of units below the names. A time column gives the sampling interval and must be even within the digits
+        printed; where a clock tells the times (``16:10:10.25``, ``2024-01-01T16:10:10Z``) the first with its date is the start. Without
+        names, a first column that climbs evenly is the time.
     units : str or None
         Unit of columns that name none.
     dt : float or None, s
@@ -79,15 +59,22 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     """
     lines = lines_of(blob)
     layout = layout_of(blob.name, lines)
-    body = mapped(lines[layout.body :], lambda line: line if _is_data(line) else "")
+    body = mapped(lines[layout.body :], lambda line: line if is_data(line) else "")
     if layout.decimal_comma:
         body = mapped(body, lambda line: line.replace(",", "."))
     if any('"' in line for line in body[:3]):
         body = mapped(body, partial(_QUOTED.sub, r"\1"))
+    if any(FORTRAN.search(line) for line in body[:3]):
+        body = mapped(body, partial(FORTRAN.sub, "E"))
     named = any(layout.names)
-    told = columns_of_header(blob.name, layout.names, units) if named else _unnamed(len(layout.names))
+    nameless = named and not layout.names[0].strip()
+    if nameless:
+        layout = replace(layout, names=(name_of_first(body[:LOOKED_AT], layout.separator), *layout.names[1:]))
+    told = _told(blob.name, lines, layout.names, units) if named else _unnamed(len(layout.names))
+    told = replace(told, remarks=(*told.remarks, said(_CLIMBS))) if nameless and layout.names[0] == CLIMBING else told
     if named and dt is None and not any(column.code == TIME for column in told.read):
         raise _without_interval(blob.name)  # before a day of numbers is read
+    clock, body = _clock(told, body, layout.separator)
     labels = {c.label if layout.names.count(c.label) == 1 else f"number {c.index + 1}": c.index for c in told.read}
     rows = columns_of(blob.name, body, layout.body + 1, labels, len(layout.names), layout.separator)
     if not named:
@@ -97,7 +84,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
     for column, row in pairs:
         if column.code == TIME:
             dt = _interval(blob.name, column, row, body, layout.separator, dt)
-            if row[0]:
+            if row[0] and clock is None:
                 metadata["first_time_s"] = float(row[0]) * column.seconds
     if dt is None:
         raise _without_interval(blob.name)
@@ -108,12 +95,50 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
             name=blob.name,
             columns=[name.strip() for name in layout.names] if named else [said("time")],
         )
+    start, remarks = _start(clock)
     clocked = any(column.code == TIME for column in told.read)
     doubts = _doubts(lines, layout.body, clocked=clocked) + doubts_of_decimals(body, layout.body + 1, layout.separator)
     doubts += doubts_of_comments(lines[: layout.body], told.read, rows[0].size, dt)
     if not any(doubt.kind == "cut" for doubt in doubts):
         doubts += doubts_of_end(body, layout.separator)
-    return Record(tuple(components), dt, source=blob.name, format=FORMAT, history=told.remarks, metadata=metadata, doubts=doubts)
+    return Record(
+        tuple(components),
+        dt,
+        start=start,
+        source=blob.name,
+        format=FORMAT,
+        history=(*told.remarks, *remarks),
+        metadata=metadata | ({"clock": "JST"} if start and clock and clock.zone_s == JST.total_seconds() else {}),
+        doubts=doubts,
+    )
+
+
+def _clock(told: Columns, body: Sequence[str], separator: str | None) -> tuple[Moment | None, Sequence[str]]:
+    """Return the first moment of a column of times that a clock tells, None where it holds seconds, and the body with seconds in it."""
+    column = next((c for c in told.read if c.code == TIME), None)
+    cells = next((line for line in body if line.strip()), "").split(separator)
+    first = moment_in(cells[column.index]) if column is not None and column.index < len(cells) else None
+    if column is None or first is None:
+        return None, body
+    return first, mapped(body, seconds_instead(column.index, separator, first))
+
+
+def _start(clock: Moment | None) -> tuple[datetime | None, tuple[str, ...]]:
+    """Return the start that a clock tells, UTC, and what is to be said of it."""
+    if clock is None or clock.utc is None:
+        return None, ()
+    return clock.utc, () if clock.zone_s is not None else (said("took the times of the file as UTC: no time zone stands beside them"),)
+
+
+def _told(name: str, lines: Sequence[str], names: Sequence[str], units: str | None) -> Columns:
+    """Return what the columns are by their names; where these are not understood and a table begins further down, that is said."""
+    try:
+        return columns_of_header(name, names, units)
+    except InputError:
+        below = preamble(name, lines)
+        if below is None:
+            raise
+        raise below from None
 
 
 def _without_interval(name: str) -> ParameterError:
@@ -124,7 +149,7 @@ def _without_interval(name: str) -> ParameterError:
 def _doubts(lines: Sequence[str], body: int, *, clocked: bool) -> tuple[Doubt, ...]:
     """Return what speaks for lines that were lost: one that is empty where nothing else counts them, and a last one cut short."""
     found = []
-    last = max(i for i, line in enumerate(lines) if _is_data(line))
+    last = max(i for i, line in enumerate(lines) if is_data(line))
     empty = [] if clocked else [body + i + 1 for i, line in enumerate(lines[body:last]) if not line.strip()]
     if empty:
         text = said(
@@ -134,7 +159,7 @@ def _doubts(lines: Sequence[str], body: int, *, clocked: bool) -> tuple[Doubt, .
             line=empty[0],
         )
         found.append(Doubt("line", text))
-    if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if _is_data(line)):
+    if last == len(lines) - 1 and last > body + 2 and len(lines[last]) < min(len(line) for line in lines[body:last] if is_data(line)):
         found.append(Doubt("cut", said("the last line is the shortest and has no end: the file looks cut, and its last number with it")))
     return tuple(found)
 
@@ -159,7 +184,7 @@ def _guessed(name: str, rows: Sequence[FloatArray], units: str | None) -> Column
             column=1 + clock,
         )
     told = columns_of_header(name, names, units)
-    return Columns(told.read, (said("took the first column, which climbs evenly, as the time in s"),) if clock else ())
+    return Columns(told.read, (said(_CLIMBS),) if clock else ())
 
 
 def _interval(name: str, column: Column, row: FloatArray, body: Sequence[str], separator: str | None, dt: float | None) -> float:
@@ -174,62 +199,3 @@ def _interval(name: str, column: Column, row: FloatArray, body: Sequence[str], s
             "{name}: its time column says dt = {found:g} s, the option says {dt:g} s: leave the option out", name=name, found=found, dt=dt
         )
     return found
-
-
-def layout_of(name: str, lines: Sequence[str]) -> TableLayout:
-    """Return where the numbers begin, the names of the columns and the separator."""
-    first = next((i for i, line in enumerate(lines) if _is_data(line)), None)
-    if first is None:
-        raise RecordFormatError("{name} holds comments only: expected columns of numbers", name=name)
-    separator = separator_of(lines[first])
-    if not _all_numbers(lines[first], separator):
-        names = tuple(_split(lines[first], separator))
-        return _closed(lines, TableLayout(names, first + 1, separator))
-    width = len(_split(lines[first], separator))
-    comment = next((line for line in reversed(lines[:first]) if line.strip()), "").lstrip("\ufeff# ")
-    names = tuple(_split(comment, separator if separator in _WIDTH_TOLERANT else separator_of(comment)))
-    if comment and len(names) == width and means_something(names):
-        return _closed(lines, TableLayout(names, first, separator))
-    return _closed(lines, TableLayout(("",) * width, first, separator))
-
-
-def _closed(lines: Sequence[str], layout: TableLayout) -> TableLayout:
-    """Return the layout after a look at the first line of numbers: trailing empty names off, another separator, decimal commas."""
-    names = list(layout.names)
-    while len(names) > 1 and not names[-1].strip() and any(names):
-        names.pop()
-    sample = next((line for line in lines[layout.body :] if _is_data(line)), "")
-    separator = layout.separator
-    if sample and separator is not None and separator not in sample and len(names) > 1:
-        separator = separator_of(sample)
-    return TableLayout(
-        tuple(names), layout.body, separator, decimal_comma=separator not in (",", None) and "," in sample and "." not in sample
-    )
-
-
-def separator_of(line: str) -> str | None:
-    """Return the separator of a line: semicolon, tab, comma, else blanks (None)."""
-    return next((mark for mark in (";", "\t", ",") if mark in line), None)
-
-
-def _is_data(line: str) -> bool:
-    """Return whether a line is neither blank nor a comment."""
-    return bool(line.strip(" \t,;\ufeff")) and not line.lstrip("\ufeff ").startswith("#")
-
-
-def _split(line: str, separator: str | None) -> list[str]:
-    """Return the cells of a header line; units in brackets may hold blanks."""
-    if separator is None:
-        return re.findall(r"\S+(?:\s*[(\[][^)\]]*[)\]])?", line)
-    # a name in quotes may hold the separator
-    cells = next(csv.reader([line.strip()], delimiter=separator)) if '"' in line else line.strip().split(separator)
-    return [cell.strip().strip('"').strip() for cell in cells]
-
-
-def _all_numbers(line: str, separator: str | None) -> bool:
-    """Return whether every filled cell of a line is a finite or infinite number."""
-    cells = [cell for cell in _split(line, separator) if cell]
-    try:
-        return bool(cells) and all(float(cell.replace(",", ".")) is not None for cell in cells)
-    except ValueError:
-        return False

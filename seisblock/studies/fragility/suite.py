@@ -14,8 +14,9 @@ from seisblock.readers.dispatch import Options
 from seisblock.readers.gather import gather
 from seisblock.readers.source import Location
 from seisblock.records import Motion, Preparation, Record, motion_of
-from seisblock.records.motion import ALL_AZIMUTHS, oriented_pair
+from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.site import earthquake_of
+from seisblock.records.turning import oriented_pair
 from seisblock.studies.azimuths import azimuths_of
 from seisblock.studies.fragility.intensity import IntensityMeasure
 from seisblock.typing import FloatArray, IntArray

@@ -1,0 +1,55 @@
+"""Names of columns that the first line of a table does not tell whole: units in a line of their own, a first column without a name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from seisblock.readers.header import number
+from seisblock.readers.moments import moment_in
+from seisblock.readers.naming import is_unit, normal_unit, split_unit
+
+CLIMBING = "time (s)"
+"""What a first column without a name is called that climbs."""
+
+LOOKED_AT = 50
+"""Lines that show what a column without a name is."""
+
+
+def with_units(names: Sequence[str], cells: Sequence[str]) -> tuple[str, ...] | None:
+    """Return names with the units that stand in the line below them, or None where that is no line of units.
+
+    Examples
+    --------
+    >>> with_units(["time", "NS", "UD"], ["s", "(gal)", "(gal)"])
+    ('time (s)', 'NS (gal)', 'UD (gal)')
+    >>> with_units(["time", "NS"], ["0.00", "1.5"]) is None
+    True
+    """
+    units = [cell.strip().strip("()[]（）").strip() for cell in cells]
+    while len(units) > len(names) and not units[-1]:
+        units.pop()
+    if len(units) != len(names) or not any(normal_unit(unit) for unit in units) or not all(is_unit(unit) for unit in units if unit):
+        return None
+    return tuple(name if not unit or split_unit(name)[1] == unit else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
+
+
+def name_of_first(lines: Sequence[str], separator: str | None) -> str:
+    """Return what a first column without a name is: ``index`` where whole numbers go up by one, the time where it climbs, else nothing.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        The first lines of the table.
+    separator : str or None
+    """
+    cells = [line.split(separator)[0].strip().strip('"') for line in lines if line.strip()]
+    if cells and all(moment_in(cell) for cell in cells):
+        return "time"
+    values = [number(cell) for cell in cells]
+    steps = [b - a for a, b in pairwise(values) if a is not None and b is not None]
+    if not steps or len(steps) + 1 != len(values):
+        return ""
+    if all(cell.isdecimal() for cell in cells):
+        return "index" if set(steps) == {1.0} else ""
+    return CLIMBING if min(steps) > 0.0 and max(steps) < 1.0 else ""

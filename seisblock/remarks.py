@@ -1,0 +1,33 @@
+"""What is remarked to whoever calls from a program of his own: a warning of Python's, and none where the house calls itself."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+
+_OWN = ("seisblock.", "dataclasses", "copy")
+"""How the names of modules begin that call for somebody else."""
+
+
+def is_asked_from_outside(depth: int) -> bool:
+    """Return whether a function was called by another program than this one.
+
+    Parameters
+    ----------
+    depth : int
+        How many calls lie between that function's caller and this call: 1 where the function itself asks.
+    """
+    caller = str(sys._getframe(depth + 1).f_globals.get("__name__", ""))
+    return caller != "seisblock" and not caller.startswith(_OWN)
+
+
+def remark(text: str, depth: int) -> None:
+    """Warn, with the line of the caller, as far away as for :func:`is_asked_from_outside`.
+
+    Parameters
+    ----------
+    text : str
+        A sentence that was said.
+    depth : int
+    """
+    warnings.warn(text, UserWarning, stacklevel=depth + 2)

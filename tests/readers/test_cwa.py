@@ -1,0 +1,120 @@
+"""Text files of Taiwan's CWA: the header says unit, sequence, rate, start and extremes, and all of it is used."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+
+from seisblock.errors import InputError, ParameterError, RecordError, UnitError
+from seisblock.measures.intensity import jma_intensity
+from seisblock.readers import read
+from seisblock.records.site import earthquake_of, site_of, told_time
+from tests.fuzz.formats import ROWS
+from tests.readers import layouts
+
+WHOLE = layouts.cwa(ROWS)
+
+
+@pytest.fixture
+def file(tmp_path):
+    """Return a function that writes a text and returns its path."""
+
+    def write(text, encoding="utf-8"):
+        path = tmp_path / "T129001.263"
+        path.write_bytes(text.encode(encoding))
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize("event", [True, False])
+def test_both_headers_are_read(file, event):
+    """With the earthquake, in local time, and without it, in UTC: gal, U first in the file and vertical, to the header's extremes."""
+    record = read(file(layouts.cwa(ROWS, event=event)))
+    assert (record.codes, record.dt, record.samples, record.format) == (("NS", "EW", "UD"), 0.01, 600, "CWA")
+    assert record.doubts == ()
+    for component, row in zip(record.components, ROWS, strict=True):
+        np.testing.assert_array_equal(component.acceleration, np.rint(row * 1e3) / 1e5)
+    assert (record.station, record.start) == ("SYN1", datetime(2020, 1, 2, 3, 4, 5, 250_000, tzinfo=UTC))
+    assert jma_intensity(record) > 3.0
+    assert told_time(record, record.start) == ("2020-01-02 11:04:05 GMT+08" if event else "2020-01-02 03:04:05 UTC")
+    if event:
+        assert (site_of(record).name, site_of(record).place) == ("Test Town Hall", (22.86, 121.092))
+        earthquake = earthquake_of(record)
+        assert (earthquake.place, earthquake.depth_km, earthquake.magnitude) == ((24.14, 121.69), 10.0, 6.1)
+        assert earthquake.origin_time == datetime(2020, 1, 2, 3, 4, tzinfo=UTC)
+    else:
+        assert earthquake_of(record) is None
+
+
+def test_columns_come_in_the_sequence_that_is_told(file):
+    """``Time N(+); E(+); U(+)`` are north, east and up, by their letters and not by their places; blank lines and CR LF do no harm."""
+    record = read(file(layouts.cwa(ROWS, sequence="Time N(+); E(+); U(+)").replace("#Stat", "\n#Stat").replace("\n", "\r\n")))
+    for component, row in zip(record.components, ROWS, strict=True):
+        np.testing.assert_array_equal(component.acceleration, np.rint(row * 1e3) / 1e5)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "kind", "says"),
+    [
+        (
+            "RecordLength(sec):    6.000",
+            "RecordLength(sec):   60.000",
+            "count",
+            "the header tells a duration of 60.000 s, 600 samples take 6 s",
+        ),
+        ("RecordLength(sec):    6.000", "RecordLength(sec): six", "count", "a duration of six s"),
+        ("AmplitudeMAX. N:  100", "AmplitudeMAX. N:   10", "header", "NS: the header says that the samples lie within '10.011~"),
+        ("AmplitudeMAX. U:", "AmplitudeMAX. U: x", "header", "UD: the header says that the samples lie within"),
+    ],
+)
+def test_what_the_header_says_otherwise_is_doubted(file, old, new, kind, says):
+    """Another length, another extreme, or none that can be read."""
+    assert old in WHOLE
+    (doubt,) = read(file(WHOLE.replace(old, new))).doubts
+    assert doubt.kind == kind
+    assert says in doubt.message
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("U(+)", "U(-)", r"line 20: expected the sequence of the columns, as in 'Time U\(\+\); N\(\+\); E\(\+\)', found 'Time U\(-\)"),
+        ("N(+)", "Q(+)", "expected the sequence of the columns"),
+        ("N(+)", "E(+)", "expected the sequence of the columns"),
+        ("gal. DC", "volt. DC", "line 16: expected a unit of acceleration such as gal, found 'volt. DC"),
+        ("SampleRate(Hz): 100", "SampleRate(Hz): 200", "its header says 200 Hz, its times are 0.01 s apart: the file is damaged"),
+        ("SampleRate(Hz): 100", "SampleRate(Hz): no", "line 15: expected samples per second, found 'no'"),
+        ("#SampleRate", "#SampleRat", "the header of a CWA file lacks the line #SampleRate"),
+        ("2020/01/02-11:04:05", "2020/13/02-11:04:05", "line 13: expected a time such as 1999/09/20-17:47:15.000"),
+        ("\n     0.500", "\n     0.510", "its time is uneven"),
+        ("\n     0.500", "\n     0.5x0", "line 72: expected a number in column Time, found '0.5x0'"),
+    ],
+)  # fmt: skip
+def test_what_is_not_understood_is_refused_with_its_line(file, old, new, says):
+    """A sign, a letter, a unit, a rate, a time."""
+    assert old in WHOLE
+    with pytest.raises(RecordError, match=says):
+        read(file(WHOLE.replace(old, new)))
+
+
+def test_options_must_agree_with_the_header(file):
+    """As with every format that says its unit and its interval."""
+    path = file(WHOLE)
+    assert read(path, units="gal", dt=0.01, format="CWB").codes == ("NS", "EW", "UD")
+    with pytest.raises(UnitError, match="is in gal by its own header"):
+        read(path, units="g")
+    with pytest.raises(ParameterError, match=r"its header says dt = 0\.01 s"):
+        read(path, dt=0.02)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.9])
+def test_a_file_that_is_cut_is_refused_or_doubted(file, share):
+    """Wherever it ends."""
+    try:
+        record = read(file(WHOLE[: int(share * len(WHOLE))]))
+    except InputError:
+        return
+    assert "count" in {doubt.kind for doubt in record.doubts}
