@@ -6,7 +6,7 @@ from seisblock.dynamics import Change
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import Run
 from seisblock.solvers.respond.setting import Setting
-from seisblock.words import noted, said
+from seisblock.words import noted, said, said_name
 
 REST, SLIDE, ROCK = noted("rest"), noted("slide"), noted("rock")
 SLIDE_ROCK, FLIGHT, OVERTURNED = noted("slide-rock"), noted("flight"), noted("overturned")
@@ -57,7 +57,7 @@ def event_name(change: Change) -> str:
 
 def warnings(run: Run, setting: Setting, end_s: float, settle_s: float) -> tuple[str, ...]:
     """Return what the user should know before believing the numbers."""
-    name = setting.stand.name
+    name = said_name(setting.stand.name)
     impacts, jams, lowered = (int(run.final[state]) for state in (names.IMPACTS, names.JAMS, names.LOWERED))
     found: list[str] = []
     if run.mode == names.GAVE_UP:

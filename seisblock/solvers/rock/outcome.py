@@ -15,7 +15,7 @@ from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate
 from seisblock.solvers.rock.forces import demand
 from seisblock.solvers.rock.rocker import Rocker
-from seisblock.words import Said, said
+from seisblock.words import Said, said, said_name
 
 STANDING = Fate(False, 0, (0.0, 0.0))
 """Nothing happens after the record."""
@@ -171,7 +171,7 @@ def phases(trajectory: Trajectory, start_s: float) -> Sequence[Phase]:
 def warnings(block: Rocker, outcome: RockOutcome) -> tuple[Said, ...]:
     """Return what the user should know before believing the numbers."""
     found = []
-    name, level = block.block.name, outcome.threshold_m_s2 / block.gravity
+    name, level = said_name(block.block.name), outcome.threshold_m_s2 / block.gravity
     if level > 1.0:
         found.append(said("{name}: wider than tall; it rocks only above {level:.2f} g and will rather slide", name=name, level=level))
     if outcome.contact_lost:
