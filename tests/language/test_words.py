@@ -3,6 +3,7 @@
 import copy
 import json
 import pickle
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from click.testing import CliRunner
 from seisblock import words
 from seisblock.cli import main
 from seisblock.cli.language import asked_in
+from seisblock.cli.talk import in_this_language
 from seisblock.errors import BodyError, OutputError, RecordNotFoundError, SeisblockError
 from seisblock.present.directions import side
 from seisblock.words import Said, language, noted, plain_text, said, speaking, tell
@@ -211,3 +213,11 @@ def test_what_was_once_said_wrongly_in_japanese(text, values, sentence):
     """Sliding while it rocks is not part of the flight; how long a corner is in the air is not when it lifts."""
     with speaking("ja"):
         assert tell(text, **values) == sentence
+
+
+def test_what_another_thread_says_is_in_the_language_of_the_command():
+    """Kernels are compiled in threads that know nothing of ``--lang``."""
+    with speaking("ja"):
+        told = in_this_language()
+    with ThreadPoolExecutor(1) as pool:
+        assert pool.submit(told, said("stands still")).result() == "動かない"

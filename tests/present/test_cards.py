@@ -11,7 +11,7 @@ from seisblock.studies.standing.governing import Governing
 from seisblock.studies.standing.probability import Probability, Versions
 from tests.present.long_record import response
 
-ENDS = {name: 0.0 for name in ("q05", "q25", "q50", "q75", "q95")}
+ENDS = dict.fromkeys(("q05", "q25", "q50", "q75", "q95"), 0.0)
 
 
 def effect(name, fell_at, share):

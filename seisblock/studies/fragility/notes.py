@@ -73,4 +73,8 @@ def ranges_noted(bodies: Sequence[Placed], solver: str) -> list[Said]:
     """Return a sentence for each body whose versions lie within the ranges of its own kind; friction plays no part in rocking."""
     ranges = ((placed.name, getattr(placed.body, "ranges", None)) for placed in bodies)
     known = ((name, told.without("mu") if told and solver == "rock" else told) for name, told in ranges)
-    return [said("{body}: its versions lie within its own ranges: {ranges}", body=said_name(name), ranges=told.says) for name, told in known if told]
+    return [
+        said("{body}: its versions lie within its own ranges: {ranges}", body=said_name(name), ranges=told.says)
+        for name, told in known
+        if told
+    ]
