@@ -128,4 +128,4 @@ def test_a_block_without_a_name_is_one_in_japanese():
     """What the solvers warn of names it as tables do."""
     motion = Motion.from_arrays(np.zeros(10), 0.01)
     with speaking("ja"):
-        assert [tell(text) for text in solve_rock(Block(1.0, 0.5), motion).warnings][0].startswith("物体：")
+        assert tell(solve_rock(Block(1.0, 0.5), motion).warnings[0]).startswith("物体：")
