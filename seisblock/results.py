@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property, partial
 from operator import eq
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
@@ -194,7 +194,11 @@ def no_histories() -> Histories:
     return Histories(np.empty(0))
 
 
-@dataclass(frozen=True, eq=False)
+FACTS = 5
+"""How many numbers of its outcome a response shows in a line."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Response(Drawn, Generic[Outcome]):
     """The answer of a solver to one motion.
 
@@ -246,6 +250,14 @@ class Response(Drawn, Generic[Outcome]):
     def channels(self) -> tuple[Channel, ...]:
         """Quantities on that axis; displacements are relative to the ground unless the name says otherwise."""
         return self.histories.channels
+
+    def __repr__(self) -> str:
+        """Return the model, what shook and what stood there, the first facts of the outcome, and how it ended: no curves and no lists."""
+        found = ((each.name, getattr(self.outcome, each.name)) for each in fields(self.outcome))  # type: ignore[arg-type]
+        plain = [(name, value) for name, value in found if isinstance(value, (bool, int, float, str))]
+        facts = [f"{name}={value:.6g}" if isinstance(value, float) else f"{name}={value!r}" for name, value in plain]
+        body, outcome = getattr(self.body, "name", "") or type(self.body).__name__, ", ".join(facts[:FACTS])
+        return f"<Response {self.model} of {body} under {self.motion.name or 'x'}: {outcome}; {self.status.name.lower()}>"
 
     def __getstate__(self) -> dict[str, Any]:
         """Return what is pickled: the curves themselves stand for what makes them, which belongs to this process."""

@@ -163,8 +163,8 @@ class SeisblockGroup(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""
-        told = in_this_language()  # kernels are compiled in other threads, too
-        _jit.announce, _jit.at_work = lambda message: say(told(message)), lambda what: progress(told(what))
+        spoken = in_this_language()  # kernels are compiled in other threads, too
+        _jit.announce, _jit.at_work = lambda message: say(spoken(message)), lambda what: progress(spoken(what))
         forget()
         try:
             with ending_in_order(), ledger(sys.stdout), quietly("--quiet" in ctx.obj or None), progress("working"):

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.present.directions import moved, moved_by, side
-from seisblock.present.scales import length_unit, told_length
+from seisblock.present.scales import length_unit, told_length, told_size
 from seisblock.present.text.respond import share, varied
 from seisblock.present.text.respond import verdict as told
 from seisblock.present.text.rock import way_to_alpha
@@ -81,6 +81,8 @@ def verdict(effect: Effect) -> str:
     if effect.kind == "slide":
         if not outcome.slips:
             return tell("does not slide")
+        if told_size(outcome.max_slip_m) != told_length(outcome.max_slip_m):
+            return tell("slides {path} in all", path=told_size(outcome.path_m))
         return tell("slides up to {most}", most=told_length(outcome.max_slip_m))
     if effect.kind == "jump":
         if outcome.outcome == JUMPED:
@@ -201,9 +203,9 @@ def _slide(effect: Effect, outcome: Any) -> Iterator[str]:
     yield tell(
         text,
         start=outcome.slip_start_s,
-        most=told_length(outcome.max_slip_m, unit),
+        most=told_size(outcome.max_slip_m, unit),
         time=outcome.max_slip_time_s,
-        rest=moved(told_length(abs(outcome.residual_slip_m), unit), effect.response.motion.name, outcome.residual_slip_m),
+        rest=moved(told_size(outcome.residual_slip_m, unit), effect.response.motion.name, outcome.residual_slip_m),
     )
 
 
