@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from functools import cached_property, partial
 from operator import eq
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
@@ -12,7 +12,7 @@ import numpy as np
 
 from seisblock.dynamics.status import Status
 from seisblock.records.motion import Motion
-from seisblock.showing import Drawn
+from seisblock.showing import Drawn, in_a_line
 from seisblock.typing import FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -194,10 +194,6 @@ def no_histories() -> Histories:
     return Histories(np.empty(0))
 
 
-FACTS = 5
-"""How many numbers of its outcome a response shows in a line."""
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class Response(Drawn, Generic[Outcome]):
     """The answer of a solver to one motion.
@@ -252,12 +248,10 @@ class Response(Drawn, Generic[Outcome]):
         return self.histories.channels
 
     def __repr__(self) -> str:
-        """Return the model, what shook and what stood there, the first facts of the outcome, and how it ended: no curves and no lists."""
-        found = ((each.name, getattr(self.outcome, each.name)) for each in fields(self.outcome))  # type: ignore[arg-type]
-        plain = [(name, value) for name, value in found if isinstance(value, (bool, int, float, str))]
-        facts = [f"{name}={value:.6g}" if isinstance(value, float) else f"{name}={value!r}" for name, value in plain]
-        body, outcome = getattr(self.body, "name", "") or type(self.body).__name__, ", ".join(facts[:FACTS])
-        return f"<Response {self.model} of {body} under {self.motion.name or 'x'}: {outcome}; {self.status.name.lower()}>"
+        """Return what it is in a line, without curves and lists."""
+        body = getattr(self.body, "name", "") or type(self.body).__name__
+        about = f"Response {self.model} of {body} under {self.motion.name or 'x'}"
+        return in_a_line(about, self.outcome, self.status.name.lower())
 
     def __getstate__(self) -> dict[str, Any]:
         """Return what is pickled: the curves themselves stand for what makes them, which belongs to this process."""

@@ -91,22 +91,6 @@ def noted(word: str) -> str:
     return word
 
 
-def said_name(name: str) -> Said:
-    """Return the name of a body as a value of what is said: told where it is one of ours, made harmless where a file gave it.
-
-    Parameters
-    ----------
-    name : str
-
-    Examples
-    --------
-    >>> with speaking("ja"):
-    ...     tell("{name}", name=said_name("gravestone"))
-    '墓石'
-    """
-    return said(plain_text(name))
-
-
 def tell(text: str, /, **values: Any) -> str:
     """Return a text in the language now spoken.
 

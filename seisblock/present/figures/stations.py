@@ -86,7 +86,7 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
     values, label, most = shown_values(found, subject, gal=gal)
     places = np.array([located(found, answer.longitude, answer.latitude) for answer in found.mapped])
     order = np.arange(len(places))[::-1]  # the worst on top
-    rims = [RIM if falls_nominally(answer) else EDGE for answer in found.mapped[::-1]]
+    rims = [RIM if answer.effect.falls_nominally else EDGE for answer in found.mapped[::-1]]
     points = axis.scatter(
         places[order, 0],
         places[order, 1],
@@ -166,20 +166,10 @@ def shown_values(found: Stations, subject: WhatStands | None, *, gal: bool) -> t
         return values, f"PGA ({unit.name})", float(values.max()) or 1.0
     if isinstance(subject, StandingBody):
         name = tell("share that falls") if subject.runs else tell(HAPPENS[subject.solver])
-        if any(falls_nominally(answer) for answer in found.mapped):
+        if any(answer.effect.falls_nominally for answer in found.mapped):
             name = tell("share that falls; thick rim: falls as given")
         return np.array([_share(answer) for answer in found.mapped]), name, 1.0
     return np.array([answer.effect.rate or 0.0 for answer in found.mapped]), tell("share that falls"), 1.0
-
-
-def falls_nominally(answer: StationAnswer) -> bool:
-    """Whether a body falls at a station as it was given, where the colour tells of its versions, of which none may fall.
-
-    Parameters
-    ----------
-    answer : StationAnswer
-    """
-    return answer.effect.probability is not None and bool(answer.effect.overturned)
 
 
 def surveyed_value(answer: SurveyAnswer, subject: WhatStands | None, *, gal: bool) -> float:

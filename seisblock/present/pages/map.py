@@ -12,7 +12,6 @@ from seisblock.present.coast import coast_within
 from seisblock.present.figures.stations import (
     KM_PER_DEGREE,
     epicentre_of,
-    falls_nominally,
     framed,
     located,
     shade,
@@ -136,7 +135,7 @@ def _point(answer: StationAnswer, row: list[str], heads: list[str], colour: str,
     return {
         "name": answer.label,
         "colour": colour,
-        "falls": falls_nominally(answer),
+        "falls": answer.effect.falls_nominally,
         "told": [*told, [tell("record"), answer.record], [tell("begins"), answer.local_start]],
         "failure": tell(answer.failure) if answer.failure else "",
         "outline": [[round(value / GAL, 1) for value in pair] for pair in answer.outline],

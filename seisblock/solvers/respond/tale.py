@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from seisblock.bodies.called import said_name
 from seisblock.dynamics import Change
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import Run
 from seisblock.solvers.respond.setting import Setting
-from seisblock.words import noted, said, said_name
+from seisblock.words import noted, said
 
 REST, SLIDE, ROCK = noted("rest"), noted("slide"), noted("rock")
 SLIDE_ROCK, FLIGHT, OVERTURNED = noted("slide-rock"), noted("flight"), noted("overturned")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock.bodies.called import said_name
 from seisblock.dynamics import Change, Trajectory
 from seisblock.records import Motion
 from seisblock.results import Phase, phases_between
@@ -15,7 +16,7 @@ from seisblock.solvers.rock import model
 from seisblock.solvers.rock.aftermath import Fate
 from seisblock.solvers.rock.forces import demand
 from seisblock.solvers.rock.rocker import Rocker
-from seisblock.words import Said, said, said_name
+from seisblock.words import Said, said
 
 STANDING = Fate(False, 0, (0.0, 0.0))
 """Nothing happens after the record."""

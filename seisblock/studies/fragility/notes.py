@@ -6,13 +6,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from seisblock.bodies.called import said_name
 from seisblock.studies.batch.models import Placed
 from seisblock.studies.fragility.answer import Fragility
 from seisblock.studies.fragility.estimate import CLOUD, IDA, Rules
 from seisblock.studies.fragility.intensity import factors_for
 from seisblock.studies.fragility.limits import said_limit
 from seisblock.typing import FloatArray
-from seisblock.words import Said, said, said_name
+from seisblock.words import Said, said
 
 LARGE = 10.0
 """Records scaled by more than this are hardly the records any more."""

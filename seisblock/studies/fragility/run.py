@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from seisblock import checks
+from seisblock.bodies.called import said_name
 from seisblock.bodies.library import along
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
@@ -31,7 +32,7 @@ from seisblock.studies.fragility.suite import Suite, read_suite, suite_of
 from seisblock.studies.intervals import CONFIDENCE
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
 from seisblock.units import STANDARD_GRAVITY
-from seisblock.words import noted, said, said_name
+from seisblock.words import noted, said
 
 AROUND = noted(
     "each record counts once: it passes a limit where it does so in any direction, in steps of {step:g} degrees; intensities are the "
