@@ -12,7 +12,7 @@ import numpy as np
 
 from seisblock.dynamics.status import Status
 from seisblock.records.motion import Motion
-from seisblock.showing import Drawn
+from seisblock.showing import Drawn, in_a_line
 from seisblock.typing import FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -194,7 +194,7 @@ def no_histories() -> Histories:
     return Histories(np.empty(0))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Response(Drawn, Generic[Outcome]):
     """The answer of a solver to one motion.
 
@@ -246,6 +246,12 @@ class Response(Drawn, Generic[Outcome]):
     def channels(self) -> tuple[Channel, ...]:
         """Quantities on that axis; displacements are relative to the ground unless the name says otherwise."""
         return self.histories.channels
+
+    def __repr__(self) -> str:
+        """Return what it is in a line, without curves and lists."""
+        body = getattr(self.body, "name", "") or type(self.body).__name__
+        about = f"Response {self.model} of {body} under {self.motion.name or 'x'}"
+        return in_a_line(about, self.outcome, self.status.name.lower())
 
     def __getstate__(self) -> dict[str, Any]:
         """Return what is pickled: the curves themselves stand for what makes them, which belongs to this process."""

@@ -7,6 +7,7 @@ the package's face (``seisblock/__init__.py``) hands over how to fetch it, and i
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import fields
 from typing import Any, Protocol
 
 
@@ -40,6 +41,18 @@ def painter() -> Painter:
     if _fetch is None:
         raise RuntimeError("nothing draws here: import seisblock, which brings the drawing room along")
     return _fetch()
+
+
+FACTS = 5
+"""How many numbers of an outcome are shown in a line."""
+
+
+def in_a_line(about: str, outcome: Any, ended: str) -> str:
+    """Return what a value is, the first plain facts of its outcome, a dataclass, and how it ended."""
+    found = ((each.name, getattr(outcome, each.name)) for each in fields(outcome))
+    plain = [(name, value) for name, value in found if isinstance(value, (bool, int, float, str))]
+    facts = [f"{name}={value:.6g}" if isinstance(value, float) else f"{name}={value!r}" for name, value in plain]
+    return f"<{about}: {', '.join(facts[:FACTS])}; {ended}>"
 
 
 class Shown:

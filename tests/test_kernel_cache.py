@@ -82,6 +82,14 @@ def test_a_second_process_compiles_nothing(folder):
     assert kept(folder) == before
 
 
+def test_kernels_that_another_command_left_out_are_announced(folder):
+    """A folder that holds some kernels is no reason to compile the others in silence; it is said once."""
+    for path in folder.rglob("polynomial.first_crossing*"):
+        path.unlink()
+    assert answers(folder) == ["compiling the kernels, once; seconds, for the largest half a minute..."]
+    assert answers(folder) == []
+
+
 SPOILT = {
     "empty": lambda data: b"",
     "half": lambda data: data[: len(data) // 2],

@@ -113,7 +113,7 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
         _given_up = True
     if _given_up:
         return compiled(False)
-    if not any(place.iterdir()):
+    if not is_kept(function):
         _once(say, said("compiling the kernels, once; seconds, for the largest half a minute..."))
     with _numba_keeps_in(place):
         try:

@@ -16,8 +16,8 @@ from seisblock.words import said
 UNIT = re.compile(r"(.*?)\s*[(\[]\s*(.+?)\s*[)\]]\s*\Z")
 """A heading with a unit: ``height (cm)``."""
 
-YES = frozenset({"1", "1.0", "yes", "y", "true", "t", "○", "〇", "有", "有り", "あり"})
-NO = frozenset({"0", "0.0", "no", "n", "false", "f", "×", "無", "無し", "なし"})
+YES = frozenset({"1", "1.0", "yes", "y", "true", "t", "○", "〇", "◯", "有", "有り", "あり", "はい"})
+NO = frozenset({"0", "0.0", "no", "n", "false", "f", "×", "✕", "無", "無し", "なし", "いいえ"})
 """What people write in a cell that asks yes or no, without case."""
 
 MOST_NAMED = 5

@@ -24,7 +24,7 @@ from seisblock.cli.manners import TERMINATED, Terminated, discard_stdout, ending
 from seisblock.cli.meant import asking, asking_for_options, nearest, suggested
 from seisblock.cli.progress import progress
 from seisblock.cli.quiet import quietly
-from seisblock.cli.talk import forget, say
+from seisblock.cli.talk import forget, in_this_language, say
 from seisblock.errors import OutputError, SeisblockError, reason
 from seisblock.ledger import ledger
 from seisblock.words import noted, on_a_screen, plain_text, said, tell
@@ -163,7 +163,8 @@ class SeisblockGroup(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke the command and report what the user can mend."""
-        _jit.announce, _jit.at_work = say, progress
+        spoken = in_this_language()  # kernels are compiled in other threads, too
+        _jit.announce, _jit.at_work = lambda message: say(spoken(message)), lambda what: progress(spoken(what))
         forget()
         try:
             with ending_in_order(), ledger(sys.stdout), quietly("--quiet" in ctx.obj or None), progress("working"):

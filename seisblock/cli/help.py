@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 
 import click
 
 from seisblock.present.wrap import is_wide, wrapped
 from seisblock.words import tell
+
+CLICKS_OWN = re.compile(r"  \[([^\[\]]*)\]\Z")
+"""A default as click puts it behind a meaning; among wide letters brackets are wide, as in what is written by hand."""
 
 
 def paragraphs(text: str) -> list[str]:
@@ -59,4 +63,5 @@ def rows_of(parameters: Iterable[click.Parameter], ctx: click.Context) -> Iterat
         row = parameter.get_help_record(ctx)
         if row is not None:
             text = getattr(parameter, "help", None) or ""
-            yield parameter, (row[0], row[1].replace(text, tell(text), 1))
+            meaning = row[1].replace(text, tell(text), 1)
+            yield parameter, (row[0], CLICKS_OWN.sub(r"［\1］", meaning) if is_wide(meaning) else meaning)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import click
 
 from seisblock.cli.progress import end, hushed
 from seisblock.cli.quiet import is_quiet
-from seisblock.words import plain_text, said, tell
+from seisblock.words import language, plain_text, said, speaking, tell
 
 _warned: set[str] = set()
 """What was warned of in this run: nothing is warned of twice."""
@@ -19,6 +19,17 @@ def say(text: str, /, **values: Any) -> None:
     """Say one line on stderr: a template with its values, or a text that was said below."""
     if not is_quiet():
         _write(tell(text, **values), dim=True)
+
+
+def in_this_language() -> Callable[[str], str]:
+    """Return what tells a text in the language that is spoken now, whichever thread asks."""
+    spoken = language()
+
+    def told(text: str) -> str:
+        with speaking(spoken):
+            return tell(text)
+
+    return told
 
 
 def warn(text: str, /, **values: Any) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from seisblock.present.scales import IN_WORDS, length_unit, told_length
+from seisblock.present.scales import told_size
 from seisblock.records import Motion
 from seisblock.words import noted, tell
 
@@ -68,12 +68,7 @@ def moved_by(length: float, name: str, *, gal: bool = True) -> str:
     >>> moved_by(-0.448, "NS"), moved_by(0.0, "NS"), moved_by(1e-6, "NS")
     ('44.8 cm to -NS', '0.0 cm', 'less than 0.01 mm to +NS')
     """
-    unit = length_unit([length], gal=gal)
-    least = 10.0 ** -IN_WORDS[unit.name]
-    told = told_length(abs(length), unit)
-    if length and abs(length) < least * unit.size / 2:
-        told = tell("less than {length}", length=f"{least:g} {unit.name}")
-    return moved(told, name, length)
+    return moved(told_size(length, gal=gal), name, length)
 
 
 def towards(degrees: float, motion: Motion) -> str:

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from seisblock.units import GAL, KINE, LENGTH_UNITS
+from seisblock.words import tell
 
 SMALL = 0.00995
 """Lengths below this are told in mm, m: what is larger would be written as 1 cm."""
@@ -92,6 +93,21 @@ def told_length(length: float, unit: Unit | None = None, *, gal: bool = True) ->
         return f"{length / size:.3g} {name}"
     decimals = IN_WORDS[name] if abs(length) < LARGE else 1
     return f"{round(length / size, decimals) + 0.0:.{decimals}f} {name}"
+
+
+def told_size(length: float, unit: Unit | None = None, *, gal: bool = True) -> str:
+    """Return how large a length is, m, with its unit; what is written as nothing and is something is less than the least that is written.
+
+    Examples
+    --------
+    >>> told_size(-0.0047), told_size(0.0), told_size(1e-6)
+    ('4.70 mm', '0.0 cm', 'less than 0.01 mm')
+    """
+    unit = unit or length_unit([length], gal=gal)
+    least = 10.0 ** -IN_WORDS[unit.name]
+    if length and abs(length) < least * unit.size / 2:
+        return tell("less than {length}", length=f"{least:g} {unit.name}")
+    return told_length(abs(length), unit)
 
 
 def length_cell(length: float | None, unit: Unit) -> str:

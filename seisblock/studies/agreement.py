@@ -60,12 +60,18 @@ class Opinion:
         times, or where nobody looked.
     made_for_it : bool
         Whether the model was made for objects like this one.
+    frequency_hz : float or None
+        Of the half sine: PGA/(2 pi PGV) of the motion.
+    worn : bool or None
+        Of a closed form for blocks, whether it was asked about worn edges, or about those of the drawing.
     """
 
     model: str
     falls: bool
     factor: float | None
     made_for_it: bool = False
+    frequency_hz: float | None = None
+    worn: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -170,19 +176,15 @@ def _by_formula(block: Block, stone: Block, motion: Motion, pga: float, fit: Gra
     ratio, (low, high) = stone.height / stone.width, FITTED_RATIO
     like = LIKE_A_GRAVESTONE[0] <= stone.width / PAPER_WIDTH <= LIKE_A_GRAVESTONE[1] and low <= ratio <= high
     if frequency is not None and fit is not None and like:
-        found.append(_formula(GRAVESTONES, float(overturning_pga(ratio, frequency, fit)) / pga, made_for_it=True))
+        factor = float(overturning_pga(ratio, frequency, fit)) / pga
+        found.append(Opinion(GRAVESTONES, factor < 1.0, factor, made_for_it=True))
     if frequency is not None:
         level = half_sine_acceleration(block.slenderness, block.frequency_parameter(gravity), frequency, gravity)
-        found.append(_formula(PULSE, level / pga))
+        found.append(Opinion(PULSE, level < pga, level / pga, frequency_hz=frequency, worn=block.inset > 0.0))
     if pgv > 0.0:
         limits = ishiyama_acceleration(width, height, gravity) / pga, ishiyama_velocity(width, height) / pgv
-        found.append(_formula(ISHIYAMA, max(limits)))
+        found.append(Opinion(ISHIYAMA, max(limits) < 1.0, max(limits), worn=block.inset > 0.0))
     return found
-
-
-def _formula(model: str, factor: float, *, made_for_it: bool = False) -> Opinion:
-    """Return the opinion of a model that has one threshold."""
-    return Opinion(model, factor < 1.0, factor, made_for_it)
 
 
 def pile_agreement(response: Response[StackOutcome]) -> Agreement | None:

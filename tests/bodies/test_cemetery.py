@@ -8,7 +8,9 @@ import pytest
 from seisblock.bodies.cemetery.cemetery import Cemetery, Stone
 from seisblock.bodies.cemetery.table import parse_cemetery, read_cemetery
 from seisblock.errors import BodyError
+from seisblock.present.text.tables import number
 from seisblock.readers import sample_path
+from seisblock.words import speaking
 from tests import make_aoyama
 
 SURVEY = """\
@@ -149,3 +151,14 @@ def test_aoyama_has_the_printed_shares_and_says_that_it_is_reconstructed():
 def test_the_script_makes_aoyama_again():
     """The script gives the bundled bytes."""
     assert make_aoyama.make().encode() == sample_path("aoyama.csv").read_bytes()
+
+
+@pytest.mark.parametrize("lang", ["en", "ja"])
+def test_what_the_program_prints_is_read_back(lang):
+    """Yes and no as tables print them, in either language, and as surveys mark them."""
+    with speaking(lang):
+        yes, no = number(True), number(False)
+    for fell, stood in ((yes, no), ("○", "×"), ("◯", "✕"), ("有", "無"), ("転倒", "残存")):
+        found = parse_cemetery(f"H/B,転倒,補強\n2.6,{fell},{no}\n3.1,{stood},{yes}\n")
+        assert [stone.fallen for stone in found.stones] == [True, False]
+        assert found.reinforced.tolist() == [False, True]

@@ -2,11 +2,20 @@
 
 import csv
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from seisblock import Block, solve_rock
 from seisblock.cli import main
+from seisblock.records import Motion
+from seisblock.studies.fragility.answer import Fragility
+from seisblock.studies.fragility.estimate import IDA, Rules
+from seisblock.studies.fragility.intensity import intensity_measure
+from seisblock.studies.fragility.notes import notes_on
+from seisblock.words import speaking, tell
 from tests.motions import synthetic_suite
 
 SHELF = ("--width", "30cm", "--height", "1.2", "--solver", "rock", "--im", "pgv", "--dt", "0.02", "--bootstrap", "20")
@@ -99,3 +108,24 @@ def test_a_file_that_cannot_be_read_is_left_out_and_told(folder, tmp_path):
     answer = run(f"@{tmp_path / 'list.txt'}", *SHELF, "--levels", "10:150:20")
     assert answer.exit_code == 0 and "left out: " in answer.stderr and "gone.csv" in answer.stderr
     assert run(f"@{tmp_path / 'list.txt'}", *SHELF, "--strict").exit_code == 3
+
+
+def test_bodies_and_limits_have_their_names_in_japanese(folder):
+    """In the first line and in warnings, as in the table; a name of somebody's own stays, and commands no terminal."""
+    answer = CliRunner().invoke(main, ["--lang", "ja", "fragility", str(folder), *SHELF[4:], "--block", "gravestone", "--quiet"])
+    assert answer.exit_code == 0, answer.stderr
+    assert answer.stdout.startswith("墓石、転倒：")
+    warned = Fragility("gravestone", "slip=0.05m", "pgv", "m/s", IDA, 3, 3, 0, 0, 0, (), problem="none")
+    own = replace(warned, body="{odd}\x1b[31m", limit="overturn")
+    rules = Rules(IDA, (intensity_measure("pgv"),), 0.95, 0, 0)
+    with speaking("ja"):
+        told = [tell(note) for note in notes_on([warned, own], [np.ones(3)], rules)]
+    assert any(text.startswith("墓石、移動 0.05 m：") for text in told)
+    assert any(text.startswith("{odd}\\x1b[31m、転倒：") for text in told)
+
+
+def test_a_block_without_a_name_is_one_in_japanese():
+    """What the solvers warn of names it as tables do."""
+    motion = Motion.from_arrays(np.zeros(10), 0.01)
+    with speaking("ja"):
+        assert tell(solve_rock(Block(1.0, 0.5), motion).warnings[0]).startswith("物体：")

@@ -12,7 +12,7 @@ from seisblock.bodies.block import Block
 from seisblock.cli import main
 from seisblock.present.figures.respond import figure
 from seisblock.present.scales import length_unit
-from seisblock.present.text.respond import share, signed
+from seisblock.present.text.respond import share, signed, verdict
 from seisblock.records import Motion
 from seisblock.solvers.respond import solve_respond
 from seisblock.studies.standing.probability import Probability, Versions
@@ -220,6 +220,19 @@ def test_where_friction_meets_slenderness_it_slides():
     words = ("--width", "50cm", "--height", "100cm", "--mu", "0.5", "--runs", "0", "--quiet", "--component", "NS", "--no-vertical")
     shown = run(*words).stdout
     assert "slides first, above 490 gal" in shown and "never rocks" in shown
+
+
+def test_tenons_hold_the_feet_before_friction_does():
+    """What stands on tenons rocks first, whatever the friction: so say the verdict, the table and the figure."""
+    motion = Motion.from_arrays(1.8 * np.sin(0.1 * np.arange(700)), 0.01, name="NS")
+    held, free = (solve_respond(Block(0.5, 1.0), motion, mu=0.2, tenon=tenon) for tenon in (0.02, 0.0))
+    assert verdict(held) == "NS: stands still; rocks from 490.3 gal on, 2.72 times this record's PGA."
+    assert verdict(free) == "NS: stands still; slides from 196.1 gal on, 1.09 times this record's PGA."
+    levels = [figure([found]).axes[0].get_legend_handles_labels()[1] for found in (held, free)]
+    assert "slides: μ" in levels[1] and "slides: μ" not in "".join(levels[0])
+    words = ("--width", "50cm", "--height", "100cm", "--mu", "0.2", "--tenon", "2cm", "--runs", "0", "--quiet", "--component", "NS")
+    shown = " ".join(run(*words).stdout.split())
+    assert "tenons 2.0 cm; once left, mu 0.2, kinetic 0.2; rocks first, above 490 gal" in shown
 
 
 @pytest.mark.parametrize(

@@ -129,10 +129,10 @@ def test_a_doubt_about_one_of_several_curves_says_about_which():
 
 
 def test_what_happens_is_listed_as_the_language_lists():
-    """The body and what becomes of it, with the comma of the language spoken."""
-    given = GivenFragility("stone", "rock", "PGV", "m/s", Lognormal(0.6, 0.4))
+    """The body and what becomes of it, by their names and with the comma of the language spoken."""
+    given = GivenFragility("bookcase", "rock", "PGV", "m/s", Lognormal(0.6, 0.4))
     names = {}
     for spoken in ("en", "ja"):
         with speaking(spoken):
             names[spoken] = name_of(given)
-    assert names["en"].startswith("stone, ") and names["ja"].startswith("stone、")
+    assert names["en"].startswith("bookcase, ") and names["ja"].startswith("書棚、")

@@ -237,6 +237,7 @@ def test_help_is_in_japanese(command, spoken):
     """Lines of commands and of options; examples are command lines."""
     answer = spoken((*command.split(), "--help"), "ja")
     assert answer.exit_code == 0 and not english_in(answer.stdout)
+    assert not re.search(r"\[既定|既定値|ます。|です。", answer.stdout), "one bracket and one style for all commands"
 
 
 @pytest.mark.parametrize("lang", words.LANGUAGES)

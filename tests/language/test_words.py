@@ -3,6 +3,7 @@
 import copy
 import json
 import pickle
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from click.testing import CliRunner
 from seisblock import words
 from seisblock.cli import main
 from seisblock.cli.language import asked_in
+from seisblock.cli.talk import in_this_language
 from seisblock.errors import BodyError, OutputError, RecordNotFoundError, SeisblockError
 from seisblock.present.directions import side
 from seisblock.words import Said, language, noted, plain_text, said, speaking, tell
@@ -197,3 +199,25 @@ def test_a_blank_parts_japanese_from_latin_letters_only(direction, sentence):
         assert tell("overturns to {side} at {time:.2f} s", side=side(direction, 1.0), time=25.9) == sentence
         assert tell("{path} to {towards}", path="石", towards=side(direction, 1.0)).endswith("へ石")
         assert tell("{a} {b}", a="益城", b="宮園") == "益城 宮園", "blanks of a name, and between two values, stay"
+
+
+@pytest.mark.parametrize(
+    ("text", "values", "sentence"),
+    [
+        ("  both, in flight (s)", {}, "  両方同時、跳躍 (s)"),
+        ("{time:.2f} s in the air", {"time": 35.46}, "合計 35.46 秒間浮く"),
+        ("{time:.2f} s in the air, the first", {"time": 35.46}, "最初に浮く、合計 35.46 秒間"),
+    ],
+)
+def test_what_was_once_said_wrongly_in_japanese(text, values, sentence):
+    """Sliding while it rocks is not part of the flight; how long a corner is in the air is not when it lifts."""
+    with speaking("ja"):
+        assert tell(text, **values) == sentence
+
+
+def test_what_another_thread_says_is_in_the_language_of_the_command():
+    """Kernels are compiled in threads that know nothing of ``--lang``."""
+    with speaking("ja"):
+        told = in_this_language()
+    with ThreadPoolExecutor(1) as pool:
+        assert pool.submit(told, said("stands still")).result() == "動かない"

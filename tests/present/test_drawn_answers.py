@@ -20,6 +20,7 @@ from seisblock.studies.rocking.azimuths import RockAzimuth
 from seisblock.validation.furukawa_field import MODELS, SURVEYED
 from seisblock.validation.furukawa_field import rates as field_rates
 from seisblock.validation.furukawa_surveys import SURVEYS
+from seisblock.words import speaking
 from tests.present.long_record import (
     AOYAMA,
     EVERY,
@@ -143,7 +144,10 @@ def test_a_rose_names_the_side_to_which_the_worst_falls():
     assert worst.outcome.overturned
     for towards, azimuth in (("-x", 330), ("+x", 150)):
         found = [RockAzimuth(90.0, False, None, None, 0.4, 0.3), RockAzimuth(150.0, True, towards, 1.0, 5.2, 0.3)]
-        (rose,) = azimuths_figure([worst], [found]).axes
+        with speaking("en"):
+            drawn_rose = azimuths_figure([worst], [found])
+        (rose,) = drawn_rose.axes
+        assert drawn_rose.get_suptitle() == "all azimuths", "not that of the worst alone"
         assert rose.get_title("left").endswith(f"worst: azimuth {azimuth}")
         fell = [np.degrees(bar.get_x() + bar.get_width() / 2.0) for bar in rose.patches if bar.get_height() == 1.0]
         assert fell == pytest.approx([azimuth])

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from seisblock.present.faces import verdict_of
+from seisblock.present.faces import figure_of, verdict_of
 from seisblock.present.pages.report_words import sentences, verdict
 from seisblock.studies.assessment import Effect
 from seisblock.words import speaking
@@ -32,3 +32,35 @@ def test_a_share_of_a_governing_answer_has_the_same_words():
     changed = replace(found.outcome, outcome="moves", overturned=False, time_in_mode_s=time, max_rotation_ratio=0.004)
     with speaking("en"):
         assert f"rocks to {SMALL['en']}" in verdict_of(replace(found, outcome=changed))
+
+
+@pytest.mark.parametrize(("lang", "said"), [("en", "NS: slides less than 0.01 mm in all."), ("ja", "NS：合計 0.01 mm 未満すべる。")])
+def test_what_slides_a_micrometre_has_not_slid_by_nothing(lang, said):
+    """The sentence of ``slide``, as that of ``jump`` does; the card of a report does, too."""
+    found = response("slide")
+    faint = dict.fromkeys(("max_slip_m", "path_m", "residual_slip_m", "final_slip_m"), 1e-6)
+    outcome = replace(found.outcome, slips=True, fell_off_slope=False, lifted_off=False, **faint)
+    changed = replace(found, outcome=outcome, motion=replace(found.motion, name="NS"))
+    with speaking(lang):
+        assert verdict_of(changed) == said
+        assert "0.01 mm" in verdict(Effect("slide", changed, None, None))
+
+
+def test_a_figure_of_rocking_says_what_happened():
+    """As that of the governing answer does: above the ground motion."""
+    found = response("rock")
+    for fell, told in ((True, ": overturns; "), (False, ": rocks; ")):
+        outcome = replace(found.outcome, rocks=True, overturned=fell, overturned_towards="+x" if fell else None)
+        with speaking("en"):
+            titles = [axis.get_title(loc="left") for axis in figure_of([replace(found, outcome=outcome)]).axes]
+        assert any(told in title for title in titles), titles
+
+
+def test_a_response_shows_itself_in_a_line():
+    """Model, body, direction, the first facts and how it ended; of many things the page says how many it leaves out."""
+    found = response("respond")
+    assert len(repr(found)) < 300 and repr(found).startswith("<Response respond of ") and "overturned=" in repr(found)
+    with speaking("en"):
+        shown = found._repr_html_()
+    count = len(found.outcome.events)
+    assert count > 8 and f"events: 8 of {count}" in shown

@@ -1,14 +1,18 @@
 """The map of an earthquake's stations: each where it is, in the colour of what happened, to scale."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from seisblock.bodies.library import load_block
+from seisblock.present.figures.place_names import overlap
 from seisblock.present.figures.stations import figure
 from seisblock.records.site import great_circle_km
-from seisblock.studies.stations.effects import StandingStones
+from seisblock.studies.stations.effects import StandingBody, StandingStones, StationEffect
 from seisblock.studies.stations.survey import Stations
+from seisblock.studies.stations.surveys import SurveyAnswer, SurveyedPlace
 from tests.present.long_record import AOYAMA, stations
 
 
@@ -71,3 +75,31 @@ def test_without_a_subject_the_colours_are_the_shaking():
         made = figure(found, None, gal=gal)
         assert max(made.axes[0].collections[0].get_array()) == pytest.approx(8.0 / unit)
         assert made.axes[1].get_ylabel() == ("PGA (gal)" if gal else "PGA (m/s²)")
+
+
+@pytest.mark.parametrize(("west", "south"), [(0.0, 0.02), (0.02, 0.0), (-0.02, -0.01), (0.0, 0.0)])
+def test_the_worst_station_has_its_name_however_near_the_epicentre(west, south):
+    """The answer names it first; surveyed places have theirs, and no name stands on another."""
+    found, subject = stations(StandingStones(AOYAMA))
+    worst = replace(found.answers[0], latitude=35.0 - south, longitude=139.0 - west)
+    near = Stations((worst, *found.answers[1:]), found.earthquake, found.origin_told)
+    places = [SurveyedPlace(name, 35.01 + north, 139.0 + 0.2 * east, 80, 52) for name, north, east in (("北", 0.1, 0), ("East", 0.0, 1))]
+    made = figure(near, subject, surveys=[SurveyAnswer(place, SimpleNamespace(), (), None, None) for place in places])
+    made.draw_without_rendering()
+    named = {text.get_text(): text.get_window_extent() for text in made.axes[0].texts if text.get_text()}
+    assert {"X000", "北", "East"} <= set(named)
+    boxes = [box.extents for name, box in named.items() if name != "N"]
+    assert not [1 for i, one in enumerate(boxes) for other in boxes[:i] if overlap(tuple(one), tuple(other)) > 0.0]
+
+
+def test_where_it_falls_as_given_the_rim_is_thick():
+    """A station at which no version falls, and the body itself does, is told from one at which it stands; the label says how."""
+    subject = StandingBody(load_block("gravestone"), {"mu": 0.6}, runs=20)
+    found, _ = stations()
+    effects = [StationEffect(0.0, happened=fell, overturned=fell, probability=0.0) for fell in (True, False)]
+    two = [replace(answer, effect=effect) for answer, effect in zip(found.answers, effects, strict=False)]
+    made = figure(Stations(tuple(two), None, ""), subject)
+    stands, falls = made.axes[0].collections[0].get_linewidths()  # the worst on top
+    assert falls > 2.0 * stands and made.axes[1].get_ylabel() == "share that falls; thick rim: falls as given"
+    asleep = figure(Stations((two[1],), None, ""), subject)
+    assert asleep.axes[1].get_ylabel() == "share that falls"

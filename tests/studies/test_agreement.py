@@ -12,6 +12,7 @@ from seisblock.bodies.cemetery.table import read_cemetery
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.criteria.gravestones import overturning_pga
 from seisblock.measures import measure
+from seisblock.present.text.agreement import agreement_line, rates_line
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
 from seisblock.results import Response
@@ -112,3 +113,19 @@ def test_rates_of_one_cemetery():
     assert rates[SHARP_BLOCK] < rates[WORN_BLOCK] < rates[GRAVESTONES]
     assert [each.model for each in rates_by_model(cemetery, 4.2, 1.2)] == [GRAVESTONES, PULSE]
     assert [each.model for each in rates_by_model(cemetery.dowelled(), 4.2, 1.2, weak)] == [GRAVESTONES]
+
+
+def test_a_closed_form_says_of_which_frequency_and_edges_it_is():
+    """The half sine names the motion's PGA/(2 pi PGV); worn edges and those of the drawing have factors of their own, and say which."""
+    frequency = measure(RECORD, ("NS",)).components[0].equivalent_frequency_hz.pga_pgv
+    sharp, worn = (opinions(agreement(stone, MOTION)) for stone in (STONE, STONE.worn(0.1)))
+    for model in (PULSE, ISHIYAMA):
+        assert (sharp[model].worn, worn[model].worn) == (False, True)
+        assert worn[model].factor < sharp[model].factor
+    assert sharp[PULSE].frequency_hz == pytest.approx(frequency)
+    for stone, edges in ((STONE, "sharp"), (STONE.worn(0.1), "worn")):
+        told = agreement_line("NS", agreement(stone, MOTION))
+        assert f"half sine of {frequency:.3g} Hz with {edges} edges (" in told
+        assert f"Ishiyama's limits of acceleration and velocity with {edges} edges (" in told
+    rates = rates_by_model(read_cemetery("aoyama.csv"), 4.2, 1.2)
+    assert "by the half sine of 1.2 Hz with worn edges" in rates_line("NS", rates)

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from seisblock.present.directions import side
 from seisblock.present.figures import canvas
 from seisblock.present.figures.body import rose
-from seisblock.present.figures.heading import heading_of, name_of
+from seisblock.present.figures.heading import heading_over, name_of
 from seisblock.present.figures.spectrum import FELL, ROCKED
 from seisblock.present.scales import length_unit
 from seisblock.results import Response
@@ -46,7 +46,8 @@ def _drawn(responses: Sequence[Response[Any]], directions: Sequence[Directions],
     """Return the figure, the roses of a record beside or below each other."""
     across, down = 1 + slides, len(responses)
     rows, columns = (across * down, 1) if stacked else (down, across)
-    made = canvas.titled(heading_of([response.motion for response in responses]), width=0.6 + 4.4 * columns, height=1.0 + 4.2 * rows)
+    title = heading_over([response.motion.record for response in responses], [tell("all azimuths")])
+    made = canvas.titled(title, width=0.6 + 4.4 * columns, height=1.0 + 4.2 * rows)
     for row, (response, found) in enumerate(zip(responses, directions, strict=True)):
         record = response.motion.record
         called = f"{name_of(record)}: " if record is not None and down > 1 else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -13,6 +14,7 @@ from seisblock.present.figures.curves import curve
 from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.histories import Stretch, columns_of, strong_stretch
 from seisblock.present.scales import Unit, acceleration_unit, length_unit
+from seisblock.present.text.onset import grip
 from seisblock.results import Phase, Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.solvers.respond.tale import FLIGHT, ROCK, SLIDE, SLIDE_ROCK
@@ -100,12 +102,12 @@ def _ground(axis: Axes, called: str, response: Response[RespondOutcome], *, gal:
     gravity = options["gravity_m_s2"] / unit
     curve(axis, response.time, response["ground_acceleration"] / unit, color=canvas.INPUT)
     peak = float(np.abs(response["ground_acceleration"]).max()) / unit
-    levels = (
-        (-right / block.centre * gravity, left / block.centre * gravity, tell("rocks: b/h")),
-        (-options["mu"] * gravity, options["mu"] * gravity, tell("slides: μ")),
-    )
+    held, dashes = grip(options), ((0, (6, 2)), (0, (1.5, 1.5)))
+    levels = [(-right / block.centre * gravity, left / block.centre * gravity, tell("rocks: b/h"))]
+    if math.isfinite(held):
+        levels.append((-held * gravity, held * gravity, tell("slides: μ")))
     near = canvas.within_reach(axis, peak, levels, name)
-    for (low, high, text), dash, here in zip(levels, ((0, (6, 2)), (0, (1.5, 1.5))), near, strict=True):
+    for (low, high, text), dash, here in zip(levels, dashes[: len(levels)], near, strict=True):
         for level in (low, high) if here else ():
             axis.axhline(level, color=canvas.THRESHOLD, linewidth=0.8, linestyle=dash, label=text if level == low else None)
     canvas.label(axis, y=tell("a ({unit})", unit=name))

@@ -95,9 +95,10 @@ def draw_ground(axis: Any, response: Response[RockOutcome], called: str, *, gal:
     canvas.label(axis, y=tell("a ({unit})", unit=name))
     canvas.legend(axis)
     title = tell(
-        "{name}  {body}: α {alpha:.3f} rad, e {restitution:.3f}",
+        "{name}  {body}: {what}; α {alpha:.3f} rad, e {restitution:.3f}",
         name=called,
         body=tell(response.body.name),
+        what=tell("overturns") if outcome.overturned else tell("rocks") if outcome.rocks else tell("stands still"),
         alpha=outcome.slenderness_rad,
         restitution=outcome.restitution,
     )

@@ -16,6 +16,7 @@ from matplotlib.patheffects import withStroke
 from seisblock.errors import ParameterError
 from seisblock.present.coast import coast_within
 from seisblock.present.figures import canvas
+from seisblock.present.figures.place_names import Place, sides
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.map import HAPPENS
 from seisblock.records.site import EARTH_KM, beside, great_circle_km
@@ -31,18 +32,24 @@ SHADES = LinearSegmentedColormap.from_list("stations", ["#f3efe6", "#e9b872", "#
 COAST = "#5b7f95"
 
 NAMED = 5
-"""Stations that bear their names: the worst."""
+"""Stations that bear their names, the worst, and surveyed places."""
+
+EDGE, RIM = ("0.25", 0.5), ("black", 1.5)
+"""Colour and width of the rim of a station's point, and of one at which the body falls as it was given."""
 
 HALO = [withStroke(linewidth=2.0, foreground="white")]
 KM_PER_DEGREE = EARTH_KM * math.pi / 180.0
 MARGIN = 0.08
 """Room around the outermost points, a share of the extent."""
 
-SCALE_AT, NORTH_AT = (0.15, 0.05), (0.95, 0.9)
-"""Where the scale and north are, shares of the map."""
+NORTH = 0.95
+"""How far east north's arrow stands, a share of the map."""
 
-APART = (0.2, 0.07)
-"""How far names of stations keep from each other and from those, across and along, shares of the map."""
+SCALE_AT, NORTH_AT = (0.03, 0.02, 0.32, 0.15), (NORTH - 0.05, 0.75, NORTH + 0.05, 1.0)
+"""Where the scale and north are: west, south, east and north end, shares of the map."""
+
+STAR = (0.17, 0.16, 0.03)
+"""How far the epicentre with its name reaches to either side, down and up, shares of the map."""
 
 HALF_TURN = 180.0
 """Degrees east or west at which longitudes change their name."""
@@ -79,6 +86,7 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
     values, label, most = shown_values(found, subject, gal=gal)
     places = np.array([located(found, answer.longitude, answer.latitude) for answer in found.mapped])
     order = np.arange(len(places))[::-1]  # the worst on top
+    rims = [RIM if answer.effect.falls_nominally else EDGE for answer in found.mapped[::-1]]
     points = axis.scatter(
         places[order, 0],
         places[order, 1],
@@ -86,8 +94,8 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
         cmap=SHADES,
         norm=Normalize(0.0, most),
         s=34,
-        edgecolor="0.25",
-        linewidth=0.5,
+        edgecolors=[colour for colour, _ in rims],
+        linewidths=[wide for _, wide in rims],
         zorder=3,
     )
     if surveys:
@@ -99,7 +107,7 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
     _frame(axis, framed(found, surveys))
     if coast := coast_within(*axis.get_xlim(), *axis.get_ylim()):
         axis.add_collection(LineCollection(coast, colors=COAST, linewidths=0.8, zorder=1.5))
-    _names(axis, found)
+    _names(axis, found, surveys)
     made.colorbar(points, ax=axis, label=label, shrink=0.8, pad=0.02)
     return made
 
@@ -158,6 +166,8 @@ def shown_values(found: Stations, subject: WhatStands | None, *, gal: bool) -> t
         return values, f"PGA ({unit.name})", float(values.max()) or 1.0
     if isinstance(subject, StandingBody):
         name = tell("share that falls") if subject.runs else tell(HAPPENS[subject.solver])
+        if any(answer.effect.falls_nominally for answer in found.mapped):
+            name = tell("share that falls; thick rim: falls as given")
         return np.array([_share(answer) for answer in found.mapped]), name, 1.0
     return np.array([answer.effect.rate or 0.0 for answer in found.mapped]), tell("share that falls"), 1.0
 
@@ -246,8 +256,8 @@ def _frame(axis: Axes, places: FloatArray) -> None:
     axis.locator_params(nbins=6)
     _scale_bar(axis, 2.0 * half * KM_PER_DEGREE)
     arrow = {"arrowstyle": "-|>", "color": "black"}
-    axis.annotate("", (NORTH_AT[0], 0.97), xytext=(NORTH_AT[0], 0.88), xycoords="axes fraction", arrowprops=arrow, zorder=5)
-    axis.text(NORTH_AT[0], 0.87, tell("N"), transform=axis.transAxes, ha="center", va="top", fontsize=9, path_effects=HALO, zorder=5)
+    axis.annotate("", (NORTH, 0.97), xytext=(NORTH, 0.88), xycoords="axes fraction", arrowprops=arrow, zorder=5)
+    axis.text(NORTH, 0.87, tell("N"), transform=axis.transAxes, ha="center", va="top", fontsize=9, path_effects=HALO, zorder=5)
 
 
 def _scale_bar(axis: Axes, across_km: float) -> None:
@@ -261,23 +271,22 @@ def _scale_bar(axis: Axes, across_km: float) -> None:
     axis.text(0.05 + 0.5 * share, 0.06, f"{length:g} km", ha="center", va="bottom", fontsize=8, path_effects=HALO, **style)
 
 
-def _names(axis: Axes, found: Stations) -> None:
-    """Write the codes of the worst stations beside their points, as far as they are apart from each other."""
+def _names(axis: Axes, found: Stations, surveys: Sequence[SurveyAnswer]) -> None:
+    """Write the name of the worst station, then those of surveyed places and of the next stations, as far as there is room."""
     (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
 
-    def within(east: float, north: float) -> tuple[float, float]:
-        return (east - left) / (right - left), (north - bottom) / (top - bottom)
+    def placed(name: str, at: tuple[float, float]) -> Place:
+        return Place(name, (at[0] - left) / (right - left), (at[1] - bottom) / (top - bottom))
 
-    epicentre = epicentre_of(found)
-    taken = [SCALE_AT, NORTH_AT] + ([] if epicentre is None else [within(*epicentre)])
-    for answer in found.mapped[:NAMED]:
-        x, y = located(found, answer.longitude, answer.latitude)
-        place = within(x, y)
-        if any(abs(place[0] - other[0]) < APART[0] and abs(place[1] - other[1]) < APART[1] for other in taken):
-            continue
-        taken.append(place)
-        inward = -1 if place[0] > 0.8 else 1
+    points = [placed(each.station or each.record, located(found, each.longitude, each.latitude)) for each in found.mapped]
+    squares = [placed(each.surveyed.place, located(found, each.surveyed.longitude, each.surveyed.latitude)) for each in surveys]
+    epicentre, taken = epicentre_of(found), [SCALE_AT, NORTH_AT]
+    if epicentre is not None:
+        star = placed("", epicentre)
+        taken.append((star.east - STAR[0], star.north - STAR[1], star.east + STAR[0], star.north + STAR[2]))
+    for place, (east, north) in sides([*points[:1], *squares[:NAMED], *points[1:NAMED]], taken, [*points, *squares]):
+        at = (left + place.east * (right - left), bottom + place.north * (top - bottom))
         axis.annotate(
-            answer.station or answer.record, (x, y), xytext=(6 * inward, 4), textcoords="offset points", fontsize=8,
-            ha="left" if inward > 0 else "right", path_effects=HALO, zorder=6,
+            place.name, at, xytext=(6 * east, 4 * north), textcoords="offset points", fontsize=8, path_effects=HALO, zorder=6,
+            ha="left" if east > 0 else "right", va="baseline" if north > 0 else "top",
         )  # fmt: skip

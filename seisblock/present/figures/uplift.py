@@ -160,8 +160,9 @@ def _plan(panel: Axes, response: Response[UpliftOutcome], start: float, end: flo
         begins = [(left + (each.start_s - start) * scale, each.duration_s * scale) for each in _in_air(response, i)]
         spans = [(begin, begin + max(wide, least)) for begin, wide in begins]
         panel.add_patch(bars(spans, y - tall / 2, y + tall / 2, facecolor=canvas.ACCENT, linewidth=0))
-        told = tell("{time:.2f} s in the air", time=corner.uplift_duration_s) if corner.uplifts else tell("never lifts")
-        panel.annotate(told + (tell(", the first") if first else ""), (left, y + tall), fontsize=7, va="bottom")
+        aloft = noted("{time:.2f} s in the air, the first") if first else noted("{time:.2f} s in the air")
+        told = tell(aloft, time=corner.uplift_duration_s) if corner.uplifts else tell("never lifts")
+        panel.annotate(told, (left, y + tall), fontsize=7, va="bottom")
     reach = half_a + 1.3 * body.width
     panel.set_xlim(-reach, reach)
     panel.set_ylim(-half_b - 0.35 * body.depth, half_b + 0.35 * body.depth)

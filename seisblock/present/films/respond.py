@@ -16,6 +16,7 @@ from seisblock.present.films.plane import Body, Piece, Plane, Trail, ground_shif
 from seisblock.present.films.projector import animate_film
 from seisblock.present.films.rock import corners, on_the_ground
 from seisblock.present.scales import length_unit
+from seisblock.present.text.onset import grip
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.typing import FloatArray
@@ -34,7 +35,7 @@ def respond_film(response: Response[RespondOutcome], times: FloatArray, *, gal: 
     centre = np.array([block.centroid_offset, block.centre])
     outline = corners(block, 0.0) - centre
     x, z, lean = (at(times, response.time, response[name]) for name in ("displacement", "height", "rotation"))
-    level = options["gravity_m_s2"] * min(options["mu"], min(block.arms) / block.centre)
+    level = options["gravity_m_s2"] * min(grip(options), min(block.arms) / block.centre)
     alpha = math.degrees(block.slenderness)
     wide = 4.0 * math.hypot(block.width, block.height) + 2.0 * outcome.max_displacement_m
     far = length_unit([outcome.max_displacement_m], gal=gal)

@@ -9,7 +9,16 @@ from typing import Any
 import numpy as np
 
 from seisblock.present.coast import coast_within
-from seisblock.present.figures.stations import KM_PER_DEGREE, epicentre_of, framed, located, shade, shown_values, surveyed_value, title
+from seisblock.present.figures.stations import (
+    KM_PER_DEGREE,
+    epicentre_of,
+    framed,
+    located,
+    shade,
+    shown_values,
+    surveyed_value,
+    title,
+)
 from seisblock.present.page import page
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.map import cells, survey_cells, verdict
@@ -126,6 +135,7 @@ def _point(answer: StationAnswer, row: list[str], heads: list[str], colour: str,
     return {
         "name": answer.label,
         "colour": colour,
+        "falls": answer.effect.falls_nominally,
         "told": [*told, [tell("record"), answer.record], [tell("begins"), answer.local_start]],
         "failure": tell(answer.failure) if answer.failure else "",
         "outline": [[round(value / GAL, 1) for value in pair] for pair in answer.outline],

@@ -123,7 +123,9 @@ def _tables(outcome: Mapping[str, Any]) -> Iterator[tuple[str, list[list[str]]]]
         if isinstance(value, list) and value and all(isinstance(entry, Mapping) for entry in value):
             names = [name for name, one in value[0].items() if not isinstance(one, Mapping)]
             rows = [_row(name, [entry.get(name) for entry in value[:MOST_COLUMNS]]) for name in names]
-            yield key.replace("_", " "), rows
+            told = key.replace("_", " ")
+            more = len(value) > MOST_COLUMNS
+            yield tell("{things}: {shown} of {all}", things=told, shown=MOST_COLUMNS, all=len(value)) if more else told, rows
 
 
 MOST_COLUMNS, MOST_ENTRIES = 8, 12

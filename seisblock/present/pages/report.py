@@ -75,15 +75,11 @@ def _of(body: BodyAssessment, kind: str) -> list[Effect]:
 
 
 def _tile(body: BodyAssessment) -> dict[str, str]:
-    """Return the one card of a body: what it does in the component in which that is worst, and how sure that is."""
-    worst = max(_of(body, GOVERNING), key=words.severity)
-    severity = words.severity(worst)
-    first, *others = words.governing(worst)
-    return {
-        "level": "bad" if severity >= words.BAD else "mild" if severity > 0 else "",
-        "head": tell("{name}: {what}", name=tell(body.subject.name), what=first),
-        "text": strung(others),
-    }
+    """Return the one card of a body: what it does in the direction in which that is worst, and how sure that is."""
+    effects = _of(body, GOVERNING)
+    first, text = words.card(effects)
+    head = tell("{name}: {what}", name=tell(body.subject.name), what=first)
+    return {"level": words.level(max(effects, key=words.rank)), "head": head, "text": strung(text)}
 
 
 def _record(found: Assessment) -> dict[str, Any]:
@@ -147,10 +143,11 @@ def _models(body: BodyAssessment) -> list[list[str]]:
 def _section(found: Assessment, body: BodyAssessment, kind: str) -> dict[str, Any]:
     """Return one kind of motion: in words, then in pictures."""
     effects = _of(body, kind)
-    worst = max(effects, key=words.severity)
+    worst = max(effects, key=words.rank)
     return {
         "name": tell(words.SECTIONS[kind]),
         "effects": [strung(words.sentences(effect)) for effect in effects],
+        "scatter": words.scatter(effects),
         "warnings": list(dict.fromkeys(tell(text) for effect in effects for text in effect.response.warnings)),
         "picture": _picture(worst, of=len(effects) if words.severity(worst) else 1) if kind in DRAWN else None,
         "criteria": _criteria(found, body, effects) if kind == "rock" else None,
@@ -159,7 +156,7 @@ def _section(found: Assessment, body: BodyAssessment, kind: str) -> dict[str, An
 
 def _picture(effect: Effect, *, of: int) -> Picture:
     """Return the figure of the worst of several effects, or of one where none is worse."""
-    text = noted("{what}, {name}") if of == 1 else noted("{what}, {name}, where it moves most")
+    text = noted("{what}, {name}") if of == 1 else noted("{what}, {name}, the worst direction")
     caption = tell(text, name=effect.response.motion.name, what=tell(words.SECTIONS[effect.kind]))
     return picture(drawn(lambda: figure_of([effect.response])), caption)
 

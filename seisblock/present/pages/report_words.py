@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.present.directions import moved, moved_by, side
-from seisblock.present.scales import length_unit, told_length
-from seisblock.present.text.respond import share
+from seisblock.present.scales import length_unit, told_length, told_size
+from seisblock.present.text.respond import share, varied
 from seisblock.present.text.respond import verdict as told
 from seisblock.present.text.rock import way_to_alpha
 from seisblock.solvers.jump.chain import JUMPED
@@ -29,6 +29,22 @@ LIMITS = noted(
 
 BAD = 2.0
 """Severity from which a body falls or jumps."""
+
+
+def rank(effect: Effect) -> tuple[bool, float, float]:
+    """Return what makes one direction worse than another: that the body falls there, in what share of its versions, then how bad it is."""
+    return severity(effect) >= BAD, _share(effect), severity(effect)
+
+
+def level(effect: Effect) -> str:
+    """Return the class of a card: a body that falls, one that moves or falls in some version, or neither."""
+    return "bad" if severity(effect) >= BAD else "mild" if severity(effect) > 0.0 or _share(effect) > 0.0 else ""
+
+
+def _share(effect: Effect) -> float:
+    """Return the share of versions that fall, 0 where none was followed."""
+    found = effect.governing
+    return 0.0 if found is None or found.probability is None else found.probability.overturned
 
 
 def severity(effect: Effect) -> float:
@@ -65,6 +81,8 @@ def verdict(effect: Effect) -> str:
     if effect.kind == "slide":
         if not outcome.slips:
             return tell("does not slide")
+        if told_size(outcome.max_slip_m) != told_length(outcome.max_slip_m):
+            return tell("slides {path} in all", path=told_size(outcome.path_m))
         return tell("slides up to {most}", most=told_length(outcome.max_slip_m))
     if effect.kind == "jump":
         if outcome.outcome == JUMPED:
@@ -100,6 +118,34 @@ def governing(effect: Effect) -> Iterator[str]:
     options = effect.response.options
     if not found.friction_known:
         yield tell("No friction was given: {mu:.2f} is taken, at which a foot hardly slips.", mu=options["mu"])
+
+
+def card(effects: Sequence[Effect]) -> tuple[str, list[str]]:
+    """Return the head and the text of a body's card: the worst direction, each other one in which it falls, and what a share is worth."""
+    worst, *others = sorted(effects, key=rank, reverse=True)
+    head, *text = [*governing(worst), *worth(worst)]
+    for other in others:
+        if other.response.outcome.overturned:
+            text += [*governing(other), *worth(other)]
+    return head, list(dict.fromkeys(text))
+
+
+def worth(effect: Effect) -> Iterator[str]:
+    """Yield what it is worth that no version falls, or that all of them do."""
+    if effect.governing is None or effect.governing.probability is None:
+        return
+    if _share(effect) == 0.0:
+        yield tell("On shaking tables 3 % of two granite rocks fell where no version did.")
+    elif _share(effect) == 1.0:
+        yield tell("On shaking tables 2 % of two granite rocks stood where every version fell.")
+
+
+def scatter(effects: Sequence[Effect]) -> str:
+    """Return what was varied in the versions of a body, as a sentence; nothing where none were followed."""
+    for effect in effects:
+        if effect.governing is not None and effect.governing.probability is not None:
+            return tell("Shares are {varied}.", varied=varied(effect.governing.probability, effect.response.body))
+    return ""
 
 
 def sentence(text: str) -> str:
@@ -157,9 +203,9 @@ def _slide(effect: Effect, outcome: Any) -> Iterator[str]:
     yield tell(
         text,
         start=outcome.slip_start_s,
-        most=told_length(outcome.max_slip_m, unit),
+        most=told_size(outcome.max_slip_m, unit),
         time=outcome.max_slip_time_s,
-        rest=moved(told_length(abs(outcome.residual_slip_m), unit), effect.response.motion.name, outcome.residual_slip_m),
+        rest=moved(told_size(outcome.residual_slip_m, unit), effect.response.motion.name, outcome.residual_slip_m),
     )
 
 

@@ -54,8 +54,28 @@ def agreement_line(name: str, found: Agreement) -> str:
 def _opinion(opinion: Opinion) -> str:
     """Return a model with the factor from which on it lets the object fall."""
     if opinion.factor is None:
-        return tell(opinion.model)
-    return tell("{model} ({factor:.2f})", model=tell(opinion.model), factor=opinion.factor)
+        return called(opinion)
+    return tell("{model} ({factor:.2f})", model=called(opinion), factor=opinion.factor)
+
+
+def called(opinion: Opinion | RateOpinion) -> str:
+    """Return the name of a model, with the frequency and the edges that it was asked about.
+
+    Parameters
+    ----------
+    opinion : Opinion or RateOpinion
+
+    Examples
+    --------
+    >>> called(Opinion("half sine of that frequency", True, 0.9, frequency_hz=0.75, worn=True))
+    'half sine of 0.75 Hz with worn edges'
+    """
+    name = tell(opinion.model)
+    if opinion.frequency_hz is not None:
+        name = tell("half sine of {frequency:.3g} Hz", frequency=opinion.frequency_hz)
+    if opinion.worn is None:
+        return name
+    return tell("{model} with worn edges", model=name) if opinion.worn else tell("{model} with sharp edges", model=name)
 
 
 def _made_for_it(opinion: Opinion) -> str:
@@ -76,7 +96,7 @@ def rates_line(name: str, rates: tuple[RateOpinion, ...]) -> str:
     """
     if len(rates) < 2:
         return ""
-    told = [tell("{rate:.0%} by the {model}", rate=each.rate, model=tell(each.model)) for each in rates]
+    told = [tell("{rate:.0%} by the {model}", rate=each.rate, model=called(each)) for each in rates]
     low, high = min(each.rate for each in rates), max(each.rate for each in rates)
     values = {"rates": told, "made": tell(GRAVESTONES)}
     if low > 0.0:

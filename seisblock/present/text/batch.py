@@ -49,7 +49,7 @@ def tables(tally: Tally, said: Mapping[str, str]) -> Iterator[Any]:
     if ranked and tally.answers:
         heads = [tell("body"), tell("runs"), tell(_HEADING[solver]), tell("share"), tell("no answer")]
         rows = [
-            [c.body, c.answers, c.happened, roughly(c.happened / c.answers) if c.answers else None, c.failures]
+            [tell(c.body), c.answers, c.happened, roughly(c.happened / c.answers) if c.answers else None, c.failures]
             for c in ranked[:MOST_BODIES]
         ]
         more = tell("and {count} more bodies, in the file", count=len(ranked) - MOST_BODIES) if len(ranked) > MOST_BODIES else ""

@@ -78,7 +78,7 @@ def verdict(study: FragilityStudy, curve: Fragility, *, gal: bool) -> str:
     size, unit = study.measure.shown(gal=gal)
     return tell(
         "{body}, {limit}: median {im} {median}, beta {beta:.2f}",
-        body=curve.body,
+        body=tell(curve.body),
         limit=limit_name(curve.limit, gal=gal),
         im=study.measure.label,
         median=f"{number((curve.median or 0.0) / size, 3)} {unit}".strip(),
@@ -163,7 +163,7 @@ def _beside(study: FragilityStudy, curve: Fragility, compare: Lognormal, *, gal:
 def _named(curve: Fragility, *, several: bool, gal: bool) -> str:
     """Return how a curve is called."""
     limit = limit_name(curve.limit, gal=gal)
-    return tell("{body}, {limit}", body=curve.body, limit=limit) if several else limit
+    return tell("{body}, {limit}", body=tell(curve.body), limit=limit) if several else limit
 
 
 def _measures(curve: Fragility, *, several: bool, gal: bool) -> Any:

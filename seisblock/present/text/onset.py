@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from seisblock.present.text.tables import told_acceleration
@@ -51,6 +55,22 @@ def onset(how: str, towards: tuple[float, float], motion: Motion, *, gravity: fl
         else:
             words = tell(", {times} times this record", times=times(factor))
     return tell(how, threshold=told_acceleration(threshold, gal=gal), factor=words)
+
+
+def grip(options: Mapping[str, Any]) -> float:
+    """Return the friction that holds the feet of a body that stands, 1: without limit where tenons hold them, too.
+
+    Parameters
+    ----------
+    options : mapping
+        Of a response of ``respond``.
+
+    Examples
+    --------
+    >>> grip({"mu": 0.3, "tenon_m": 0.0}), grip({"mu": 0.3, "tenon_m": 0.02})
+    (0.3, inf)
+    """
+    return math.inf if options["tenon_m"] > 0.0 else float(options["mu"])
 
 
 def factor_of(towards: tuple[float, float], motion: Motion, *, gravity: float, vertical: float = 0.0) -> float:

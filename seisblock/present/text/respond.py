@@ -13,7 +13,7 @@ from seisblock.bodies.blocks import wear_range
 from seisblock.bodies.ranges import Ranges
 from seisblock.present.directions import moved, side
 from seisblock.present.scales import Unit, acceleration_unit, length_cell, length_unit, told_length
-from seisblock.present.text.onset import ROCKS, SLIDES, onset
+from seisblock.present.text.onset import ROCKS, SLIDES, grip, onset
 from seisblock.present.text.tables import NOTHING, answered, line, number, seconds, side_by_side, table
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
@@ -67,7 +67,7 @@ def verdict(response: Response[RespondOutcome], *, gal: bool = True) -> str:
         else:
             words = tell("overturns to {towards} at {time:.2f} s{slid}", towards=towards, time=at, slid=slid)
     elif outcome.outcome == "rests":
-        ratio, mu = min(response.body.arms) / response.body.centre, response.options["mu"]
+        ratio, mu = min(response.body.arms) / response.body.centre, grip(response.options)
         first = SLIDES if mu <= ratio else ROCKS
         shares = tuple(min(mu, arm / response.body.centre) for arm in response.body.arms)
         gravity, vertical = response.options["gravity_m_s2"], response.options["vertical"]
@@ -203,26 +203,22 @@ def varied(found: Probability, block: Block) -> str:
 
 def _table(responses: Responds, *, gal: bool) -> Any:
     """Return the numbers, a column per component."""
-    first = responses[0]
-    block, options, outcomes = first.body, first.options, [response.outcome for response in responses]
+    block, options, outcomes = responses[0].body, responses[0].options, [response.outcome for response in responses]
     own = any(response.body != block for response in responses)
     ratio = min(block.arms) / block.centre
-    onset, level = min(options["mu"], ratio) * options["gravity_m_s2"], acceleration_unit(gal=gal)
+    held, level = grip(options), acceleration_unit(gal=gal)
+    onset = min(held, ratio) * options["gravity_m_s2"] / level.size
     unit = length_unit((far for o in outcomes for far in (o.max_displacement_m, o.slip_path_m)), gal=gal)
-    each_title = tell("{name}: mu {mu:g}, kinetic {kinetic:g}", name=tell(block.name), mu=options["mu"], kinetic=options["mu_kinetic"])
-    title = (
-        each_title
-        if own
-        else tell(
-            "{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}",
-            name=tell(block.name),
-            ratio=ratio,
-            mu=options["mu"],
-            kinetic=options["mu_kinetic"],
-            first=tell("slides") if options["mu"] <= ratio else tell("rocks"),
-            onset=f"{onset / level.size:.{0 if gal else 2}f} {level.name}",
-        )
-    )
+    given = {"name": tell(block.name), "mu": options["mu"], "kinetic": options["mu_kinetic"]}
+    frictions = noted("{name}: mu {mu:g}, kinetic {kinetic:g}")
+    title = noted("{name}: b/h {ratio:.3f}, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
+    if options["tenon_m"]:
+        given["tenon"] = told_length(options["tenon_m"], gal=gal)
+        frictions = noted("{name}: tenons {tenon}; once left, mu {mu:g}, kinetic {kinetic:g}")
+        title = noted("{name}: b/h {ratio:.3f}, tenons {tenon}; once left, mu {mu:g}, kinetic {kinetic:g}; {first} first, above {onset}")
+    if not own:
+        first = tell("slides") if held <= ratio else tell("rocks")
+        given |= {"ratio": ratio, "first": first, "onset": f"{onset:.{0 if gal else 2}f} {level.name}"}
     spent = [o.time_in_mode_s for o in outcomes]
     rows: list[tuple[str, list[Any]]] = [
         *([(tell("b/h"), [f"{min(r.body.arms) / r.body.centre:.3f}" for r in responses])] if own else []),
@@ -237,4 +233,5 @@ def _table(responses: Responds, *, gal: bool) -> Any:
         (tell("  both, in flight (s)"), [f"{seconds(s['slide_rock'])}, {seconds(s['flight'])}" for s in spent]),
         (tell("lost to friction, impacts (J)"), [f"{number(o.energy_friction_j)}, {number(o.energy_impacts_j)}" for o in outcomes]),
     ]
-    return side_by_side(title, ["", *(r.motion.name or "x" for r in responses)], [[heading, *cells] for heading, cells in rows])
+    heading = tell(frictions if own else title, **given)
+    return side_by_side(heading, ["", *(r.motion.name or "x" for r in responses)], [[called, *cells] for called, cells in rows])

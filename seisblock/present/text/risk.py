@@ -41,7 +41,7 @@ def tables(found: Found, hazard: Hazard, *, gal: bool) -> Iterator[Any]:
 
 def name_of(given: GivenFragility, *, gal: bool = True) -> str:
     """Return what happens, and to what; empty where nobody said."""
-    return listed(part for part in (given.body, limit_name(given.limit, gal=gal) if given.limit else "") if part)
+    return listed(part for part in (tell(given.body), limit_name(given.limit, gal=gal) if given.limit else "") if part)
 
 
 def verdict(given: GivenFragility, risk: Risk, *, gal: bool = True) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from seisblock.present.directions import moved
-from seisblock.present.scales import Unit, length_cell, length_unit, told_length
+from seisblock.present.scales import Unit, length_cell, length_unit, told_length, told_size
 from seisblock.present.text.onset import SLIDES, onset
 from seisblock.present.text.tables import answered, line, seconds, table
 from seisblock.results import Response
@@ -77,18 +77,20 @@ def sentence(response: Response[SlideOutcome], *, gal: bool = True) -> str:
         )
         return tell("{name}: stays where it is; {onset}.", name=name, onset=moves)
     unit = length_unit([outcome.max_slip_m, outcome.path_m], gal=gal)
-    words = {"name": name, "most": told_length(outcome.max_slip_m, unit), "path": told_length(outcome.path_m, unit)}
-    if outcome.final_slip_m is None:
+    words = {"name": name, "most": told_size(outcome.max_slip_m, unit), "path": told_size(outcome.path_m, unit)}
+    if told_size(outcome.path_m, gal=gal) != told_length(outcome.path_m, gal=gal):
+        told = tell("{name}: slides {path} in all", name=name, path=told_size(outcome.path_m, gal=gal))
+    elif outcome.final_slip_m is None:
         told = tell("{name}: slides up to {most}, over a path of {path}, and does not come to rest", **words)
     elif outcome.final_slip_m != outcome.residual_slip_m:
-        final = moved(told_length(abs(outcome.final_slip_m), unit), name, outcome.final_slip_m)
+        final = moved(told_size(outcome.final_slip_m, unit), name, outcome.final_slip_m)
         told = tell(
             "{name}: slides up to {most}, over a path of {path}, while the record lasts, and comes to rest {final} from where it stood",
             final=final,
             **words,
         )
     else:
-        final = moved(told_length(abs(outcome.final_slip_m), unit), name, outcome.final_slip_m)
+        final = moved(told_size(outcome.final_slip_m, unit), name, outcome.final_slip_m)
         told = tell("{name}: slides up to {most}, and ends {final} from where it stood, after a path of {path}", final=final, **words)
     if outcome.fell_off_slope:
         told += tell(", past the foot of the slope")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from seisblock.bodies.called import said_name
 from seisblock.dynamics import Change
 from seisblock.solvers.respond import names
 from seisblock.solvers.respond.run import Run
@@ -57,7 +58,7 @@ def event_name(change: Change) -> str:
 
 def warnings(run: Run, setting: Setting, end_s: float, settle_s: float) -> tuple[str, ...]:
     """Return what the user should know before believing the numbers."""
-    name = setting.stand.name
+    name = said_name(setting.stand.name)
     impacts, jams, lowered = (int(run.final[state]) for state in (names.IMPACTS, names.JAMS, names.LOWERED))
     found: list[str] = []
     if run.mode == names.GAVE_UP:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from seisblock.bodies.called import said_name
 from seisblock.dynamics import Change, Trajectory
 from seisblock.records import Motion
 from seisblock.results import Phase, phases_between
@@ -171,7 +172,7 @@ def phases(trajectory: Trajectory, start_s: float) -> Sequence[Phase]:
 def warnings(block: Rocker, outcome: RockOutcome) -> tuple[Said, ...]:
     """Return what the user should know before believing the numbers."""
     found = []
-    name, level = block.block.name, outcome.threshold_m_s2 / block.gravity
+    name, level = said_name(block.block.name), outcome.threshold_m_s2 / block.gravity
     if level > 1.0:
         found.append(said("{name}: wider than tall; it rocks only above {level:.2f} g and will rather slide", name=name, level=level))
     if outcome.contact_lost:

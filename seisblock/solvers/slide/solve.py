@@ -222,10 +222,9 @@ def _warnings(outcome: SlideOutcome, motion: Motion) -> list[Said]:
     elif outcome.slides_at_end:
         found.append(
             said(
-                "{name}: still sliding at the record's end; max and residual slip stand for the record, on ground at rest it would stop at "
-                "{final:.4g} m",
+                "{name}: still sliding at the record's end: max and residual slip stand for the record, and the final one for where it "
+                "would stop on ground at rest",
                 name=name,
-                final=outcome.final_slip_m,
             )
         )
     return found

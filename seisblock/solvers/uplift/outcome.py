@@ -205,7 +205,11 @@ def warnings(motion: Motion, fates: UpliftFates, row: int) -> tuple[Said, ...]:
                 small=SMALL,
             )
         )
-    if abs(rise - again) > REPEATABLE * max(abs(rise), abs(again)):
+    if lean > SMALL and abs(rise - again) > REPEATABLE * max(abs(rise), abs(again)):
+        found.append(
+            said("by round-off alone, after so many contact changes, the motion no longer follows from the record: trust its beginning")
+        )
+    elif abs(rise - again) > REPEATABLE * max(abs(rise), abs(again)):
         found.append(
             said(
                 "the largest uplift is {one:.4g} or {other:.4g} mm by round-off alone: after so many contact changes the motion no longer "

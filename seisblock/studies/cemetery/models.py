@@ -17,10 +17,12 @@ from seisblock.units import STANDARD_GRAVITY
 
 @dataclass(frozen=True)
 class RateOpinion:
-    """Which share of a cemetery falls by one model."""
+    """Which share of a cemetery falls by one model: of the half sine with its frequency, Hz, on edges worn or not."""
 
     model: str
     rate: float
+    frequency_hz: float | None = None
+    worn: bool | None = None
 
 
 def rates_by_model(
@@ -49,7 +51,8 @@ def rates_by_model(
     found = [RateOpinion(GRAVESTONES, float(np.mean(pga > fitted_limits(cemetery, frequency))))]
     if cemetery.reinforced.any():
         return tuple(found)
-    found.append(RateOpinion(PULSE, float(np.mean(pga > rigid_limits(cemetery, frequency, width=width, gravity=gravity)))))
+    share = float(np.mean(pga > rigid_limits(cemetery, frequency, inset=WORN, width=width, gravity=gravity)))
+    found.append(RateOpinion(PULSE, share, frequency, worn=True))
     if motion is not None:
         for model, inset in ((WORN_BLOCK, WORN), (SHARP_BLOCK, SHARP)):
             falls = simulated_overturns(cemetery, motion, inset=inset, width=width, gravity=gravity)

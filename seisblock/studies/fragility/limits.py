@@ -11,6 +11,7 @@ from seisblock import checks
 from seisblock.errors import ParameterError
 from seisblock.typing import BoolArray, FloatArray
 from seisblock.units import parse_length
+from seisblock.words import Said, said
 
 ROCK, LEAN, SLIP, OVERTURN = "rock", "lean", "slip", "overturn"
 
@@ -112,6 +113,27 @@ def limit_state(text: str | LimitState) -> LimitState:
         return LimitState(kind, float(number))
     except ValueError:
         raise ParameterError("the threshold of {text!r} is no number: write lean=0.5", text=str(text)[:100]) from None
+
+
+def said_limit(name: str) -> Said:
+    """Return what it means to pass a limit, as a value of what is said.
+
+    Parameters
+    ----------
+    name : str
+        As of :attr:`LimitState.name`.
+
+    Examples
+    --------
+    >>> print(said_limit("overturn"), said_limit("slip=0.05m"), said_limit("lean=0.5"), sep=", ")
+    overturns, moved 0.05 m, leans 0.5 alpha
+    """
+    limit = limit_state(name)
+    if limit.kind == LEAN:
+        return said("leans {share} alpha", share=f"{limit.threshold:g}")
+    if limit.kind == SLIP:
+        return said("moved {length}", length=f"{limit.threshold:g} m")
+    return said("overturns") if limit.kind == OVERTURN else said("rocks")
 
 
 def limit_states(texts: str | LimitState | Sequence[str | LimitState], solver: str) -> tuple[LimitState, ...]:

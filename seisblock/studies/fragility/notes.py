@@ -6,10 +6,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from seisblock.bodies.called import said_name
 from seisblock.studies.batch.models import Placed
 from seisblock.studies.fragility.answer import Fragility
 from seisblock.studies.fragility.estimate import CLOUD, IDA, Rules
 from seisblock.studies.fragility.intensity import factors_for
+from seisblock.studies.fragility.limits import said_limit
 from seisblock.typing import FloatArray
 from seisblock.words import Said, said
 
@@ -45,7 +47,8 @@ def notes_on(curves: Sequence[Fragility], values: Sequence[FloatArray], rules: R
 
 def _of(curve: Fragility, values: FloatArray, rules: Rules, *, several: bool) -> Iterator[Said]:
     """Yield what is to be known of one curve."""
-    what = said("{body}, {limit}", body=curve.body, limit=curve.limit) if several else said(curve.limit)
+    limit = said_limit(curve.limit)
+    what = said("{body}, {limit}", body=said_name(curve.body), limit=limit) if several else limit
     if curve.problem is not None:
         yield said("{curve}: no curve: {why}", curve=what, why=curve.problem)
         return
@@ -71,4 +74,8 @@ def ranges_noted(bodies: Sequence[Placed], solver: str) -> list[Said]:
     """Return a sentence for each body whose versions lie within the ranges of its own kind; friction plays no part in rocking."""
     ranges = ((placed.name, getattr(placed.body, "ranges", None)) for placed in bodies)
     known = ((name, told.without("mu") if told and solver == "rock" else told) for name, told in ranges)
-    return [said("{body}: its versions lie within its own ranges: {ranges}", body=name, ranges=told.says) for name, told in known if told]
+    return [
+        said("{body}: its versions lie within its own ranges: {ranges}", body=said_name(name), ranges=told.says)
+        for name, told in known
+        if told
+    ]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from seisblock import checks
+from seisblock.bodies.called import said_name
 from seisblock.bodies.library import along
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
@@ -25,7 +26,7 @@ from seisblock.studies.fragility.estimate import CLOUD, METHODS, STRIPES, Passed
 from seisblock.studies.fragility.followers import FOLLOWERS, PERTURBED, Draws, version_draws
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for, intensity_measure
 from seisblock.studies.fragility.levels import STEPS, chosen_levels, levels_of
-from seisblock.studies.fragility.limits import LimitState, limit_states
+from seisblock.studies.fragility.limits import LimitState, limit_states, said_limit
 from seisblock.studies.fragility.notes import notes_on, ranges_noted
 from seisblock.studies.fragility.suite import Suite, read_suite, suite_of
 from seisblock.studies.intervals import CONFIDENCE
@@ -185,7 +186,8 @@ def run_fragility(
     every = _follow(study, rules, grids, progress)
     curves, bands = zip(*(each for runs in every for each in estimate(runs, suite, rules)), strict=True)
     if all(curve.median is None for curve in curves):
-        raise ParameterError("{body}, {limit}: {why}", body=curves[0].body, limit=curves[0].limit, why=curves[0].problem)
+        first = curves[0]
+        raise ParameterError("{body}, {limit}: {why}", body=said_name(first.body), limit=said_limit(first.limit), why=first.problem)
     factors = [factors_for(grid, value[0][:, None], measures[0]) for grid, value in zip(grids, values, strict=True)]
     range_ = (min(float(f.min()) for f in factors), max(float(f.max()) for f in factors)) if method != CLOUD else (1.0, 1.0)
     directions = (said(AROUND, step=STEP_DEG),) if suite.around else ()

@@ -64,6 +64,11 @@ class StationEffect:
     max_uplift_m: float | None = None
 
     @property
+    def falls_nominally(self) -> bool:
+        """Whether a body falls as it was given, where its share tells of its versions, of which none may fall."""
+        return self.probability is not None and bool(self.overturned)
+
+    @property
     def severity(self) -> tuple[float, ...]:
         """What sorts stations, the larger the worse: the share that falls, the verdict, the displacement or the rise."""
         share = self.rate if self.probability is None else self.probability

@@ -100,6 +100,7 @@
   };
   [...data.points].reverse().forEach((point) => {
     const circle = made("circle", { cx: point.at[0], cy: point.at[1], fill: point.colour, tabindex: 0, role: "button", "aria-label": point.name }, layer);
+    circle.classList.toggle("falls", point.falls);
     place(point, circle);
     circles.push(circle);
   });

@@ -1,0 +1,56 @@
+"""The card of a body on a report: the direction in which most versions fall is the worst, however soon another one falls."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from seisblock.present.pages.report_words import card, level, rank, scatter, worth
+from seisblock.studies.assessment import Effect
+from seisblock.studies.standing.governing import Governing
+from seisblock.studies.standing.probability import Probability, Versions
+from tests.present.long_record import response
+
+ENDS = dict.fromkeys(("q05", "q25", "q50", "q75", "q95"), 0.0)
+
+
+def effect(name, fell_at, share):
+    """One direction of the long record: when it falls, None where it stands, and in what share of 200 versions."""
+    found = response("respond")
+    fell = {"overturned": fell_at is not None, "overturning_time_s": fell_at, "overturned_towards": None if fell_at is None else "+x"}
+    outcome = replace(found.outcome, outcome="moves" if fell_at is None else "overturns", sensitive=False, **fell)
+    told = replace(found, outcome=outcome, motion=replace(found.motion, name=name))
+    known = Probability(200, share, share, (max(share - 0.1, 0.0), min(share + 0.1, 1.0)), 0.01, ENDS, Versions(), 1)
+    return Effect("respond", told, None, None, Governing(told, known, True))
+
+
+def test_the_direction_in_which_most_versions_fall_is_the_worst():
+    """NS falls later than EW, and in half of the versions, not in an eighth: the card opens with NS, and tells of EW, too."""
+    north, east = effect("NS", 49.66, 0.46), effect("EW", 47.52, 0.12)
+    for both in ([north, east], [east, north]):
+        head, text = card(both)
+        assert head.startswith("NS: overturns to +NS at 49.66 s")
+        assert text[0].startswith("92 of 200") and text[1].startswith("EW: overturns to +EW at 47.52 s") and text[2].startswith("24 of 200")
+        assert max(both, key=rank) is north
+
+
+def test_what_falls_is_worse_than_what_falls_in_more_of_its_versions():
+    """The verdict of the object as it was given comes first, then the share, then how soon it falls."""
+    falls, stands, soon = effect("NS", 49.0, 0.1), effect("EW", None, 0.4), effect("UP", 40.0, 0.1)
+    assert sorted([stands, soon, falls], key=rank, reverse=True) == [soon, falls, stands]
+    assert "EW:" not in " ".join(card([stands, falls])[1])
+    assert level(stands) == "mild" and level(falls) == "bad"
+
+
+@pytest.mark.parametrize(("share", "said"), [(0.0, "3 % of two granite rocks fell"), (0.5, ""), (1.0, "2 % of two granite rocks stood")])
+def test_none_and_all_are_told_with_what_they_are_worth(share, said):
+    """No share of 0 or 1 stands alone on a card; the section says of what all shares are shares."""
+    found = effect("NS", None if share == 0.0 else 40.0, share)
+    assert said in "".join(worth(found)) and bool(said) == any("shaking tables" in text for text in card([found])[1])
+    assert "scatter alone" in scatter([found]) and "fell where none of 20 versions did" in scatter([found])
+
+
+def test_a_body_that_nobody_varied_is_told_without_shares():
+    """Neither a caveat nor what was varied."""
+    found = replace(effect("NS", 40.0, 0.0), governing=SimpleNamespace(probability=None))
+    assert not list(worth(found)) and scatter([found]) == ""
