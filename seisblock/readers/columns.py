@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from seisblock.errors import RecordFormatError, UnitError
 from seisblock.readers.directions import Direction, direction_of
-from seisblock.readers.naming import TIME, bare_name, code_of, normal_unit, other_quantity, split_unit, time_unit
+from seisblock.readers.naming import TIME, bare_name, code_of, normal_unit, other_quantity, split_unit, tells_clock, time_unit
 from seisblock.words import said
 
 UNDERSTOOD = said(
@@ -82,7 +82,7 @@ def columns_of_header(name: str, names: Sequence[str], units: str | None = None)
         said("left out column {name!r}: {what}", name=names[i], what=said(what)) for i, what in enumerate(told) if isinstance(what, str)
     ]
     kept = [what for what in told if not isinstance(what, str)]
-    kept = _transverse(name, names, kept, units)
+    kept = _transverse(name, names, _down(names, kept), units)
     _check_guesses(name, names, kept, units)
     _check_repeats(name, names, kept)
     option = _option(units)
@@ -146,7 +146,7 @@ def _first_look(name: str, index: int, written: str) -> Column | str:
     if unit:
         return _acceleration(index, written, direction or _channel(plain), unit)
     if code_of(written) == TIME or seconds:
-        if unit_text and seconds is None:
+        if unit_text and seconds is None and not tells_clock(unit_text):
             raise UnitError(
                 "{name}: column {written!r} has the unknown unit of time {unit_text!r}: expected s, ms or min",
                 name=name,
@@ -179,6 +179,15 @@ def _acceleration(index: int, written: str, direction: Direction, unit: str) -> 
 def _channel(plain: str) -> Direction:
     """Return the direction, not known, of a column that is an acceleration by its unit; ``T`` beside a unit is transverse."""
     return Direction(code_of(plain) if code_of(plain) != TIME else plain.upper() if plain else "ACC")
+
+
+def _down(names: Sequence[str], columns: list[Column]) -> list[Column]:
+    """Return the columns with a lone ``D`` taken as down only beside two horizontals that are known, and no vertical."""
+    lone = next((c for c in columns if c.sign < 0.0 and bare_name(names[c.index]).lower() == "d"), None)
+    known = sum(c.azimuth_deg is not None for c in columns)
+    if lone is None or (known == 2 and sum(c.code == lone.code for c in columns) == 1):
+        return columns
+    return [replace(c, code="D" if c.unit else "", sign=1.0) if c is lone else c for c in columns]
 
 
 def _transverse(name: str, names: Sequence[str], columns: list[Column], units: str | None) -> list[Column]:

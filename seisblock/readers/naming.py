@@ -50,6 +50,8 @@ _UNITS = {
     "milli-g": "mg",
 }
 _TIME_UNITS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0, "seconds": 1.0, "秒": 1.0, "ms": 1e-3, "msec": 1e-3, "min": 60.0}
+_ZONES = {"jst": 32400, "日本時間": 32400, "日本標準時": 32400, "utc": 0, "gmt": 0}
+_CLOCK = re.compile(r"(?:y+[-/]m+[-/]d+[t ]*)?h+:m+(?::s+(?:\.[sf]+)?)?", re.IGNORECASE)
 _OTHER_UNITS = {
     noted("a velocity"): ("m/s", "cm/s", "mm/s", "m/sec", "cm/sec", "kine", "kines", "カイン"),
     noted("a displacement"): ("m", "cm", "mm"),
@@ -86,6 +88,16 @@ def normal_unit(text: str) -> str | None:
 def time_unit(text: str) -> float | None:
     """Return the value of a unit of time in seconds, or None."""
     return _TIME_UNITS.get(tidy(text).lower())
+
+
+def zone_of(text: str) -> int | None:
+    """Return how far the clock of a zone is ahead of UTC, s: of what stands in the place of a unit of time, ``time (JST)``; else None."""
+    return _ZONES.get(tidy(text).lower())
+
+
+def tells_clock(text: str) -> bool:
+    """Return whether what stands in the place of a unit of time says that a clock tells it: ``JST``, ``hh:mm:ss``."""
+    return zone_of(text) is not None or _CLOCK.fullmatch(tidy(text)) is not None
 
 
 def is_unit(text: str) -> bool:

@@ -103,3 +103,14 @@ def test_where_it_falls_as_given_the_rim_is_thick():
     assert falls > 2.0 * stands and made.axes[1].get_ylabel() == "share that falls; thick rim: falls as given"
     asleep = figure(Stations((two[1],), None, ""), subject)
     assert asleep.axes[1].get_ylabel() == "share that falls"
+
+
+@pytest.mark.parametrize(("corner", "expected"), [((0, 0), 0.68), ((1, 0), 0.03)])
+def test_the_scale_hides_no_station(corner, expected):
+    """It stands in a corner that is free: a station in the southwest, or in the southeast, stays in sight, with its name."""
+    found, subject = stations(StandingStones(AOYAMA))
+    kept = [(139.0, 35.0), (139.36, 35.3)] if corner == (0, 0) else [(139.36, 35.0), (139.0, 35.3)]
+    answers = [replace(found.answers[0], station=f"S{i}", longitude=east, latitude=north) for i, (east, north) in enumerate(kept)]
+    axis = figure(Stations(tuple(answers), None, ""), subject).axes[0]
+    (bar,) = [line for line in axis.lines if line.get_transform() == axis.transAxes]
+    assert min(bar.get_xdata()) == pytest.approx(expected + 0.02)

@@ -12,6 +12,7 @@ from seisblock.cli import main
 from seisblock.errors import InputError, RecordFormatError, UnitError
 from seisblock.readers import read
 from seisblock.readers.clock import even_dt
+from seisblock.readers.columns import columns_of_header
 from seisblock.readers.formats.knet_csv import read_knet_csv
 from seisblock.readers.source import Blob
 from seisblock.records import motion_of
@@ -216,3 +217,27 @@ def test_a_file_with_times_of_six_digits_is_read(tmp_path, separator):
     rows = [separator.join((f"{99.0 + i * 0.00125:.6g}", "1", "2")) for i in range(3000)]
     path.write_text("\n".join([separator.join(("time", "NS(gal)", "EW(gal)")), "# a comment", *rows]) + "\n")
     assert read(path).dt == 0.00125
+
+
+@pytest.mark.parametrize(
+    ("names", "codes"),
+    [
+        (["S (gal)", "W (gal)", "D (gal)"], ["180", "270", "UD"]),
+        (["B (gal)", "C (gal)", "D (gal)"], ["B", "C", "D"]),
+        (["D (gal)"], ["D"]),
+        (["NS (gal)", "EW (gal)", "UD (gal)", "D (gal)"], ["NS", "EW", "UD", "D"]),
+        (["成分1 (gal)", "成分2 (gal)"], ["成分1", "成分2"]),
+        (["振動 (gal)", "上下動 (gal)", "UD成分"], None),
+        (["振動 (gal)", "上下動 (gal)"], ["振動", "UD"]),
+    ],
+    ids=repr,
+)
+def test_a_letter_or_a_number_is_a_direction_in_company_alone(names, codes):
+    """``D`` is down beside two horizontals without a vertical, and else a channel; ``成分1`` is the first, and not one degree."""
+    if codes is None:
+        with pytest.raises(RecordFormatError, match="several columns mean UD"):
+            columns_of_header("table", names)
+        return
+    read = columns_of_header("table", names).read
+    assert [column.code for column in read] == codes
+    assert all(column.azimuth_deg is None for column in read if column.code in ("D", "成分1", "成分2"))

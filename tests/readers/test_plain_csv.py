@@ -252,7 +252,7 @@ def test_times_printed_to_too_few_digits_are_named(table, dt, printed):
         ("time (s)\n0\n0.01\n", {}, RecordFormatError, "holds no acceleration: expected at least one such column, found time (s)"),
         ("time,NS (gal),N-S (gal)\n0,1,1\n0.01,2,2\n", {}, RecordFormatError, "several columns mean NS"),
         ("time,NS (gal),EW (gal),foo\n0,1,2,3\n0.01,2,3,4\n", {}, RecordFormatError, "column not understood: 'foo'; expected a direction"),
-        ("time (JST),NS (gal)\n0,1\n0.01,2\n", {}, UnitError, "unknown unit of time 'JST'"),
+        ("time (PST),NS (gal)\n0,1\n0.01,2\n", {}, UnitError, "unknown unit of time 'PST'"),
         ("abc def\n", {}, RecordFormatError, "no format known here: it begins 'abc def'; not JMA CSV"),
         ("# only\n# comments\n", {}, RecordFormatError, "no format known here: it begins '# only'"),
         (
@@ -310,3 +310,23 @@ def test_a_number_near_the_largest_is_refused_without_a_warning_of_numpy(table):
     """A damaged exponent: the decimals of 1e307 cannot be counted, and no ground moves like that."""
     with pytest.raises(InputError, match="no acceleration of the ground"):
         read(table("NS (gal)\n1.5\n1e307\n2.5\n"), dt=0.01)
+
+
+@pytest.mark.parametrize("zone", ["JST", "日本時間"])
+def test_the_zone_of_a_clock_may_stand_in_the_name_of_its_column(table, zone):
+    """``time (JST)`` over times without a zone: the start is nine hours earlier in UTC, and told by that clock; seconds stay seconds."""
+    rows = "".join(f"2024-01-01 00:00:10.{i:02d},{i},{-i}\n" for i in range(5))
+    record = read(table(f"時刻({zone}),NS (gal),EW (gal)\n{rows}"))
+    assert record.start.isoformat() == "2023-12-31T15:00:10+00:00"
+    assert record.metadata["clock"] == "JST"
+    assert record.history == ()
+    assert read(table("time (hh:mm:ss),NS (gal)\n16:10:10.0,1\n16:10:10.1,2\n16:10:10.2,1\n")).dt == pytest.approx(0.1)
+
+
+def test_a_line_of_units_may_leave_some_out_or_tell_of_no_acceleration(table):
+    """A dash is no unit; a line of centimetres is one of units all the same, and not the names of the columns."""
+    rows = "1,0.00,1,2\n2,0.01,5,3\n3,0.02,1,2\n"
+    record = read(table(f"No,time,NS,EW\n-,s,gal,gal\n{rows}"))
+    assert [component.code for component in record.components] == ["NS", "EW"]
+    with pytest.raises(RecordFormatError, match=r"holds no acceleration: .* NS \(cm\)"):
+        read(table(f"No,time,NS,EW\n-,s,cm,cm\n{rows}"))

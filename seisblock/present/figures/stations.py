@@ -16,7 +16,7 @@ from matplotlib.patheffects import withStroke
 from seisblock.errors import ParameterError
 from seisblock.present.coast import coast_within
 from seisblock.present.figures import canvas
-from seisblock.present.figures.place_names import Place, sides
+from seisblock.present.figures.place_names import Box, Place, sides
 from seisblock.present.scales import acceleration_unit
 from seisblock.present.text.map import HAPPENS
 from seisblock.records.site import EARTH_KM, beside, great_circle_km
@@ -45,8 +45,11 @@ MARGIN = 0.08
 NORTH = 0.95
 """How far east north's arrow stands, a share of the map."""
 
-SCALE_AT, NORTH_AT = (0.03, 0.02, 0.32, 0.15), (NORTH - 0.05, 0.75, NORTH + 0.05, 1.0)
-"""Where the scale and north are: west, south, east and north end, shares of the map."""
+SCALE_AT = ((0.03, 0.02, 0.32, 0.15), (0.68, 0.02, 0.97, 0.15), (0.03, 0.85, 0.32, 0.98))
+"""Where the scale may be, the first of these that hides fewest places: west, south, east and north end, shares of the map."""
+
+NORTH_AT = (NORTH - 0.05, 0.75, NORTH + 0.05, 1.0)
+"""Where north is."""
 
 STAR = (0.17, 0.16, 0.03)
 """How far the epicentre with its name reaches to either side, down and up, shares of the map."""
@@ -104,10 +107,10 @@ def figure(found: Stations, subject: WhatStands | None, *, gal: bool = True, sur
         norm = Normalize(0.0, most)
         axis.scatter(squares[:, 0], squares[:, 1], c=filled, cmap=SHADES, norm=norm, marker="s", s=52, edgecolor="black", zorder=3.5)
     _epicentre(axis, found)
-    _frame(axis, framed(found, surveys))
+    scale = _frame(axis, framed(found, surveys))
     if coast := coast_within(*axis.get_xlim(), *axis.get_ylim()):
         axis.add_collection(LineCollection(coast, colors=COAST, linewidths=0.8, zorder=1.5))
-    _names(axis, found, surveys)
+    _names(axis, found, surveys, scale)
     made.colorbar(points, ax=axis, label=label, shrink=0.8, pad=0.02)
     return made
 
@@ -238,8 +241,8 @@ def _epicentre(axis: Axes, found: Stations) -> None:
     )
 
 
-def _frame(axis: Axes, places: FloatArray) -> None:
-    """Give the map its extent, its proportions at that latitude, a scale bar and north."""
+def _frame(axis: Axes, places: FloatArray) -> Box:
+    """Give the map its extent, its proportions at that latitude, a scale bar and north; return where the scale bar is."""
     (west, south), (east, north) = places.min(axis=0), places.max(axis=0)
     middle = 0.5 * (south + north)
     narrowing = max(math.cos(math.radians(middle)), 0.01)
@@ -254,24 +257,29 @@ def _frame(axis: Axes, places: FloatArray) -> None:
     if max(abs(west), abs(east)) > HALF_TURN:
         axis.xaxis.set_major_formatter(lambda east, _: f"{beside(east, 0.0):g}".replace("-", "\N{MINUS SIGN}"))
     axis.locator_params(nbins=6)
-    _scale_bar(axis, 2.0 * half * KM_PER_DEGREE)
+    corner, across = np.array([axis.get_xlim()[0], axis.get_ylim()[0]]), 2.0 * half * np.array([1.0 / narrowing, 1.0])
+    east, north = ((places - corner) / across).T
+    at = min(SCALE_AT, key=lambda box: np.count_nonzero((east > box[0]) & (east < box[2]) & (north > box[1]) & (north < box[3])))
+    _scale_bar(axis, 2.0 * half * KM_PER_DEGREE, at)
     arrow = {"arrowstyle": "-|>", "color": "black"}
     axis.annotate("", (NORTH, 0.97), xytext=(NORTH, 0.88), xycoords="axes fraction", arrowprops=arrow, zorder=5)
     axis.text(NORTH, 0.87, tell("N"), transform=axis.transAxes, ha="center", va="top", fontsize=9, path_effects=HALO, zorder=5)
+    return at
 
 
-def _scale_bar(axis: Axes, across_km: float) -> None:
+def _scale_bar(axis: Axes, across_km: float, at: Box) -> None:
     """Draw a bar of a round number of kilometres, about a quarter of the map."""
     quarter = across_km / 4.0
     step = 10.0 ** math.floor(math.log10(quarter))
     length = next(factor * step for factor in (5.0, 2.0, 1.0) if factor * step <= quarter * 1.001)
     share = length / across_km
     style: dict[str, Any] = {"transform": axis.transAxes, "zorder": 5}
-    axis.plot([0.05, 0.05 + share], [0.05, 0.05], color="black", linewidth=2.5, solid_capstyle="butt", path_effects=HALO, **style)
-    axis.text(0.05 + 0.5 * share, 0.06, f"{length:g} km", ha="center", va="bottom", fontsize=8, path_effects=HALO, **style)
+    x, y = at[0] + 0.02, at[1] + 0.03
+    axis.plot([x, x + share], [y, y], color="black", linewidth=2.5, solid_capstyle="butt", path_effects=HALO, **style)
+    axis.text(x + 0.5 * share, y + 0.01, f"{length:g} km", ha="center", va="bottom", fontsize=8, path_effects=HALO, **style)
 
 
-def _names(axis: Axes, found: Stations, surveys: Sequence[SurveyAnswer]) -> None:
+def _names(axis: Axes, found: Stations, surveys: Sequence[SurveyAnswer], scale: Box) -> None:
     """Write the name of the worst station, then those of surveyed places and of the next stations, as far as there is room."""
     (left, right), (bottom, top) = axis.get_xlim(), axis.get_ylim()
 
@@ -280,7 +288,7 @@ def _names(axis: Axes, found: Stations, surveys: Sequence[SurveyAnswer]) -> None
 
     points = [placed(each.station or each.record, located(found, each.longitude, each.latitude)) for each in found.mapped]
     squares = [placed(each.surveyed.place, located(found, each.surveyed.longitude, each.surveyed.latitude)) for each in surveys]
-    epicentre, taken = epicentre_of(found), [SCALE_AT, NORTH_AT]
+    epicentre, taken = epicentre_of(found), [scale, NORTH_AT]
     if epicentre is not None:
         star = placed("", epicentre)
         taken.append((star.east - STAR[0], star.north - STAR[1], star.east + STAR[0], star.north + STAR[2]))

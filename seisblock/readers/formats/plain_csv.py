@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
-from datetime import datetime
+from datetime import datetime, timedelta
 from functools import partial
 
 import numpy as np
@@ -21,7 +21,7 @@ from seisblock.readers.formats.table_names import CLIMBING, LOOKED_AT, name_of_f
 from seisblock.readers.header import JST
 from seisblock.readers.lines import lines_of, mapped
 from seisblock.readers.moments import Moment, moment_in, seconds_instead
-from seisblock.readers.naming import TIME
+from seisblock.readers.naming import TIME, split_unit, zone_of
 from seisblock.readers.source import Blob
 from seisblock.records import Component, Doubt, Record
 from seisblock.typing import FloatArray
@@ -95,7 +95,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
             name=blob.name,
             columns=[name.strip() for name in layout.names] if named else [said("time")],
         )
-    start, remarks = _start(clock)
+    start, remarks = _start(clock, _zone(told))
     clocked = any(column.code == TIME for column in told.read)
     doubts = _doubts(lines, layout.body, clocked=clocked) + doubts_of_decimals(body, layout.body + 1, layout.separator)
     doubts += doubts_of_comments(lines[: layout.body], told.read, rows[0].size, dt)
@@ -108,7 +108,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
         source=blob.name,
         format=FORMAT,
         history=(*told.remarks, *remarks),
-        metadata=metadata | ({"clock": "JST"} if start and clock and clock.zone_s == JST.total_seconds() else {}),
+        metadata=metadata | ({"clock": "JST"} if start and clock and JST.total_seconds() in (clock.zone_s, _zone(told)) else {}),
         doubts=doubts,
     )
 
@@ -123,10 +123,17 @@ def _clock(told: Columns, body: Sequence[str], separator: str | None) -> tuple[M
     return first, mapped(body, seconds_instead(column.index, separator, first))
 
 
-def _start(clock: Moment | None) -> tuple[datetime | None, tuple[str, ...]]:
+def _zone(told: Columns) -> int | None:
+    """Return how far the clock that the name of the column of times tells is ahead of UTC, s: ``time (JST)``."""
+    return next((zone_of(split_unit(column.label)[1]) for column in told.read if column.code == TIME), None)
+
+
+def _start(clock: Moment | None, zone_s: int | None) -> tuple[datetime | None, tuple[str, ...]]:
     """Return the start that a clock tells, UTC, and what is to be said of it."""
     if clock is None or clock.utc is None:
         return None, ()
+    if clock.zone_s is None and zone_s is not None:
+        return clock.utc - timedelta(seconds=zone_s), ()
     return clock.utc, () if clock.zone_s is not None else (said("took the times of the file as UTC: no time zone stands beside them"),)
 
 

@@ -67,7 +67,8 @@ def preamble(name: str, lines: Sequence[str]) -> RecordFormatError | None:
 
 def begins_table(lines: Sequence[str]) -> bool:
     """Return whether the names of columns stand in the first of some lines, and as many numbers below it."""
-    if not is_data(lines[0]) or _all_numbers(lines[0], separator_of(lines[0])) or not looks_like_csv(lines[:1]):
+    cells = _split(lines[0], separator_of(lines[0]))
+    if not is_data(lines[0]) or _all_numbers(lines[0], separator_of(lines[0])) or with_units(cells, cells) or not looks_like_csv(lines[:1]):
         return False
     layout = layout_of("", lines)
     numbers = next((line for line in lines[layout.body :] if is_data(line)), "")

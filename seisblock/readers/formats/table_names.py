@@ -7,10 +7,13 @@ from itertools import pairwise
 
 from seisblock.readers.header import number
 from seisblock.readers.moments import moment_in
-from seisblock.readers.naming import is_unit, normal_unit, split_unit
+from seisblock.readers.naming import is_unit, split_unit, tells_clock
 
 CLIMBING = "time (s)"
 """What a first column without a name is called that climbs."""
+
+NO_UNIT = ("-", "--", "―", "なし")
+"""What stands in a line of units where a column has none."""
 
 LOOKED_AT = 50
 """Lines that show what a column without a name is."""
@@ -23,13 +26,14 @@ def with_units(names: Sequence[str], cells: Sequence[str]) -> tuple[str, ...] | 
     --------
     >>> with_units(["time", "NS", "UD"], ["s", "(gal)", "(gal)"])
     ('time (s)', 'NS (gal)', 'UD (gal)')
-    >>> with_units(["time", "NS"], ["0.00", "1.5"]) is None
-    True
+    >>> with_units(["No", "NS"], ["-", "gal"]), with_units(["time", "NS"], ["0.00", "1.5"]) is None
+    (('No', 'NS (gal)'), True)
     """
     units = [cell.strip().strip("()[]（）").strip() for cell in cells]
+    units = ["" if unit in NO_UNIT else unit for unit in units]
     while len(units) > len(names) and not units[-1]:
         units.pop()
-    if len(units) != len(names) or not any(normal_unit(unit) for unit in units) or not all(is_unit(unit) for unit in units if unit):
+    if len(units) != len(names) or not any(units) or not all(is_unit(unit) or tells_clock(unit) for unit in units if unit):
         return None
     return tuple(name if not unit or split_unit(name)[1] == unit else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
 
