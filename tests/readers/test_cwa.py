@@ -118,3 +118,13 @@ def test_a_file_that_is_cut_is_refused_or_doubted(file, share):
     except InputError:
         return
     assert "count" in {doubt.kind for doubt in record.doubts}
+
+
+@pytest.mark.parametrize(
+    ("written", "start"), [("", None), ("2020-01-02T03:04:05.250", datetime(2020, 1, 2, 3, 4, 5, 250_000, tzinfo=UTC))]
+)
+def test_a_start_that_is_left_out_or_told_as_iso_does(file, written, start):
+    """An empty StartTime costs the start and not the record; one with a T is read as it stands."""
+    text = layouts.cwa(ROWS, event=False).replace("2020/01/02-03:04:05.250", written)
+    assert written in text and "2020/01/02-" not in text
+    assert read(file(text)).start == start

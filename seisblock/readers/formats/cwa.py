@@ -143,7 +143,7 @@ def _interval(name: str, header: Mapping[str, _Entry], times: FloatArray, body: 
 def _start(name: str, header: Mapping[str, _Entry]) -> datetime | None:
     """Return the time of the instant 0 of the table, UTC; None where the header has none."""
     entry = header.get("starttime")
-    if entry is None:
+    if entry is None or not entry.value:
         return None
     start = _moment(entry)
     if start is None:
@@ -153,7 +153,8 @@ def _start(name: str, header: Mapping[str, _Entry]) -> datetime | None:
 
 def _moment(entry: _Entry) -> datetime | None:
     """Return a moment of the header, UTC."""
-    told, _ = moment_of(entry.value.replace("-", " ", 1) if "/" in entry.value else "")
+    written = entry.value.replace("-", " ", 1) if "/" in entry.value else entry.value.replace("-", "/").replace("T", " ", 1)
+    told, _ = moment_of(written)
     return told - CLOCKS[LOCAL] if told is not None and _is_local(entry) else told
 
 
