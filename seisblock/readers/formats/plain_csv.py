@@ -64,7 +64,7 @@ def read_plain_csv(blob: Blob, *, units: str | None = None, dt: float | None = N
         body = mapped(body, lambda line: line.replace(",", "."))
     if any('"' in line for line in body[:3]):
         body = mapped(body, partial(_QUOTED.sub, r"\1"))
-    if any(FORTRAN.search(line) for line in body[:3]):
+    if any(FORTRAN.search(line) for line in body[:LOOKED_AT]):
         body = mapped(body, partial(FORTRAN.sub, "E"))
     named = any(layout.names)
     nameless = named and not layout.names[0].strip()
