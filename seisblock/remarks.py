@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 import warnings
 
-_OWN = ("seisblock.", "dataclasses", "copy")
-"""How the names of modules begin that call for somebody else."""
+_OWN = {"seisblock", "dataclasses", "copy"}
+"""Packages that call for somebody else."""
 
 
 def is_asked_from_outside(depth: int) -> bool:
@@ -18,7 +18,7 @@ def is_asked_from_outside(depth: int) -> bool:
         How many calls lie between that function's caller and this call: 1 where the function itself asks.
     """
     caller = str(sys._getframe(depth + 1).f_globals.get("__name__", ""))
-    return caller != "seisblock" and not caller.startswith(_OWN)
+    return caller.partition(".")[0] not in _OWN
 
 
 def remark(text: str, depth: int) -> None:

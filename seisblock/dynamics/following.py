@@ -45,7 +45,7 @@ _FIRST_CAPACITY = 1 << 12
 _LAST_CAPACITY = 1 << 18
 """Events for which the tables have room, half of them in a single interval between two samples: at first, and at the most."""
 
-_MANY, _MANY_PER_SAMPLE = 1 << 21, 4
+_MANY, _MANY_PER_SAMPLE = 1 << 24, 4
 """Events, and of a long motion events per sample, beyond which a motion changes its mode without end."""
 
 Rows = TypeVar("Rows", FloatArray, IntArray)

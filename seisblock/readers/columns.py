@@ -148,7 +148,7 @@ def _first_look(name: str, index: int, written: str) -> Column | str:
     if code_of(written) == TIME or seconds:
         if unit_text and seconds is None and not tells_clock(unit_text):
             raise UnitError(
-                "{name}: column {written!r} has the unknown unit of time {unit_text!r}: expected s, ms or min",
+                "{name}: column {written!r} has the unknown unit of time {unit_text!r}: expected s, ms or min, or JST, UTC, hh:mm:ss",
                 name=name,
                 written=written,
                 unit_text=unit_text,

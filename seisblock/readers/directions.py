@@ -28,7 +28,7 @@ _AROUND = re.compile(
     r"^(?:acc(?:el(?:eration)?)?|a|(?:component|comp|cmp|direction|dir)(?=[ ,_.:-]+\D))[ ,_.:-]+(?=.)"
     r"|^(?:acc|a)(?=[xyz]$)|^acc(?=(?:ns|ew|ud)$)|(?<=^ns|^ew|^ud)acc$"
     r"|(?<=.)[ ,_.-]+(?:acc(?:el(?:eration)?)?|component|comp|cmp|direction|dir)\.?$"
-    r"|(?:加速度|成分|方向|波形|向き)(?!\s*\d)|(?<=[北西下直nsewudzxy])動$",
+    r"|(?<!\d)(?:加速度|成分|方向|波形|向き)(?!\s*\d)|(?<=[北西下直nsewudzxy])動$",
     re.IGNORECASE,
 )
 """What stands around a direction and tells none."""

@@ -92,7 +92,7 @@ def lines_of(blob: Blob) -> Sequence[str]:
     if len(data) < source.LARGE or not _is_plain(blob):
         return decode(blob).split("\n")
     marks, count = _marks(blob)
-    for encoding in ("utf-8", "cp932", "euc_jp"):
+    for encoding in ("utf-8", *source.japanese(data[: source.HEAD])):
         found = Lines(data, encoding, marks, 0, count)
         try:
             for _ in found.pieces():
@@ -115,7 +115,7 @@ def pieces_of(lines: Sequence[str]) -> Iterator[Sequence[str]]:
 
 def _is_plain(blob: Blob) -> bool:
     """Return whether bytes are those of a text whose lines end in LF or CR LF, in an encoding that leaves these single bytes."""
-    head = blob.held[:65536]
+    head = blob.held[: source.HEAD]
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or is_binary(head):
         return False
     return all(piece.count(b"\r", 0, source.LARGE) == piece.count(b"\r\n") for piece in blob.pieces())

@@ -8,11 +8,16 @@ from dataclasses import dataclass
 from datetime import UTC, date, datetime, timedelta
 
 DAY_S = 86400
+BEGINNING = datetime(1000, 1, 1, tzinfo=UTC)
+LATEST = 9000
+"""From when on, and up to which year, a clock is believed: a zone's hours lead out of neither end of the calendar."""
+
 _MOMENT = re.compile(
-    r"[\"']?(?:(\d{4})([-/])(\d{1,2})\2(\d{1,2})(?:[T ]|\s+))?(\d{1,2}):(\d\d):(\d\d)(?:\.(\d*))?\s*(Z|UTC|JST|[-+]\d\d(?::?\d\d)?)?[\"']?",
+    r"[\"']?(?:(\d{4})([-/])(\d{1,2})\2(\d{1,2})(?:[T ]|\s+))?"
+    r"(\d{1,2}):(\d\d):(\d\d)(?:\.(\d*))?\s*(Z|UTC|GMT|JST|[-+]\d\d(?::?\d\d)?)?[\"']?",
     re.IGNORECASE,
 )
-_ZONES = {"Z": 0, "UTC": 0, "JST": 9 * 3600}
+_ZONES = {"Z": 0, "UTC": 0, "GMT": 0, "JST": 9 * 3600}
 
 
 @dataclass(frozen=True)
@@ -22,7 +27,7 @@ class Moment:
     Parameters
     ----------
     seconds : int
-        Since the beginning of the day, or, where the date is told, of the year 1; of the hour at Greenwich where the zone is told.
+        Since the beginning of the day, or, where the date is told, of the year 1000; of the hour at Greenwich where the zone is told.
     fraction : str
         Of a second, the digits as printed.
     dated : bool
@@ -40,7 +45,7 @@ class Moment:
         """The moment, taken for UTC where no zone is told; None without a date."""
         if not self.dated:
             return None
-        return datetime(1, 1, 1, tzinfo=UTC) + timedelta(seconds=self.seconds - DAY_S, microseconds=int(f"{self.fraction:0<6}"[:6]))
+        return BEGINNING + timedelta(seconds=self.seconds, microseconds=int(f"{self.fraction:0<6}"[:6]))
 
 
 def moment_in(cell: str) -> Moment | None:
@@ -60,8 +65,10 @@ def moment_in(cell: str) -> Moment | None:
     zone = _zone(match[9])
     seconds = 3600 * hour + 60 * minute + second - (zone or 0)
     if match[1]:
+        if not BEGINNING.year < int(match[1]) < LATEST:
+            return None
         try:
-            seconds += DAY_S * date(int(match[1]), int(match[3]), int(match[4])).toordinal()
+            seconds += DAY_S * (date(int(match[1]), int(match[3]), int(match[4])) - BEGINNING.date()).days
         except ValueError:  # no such day
             return None
     return Moment(seconds, match[8] or "", bool(match[1]), zone)

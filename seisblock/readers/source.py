@@ -6,6 +6,7 @@ import codecs
 import hashlib
 import io
 import os
+import re
 import stat
 import sys
 from collections.abc import Iterable, Iterator
@@ -30,6 +31,13 @@ STDIN = "-"
 LONGEST_SHOWN = 200
 """How much of a text from outside a message shows at most."""
 
+
+HEAD = 2**16
+"""Bytes by which an encoding is told."""
+
+_HALF_WIDTH = re.compile("[｡-ﾟ\uf8f0-\uf8f3]")
+_OF_TABLES = re.compile("[時刻間秒南北東西上下方向成分速度動]")
+"""Letters that bytes of EUC-JP give when they are read as Shift-JIS, and some that the headings of tables hold."""
 
 LARGE = 2**25
 """Bytes beyond which a file, or a text, is taken piece by piece."""
@@ -232,7 +240,7 @@ def decode(blob: Blob) -> str:
     elif is_binary(data):
         encodings = []
     else:
-        encodings = ["utf-8-sig", "cp932", "euc_jp"]
+        encodings = ["utf-8-sig", *japanese(data)]
     for encoding in encodings:
         try:
             return data.decode(encoding).replace("\r\n", "\n").replace("\r", "\n")
@@ -241,7 +249,24 @@ def decode(blob: Blob) -> str:
     raise RecordFormatError("{name} is not text (neither UTF-8, Shift-JIS nor EUC-JP): expected a record in a text format", name=blob.name)
 
 
+def japanese(data: bytes) -> tuple[str, str]:
+    """Return the two encodings of Japanese, the likelier first: what EUC-JP means looks like half-width kana in Shift-JIS.
+
+    Examples
+    --------
+    >>> japanese("UD方向(gal)".encode("euc_jp"))[0], japanese("UD方向(gal)".encode("cp932"))[0]
+    ('euc_jp', 'cp932')
+    """
+    head = data[:HEAD]
+    try:
+        as_euc = head.decode("euc_jp", errors="ignore" if len(data) > HEAD else "strict")
+    except UnicodeDecodeError:
+        return "cp932", "euc_jp"
+    kana = _HALF_WIDTH.search(head.decode("cp932", errors="ignore"))
+    return ("euc_jp", "cp932") if kana and _OF_TABLES.search(as_euc) else ("cp932", "euc_jp")
+
+
 def is_binary(data: bytes) -> bool:
     """Return whether bytes hold control characters that no text has."""
-    head = data[:65536]
+    head = data[:HEAD]
     return any(byte in head for byte in (b"\x00", b"\x01", b"\x02", b"\x03", b"\x04", b"\x05", b"\x06", b"\x7f"))

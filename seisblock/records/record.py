@@ -39,7 +39,7 @@ def azimuth_meant(name: str) -> float | None:
     [45.0, 210.5, 315.0, 45.0, None]
     """
     if degrees := _DEGREES.fullmatch(name.strip()):
-        return float(degrees[1])
+        return float(degrees[1]) if float(degrees[1]) <= 360.0 else None
     found = _BEARING.fullmatch(name.strip())
     if found is None or float(found[2] or 45.0) > 90.0:
         return None

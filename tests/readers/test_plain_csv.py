@@ -330,3 +330,20 @@ def test_a_line_of_units_may_leave_some_out_or_tell_of_no_acceleration(table):
     assert [component.code for component in record.components] == ["NS", "EW"]
     with pytest.raises(RecordFormatError, match=r"holds no acceleration: .* NS \(cm\)"):
         read(table(f"No,time,NS,EW\n-,s,cm,cm\n{rows}"))
+
+
+def test_the_two_encodings_of_japanese_are_told_apart(table):
+    """A heading in EUC-JP is read as it was written, and one in Shift-JIS, be it in half-width kana, too."""
+    rows = "0.00,1,2,3\n0.01,4,5,-6\n0.02,1,2,3\n"
+    for head in ("経過時間(s),NS方向(gal),EW方向(gal),UD方向(gal)", "時刻(s),南北成分(gal),東西成分(gal),上下成分(gal)"):
+        for encoding in ("euc_jp", "cp932"):
+            assert read(table(f"{head}\n{rows}", encoding)).codes == ("NS", "EW", "UD"), (head, encoding)
+    assert read(table(f"time,NS (gal),EW (gal),ﾁｸﾊﾞﾝ(gal)\n{rows}", "cp932")).codes[2] == "チクバン"
+
+
+@pytest.mark.parametrize("moment", ["0001-01-01T00:00:00", "9999-12-31T23:59:58", "0900-01-01T00:00:00"])
+def test_a_clock_at_an_end_of_the_calendar_is_refused(table, moment):
+    """A damaged year is a cell that is no time, and no overflow."""
+    rows = "".join(f"{moment}.{i:02d}-09:00,{i}\n" for i in range(4))
+    with pytest.raises(InputError):
+        read(table(f"time (JST),NS (gal)\n{rows}"))

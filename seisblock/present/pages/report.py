@@ -79,7 +79,7 @@ def _tile(body: BodyAssessment) -> dict[str, str]:
     effects = _of(body, GOVERNING)
     first, text = words.card(effects)
     head = tell("{name}: {what}", name=tell(body.subject.name), what=first)
-    return {"level": words.level(max(effects, key=words.rank)), "head": head, "text": strung(text)}
+    return {"level": words.level(effects), "head": head, "text": strung(text)}
 
 
 def _record(found: Assessment) -> dict[str, Any]:

@@ -31,14 +31,15 @@ BAD = 2.0
 """Severity from which a body falls or jumps."""
 
 
-def rank(effect: Effect) -> tuple[bool, float, float]:
-    """Return what makes one direction worse than another: that the body falls there, in what share of its versions, then how bad it is."""
-    return severity(effect) >= BAD, _share(effect), severity(effect)
+def rank(effect: Effect) -> tuple[float, float]:
+    """Return what makes one direction worse than another: in what share of its versions the body falls there, then its verdict as given."""
+    return _share(effect), severity(effect)
 
 
-def level(effect: Effect) -> str:
-    """Return the class of a card: a body that falls, one that moves or falls in some version, or neither."""
-    return "bad" if severity(effect) >= BAD else "mild" if severity(effect) > 0.0 or _share(effect) > 0.0 else ""
+def level(effects: Sequence[Effect]) -> str:
+    """Return the class of a card: a body that falls in any direction, one that moves or falls in some version, or neither."""
+    worst = max(map(severity, effects))
+    return "bad" if worst >= BAD else "mild" if worst > 0.0 or any(map(_share, effects)) else ""
 
 
 def _share(effect: Effect) -> float:
@@ -121,11 +122,11 @@ def governing(effect: Effect) -> Iterator[str]:
 
 
 def card(effects: Sequence[Effect]) -> tuple[str, list[str]]:
-    """Return the head and the text of a body's card: the worst direction, each other one in which it falls, and what a share is worth."""
+    """Return the head and the text of a body's card: the worst direction, each other one in which it may fall, what a share is worth."""
     worst, *others = sorted(effects, key=rank, reverse=True)
     head, *text = [*governing(worst), *worth(worst)]
     for other in others:
-        if other.response.outcome.overturned:
+        if other.response.outcome.overturned or _share(other) > 0.0:
             text += [*governing(other), *worth(other)]
     return head, list(dict.fromkeys(text))
 
@@ -135,9 +136,9 @@ def worth(effect: Effect) -> Iterator[str]:
     if effect.governing is None or effect.governing.probability is None:
         return
     if _share(effect) == 0.0:
-        yield tell("On shaking tables 3 % of two granite rocks fell where no version did.")
+        yield tell("In runs of two granite rocks on shaking tables 3 % fell where no version did.")
     elif _share(effect) == 1.0:
-        yield tell("On shaking tables 2 % of two granite rocks stood where every version fell.")
+        yield tell("In runs of two granite rocks on shaking tables 2 % stood where every version fell.")
 
 
 def scatter(effects: Sequence[Effect]) -> str:

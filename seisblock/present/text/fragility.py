@@ -9,14 +9,13 @@ from seisblock.present.scales import length_unit
 from seisblock.present.text.tables import NOTHING, line, number, table
 from seisblock.studies.fragility.answer import Fragility, FragilityStudy, Interval
 from seisblock.studies.fragility.estimate import CLOUD, IDA, STRIPES
-from seisblock.studies.fragility.limits import LEAN, OVERTURN, ROCK, SLIP
+from seisblock.studies.fragility.limits import SLIP, said_limit
 from seisblock.studies.fragility.lognormal import Lognormal
 from seisblock.words import noted, tell
 
 MOST_VERDICTS = 4
 """Curves each of which has a sentence of its own."""
 
-_LIMITS = {OVERTURN: noted("overturns"), ROCK: noted("rocks")}
 _METHODS = {
     STRIPES: noted("every record at every level, maximum likelihood"),
     IDA: noted("the level at which each record does it first"),
@@ -27,13 +26,11 @@ _METHODS = {
 def limit_name(name: str, *, gal: bool = True) -> str:
     """Return a limit as it is told: ``overturn`` as overturns, ``slip=0.05m`` as moved 5 cm, or 0.05 m."""
     kind, _, threshold = name.partition("=")
-    if kind == LEAN:
-        return tell("leans {share} alpha", share=threshold)
-    if kind == SLIP:
-        far = float(threshold.removesuffix("m"))
-        size, unit = length_unit([far], gal=gal)
-        return tell("moved {length}", length=f"{round(far / size, 6):g} {unit}")
-    return tell(_LIMITS[kind])
+    if kind != SLIP:
+        return tell(said_limit(name))
+    far = float(threshold.removesuffix("m"))
+    size, unit = length_unit([far], gal=gal)
+    return tell("moved {length}", length=f"{round(far / size, 6):g} {unit}")
 
 
 def tables(study: FragilityStudy, *, gal: bool, compare: Lognormal | None = None) -> Iterator[Any]:

@@ -190,8 +190,8 @@ def varied(found: Probability, block: Block) -> str:
         worn = said("edges worn by {low} to {high} of the width", low=roughly(low), high=roughly(high))
     return tell(
         "of this model's scatter alone: {sizes}, {edges}, {friction}, restitution up to +{restitution:g}, amplitude ±{amplitude}, "
-        "direction ±{azimuth:g} degrees; on shaking tables 3 % of two granite rocks fell where none of 20 versions did, and 2 % stood "
-        "where all fell",
+        "direction ±{azimuth:g} degrees; in runs of two granite rocks on shaking tables 3 % fell where none of 20 versions did, and 2 % "
+        "stood where all fell",
         sizes=sizes,
         edges=known.edges or worn,
         friction=known.friction or said("friction ±{share}", share=roughly(by.mu)),

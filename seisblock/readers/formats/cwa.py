@@ -31,6 +31,9 @@ FORMAT = "CWA"
 LOCAL = "GMT+08"
 """What the header calls the clock of Taiwan."""
 
+LONGEST_S = 1e7
+"""A first sample later than this after the instant 0, s, is damage and no time."""
+
 _KEY = re.compile(r"#\s*([^:(]+?)\s*(?:\(([^)]*)\))?\s*:\s*(.*?)\s*$")
 _SEQUENCE = re.compile(r"Time\s+(?:[A-Z]+\(\+\)[;,\s]*){1,3}$", re.IGNORECASE)
 _EXTREMES = re.compile(r"AmplitudeMAX\.?\s*(\S+)", re.IGNORECASE)
@@ -79,14 +82,14 @@ def read_cwa(blob: Blob) -> Record:
     rows = columns_of(blob.name, lines[body:], body + 1, labels, len(labels), separator=None)
     dt = _interval(blob.name, header, rows[0], lines[body:])
     samples = dict(zip(directions, rows[1:], strict=True))
-    start = _start(blob.name, header)
+    start = _start(blob.name, header, float(rows[0][0]))
     doubts = (*_of_count(header, rows[0].size, dt), *_of_extremes(header, samples, unit))
     doubts += doubts_of_decimals(lines[body:], body + 1, None) + doubts_of_end(lines[body:], None)
     return Record(
         tuple(Component(code, to_si(row, unit), directions[code].azimuth_deg) for code, row in samples.items()),
         dt,
         station=header["stationcode"].value if "stationcode" in header else "",
-        start=None if start is None else start + timedelta(seconds=float(rows[0][0])),
+        start=start,
         source=blob.name,
         format=FORMAT,
         metadata={"unit": unit, **_metadata(header)},
@@ -140,21 +143,21 @@ def _interval(name: str, header: Mapping[str, _Entry], times: FloatArray, body: 
     return 1.0 / rate
 
 
-def _start(name: str, header: Mapping[str, _Entry]) -> datetime | None:
-    """Return the time of the instant 0 of the table, UTC; None where the header has none."""
+def _start(name: str, header: Mapping[str, _Entry], first_s: float) -> datetime | None:
+    """Return the time of the first sample, UTC, so long after the instant 0 of the table; None where the header has none."""
     entry = header.get("starttime")
     if entry is None or not entry.value:
         return None
     start = _moment(entry)
     if start is None:
         fail(name, entry.line, said("expected a time such as 1999/09/20-17:47:15.000, found {text!r}", text=entry.value[:40]))
-    return start
+    return start + timedelta(seconds=first_s) if abs(first_s) < LONGEST_S else start
 
 
 def _moment(entry: _Entry) -> datetime | None:
     """Return a moment of the header, UTC."""
-    written = entry.value.replace("-", " ", 1) if "/" in entry.value else entry.value.replace("-", "/").replace("T", " ", 1)
-    told, _ = moment_of(written)
+    day, _, time = re.sub(r"(?<=\d)[T-](?=\d\d?:)", " ", entry.value).partition(" ")
+    told, _ = moment_of(f"{day.replace('-', '/')} {time}")
     return told - CLOCKS[LOCAL] if told is not None and _is_local(entry) else told
 
 

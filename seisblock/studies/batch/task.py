@@ -196,7 +196,7 @@ def _answer(motion: Motion, body: Placed, plan: Plan, doubts: Sequence[str]) -> 
     except SeisblockError as error:
         return {REASON: error.said}
     if response.status == Status.TOO_MANY_EVENTS:
-        return {REASON: "; ".join(response.warnings)}
+        return {REASON: response.warnings[0]}
     told = [*doubts, *response.warnings]
     found = {name: _plain(getattr(response.outcome, name), kind) for name, kind in model.scalars.items()}
     return {**found, **chance, WARNINGS: "; ".join(told) or None}
