@@ -87,9 +87,10 @@ def _part(compiled: Callable[..., Any]) -> Any:
 
 def _made(compiled: Callable[[bool], Any], function: Callable[..., Any]) -> Any:
     """Compile a kernel, or read it, while somebody may be told which."""
-    what = noted("reading the compiled kernels") if cache.is_kept(function) else noted("compiling the kernels")
+    kept = cache.is_kept(function)
+    what = noted("reading the compiled kernels") if kept else noted("compiling the kernels")
     with nullcontext() if at_work is None else at_work(what):
-        return cache.guarded(compiled, function, say)
+        return cache.guarded(compiled, function, say, kept=kept)
 
 
 def say(message: str) -> None:

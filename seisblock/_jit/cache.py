@@ -94,7 +94,7 @@ def _numba_keeps_in(place: Path) -> Iterator[None]:
                 setattr(numba.config, name, value)
 
 
-def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], say: Callable[[str], None]) -> Compiled:
+def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], say: Callable[[str], None], *, kept: bool) -> Compiled:
     """Compile one kernel with the help of the cache as far as it goes.
 
     Parameters
@@ -105,6 +105,8 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
         The kernel's source.
     say : callable
         Told, once, what takes a while and why.
+    kept : bool
+        Whether something is kept of it.
     """
     global _given_up
     place = directory()
@@ -113,7 +115,7 @@ def guarded(compiled: Callable[[bool], Compiled], function: Callable[..., Any], 
         _given_up = True
     if _given_up:
         return compiled(False)
-    if not is_kept(function):
+    if not kept:
         _once(say, said("compiling the kernels, once; seconds, for the largest half a minute..."))
     with _numba_keeps_in(place):
         try:

@@ -34,6 +34,18 @@ def by_record(items: Iterable[Item], record_of: Callable[[Item], Record | None])
     return list(parts.values())
 
 
+def write_by_record(
+    path: Path | str,
+    header: Sequence[str],
+    items: Iterable[Item],
+    record_of: Callable[[Item], Record | None],
+    rows_of: Callable[[Item], Iterable[Sequence[Any]]],
+) -> None:
+    """Write the rows of some answers as CSV, record by record; of several the first column says which record."""
+    tables = [(row for item in part for row in rows_of(item)) for part in by_record(items, record_of)]
+    write_table(path, *of_records(header, tables))
+
+
 def write_histories(path: Path | str, responses: Sequence[Response[Any]]) -> None:
     """Write the time histories of responses, one below the other, with the component in the first column and the phase in the last.
 
@@ -43,9 +55,8 @@ def write_histories(path: Path | str, responses: Sequence[Response[Any]]) -> Non
     if not responses:
         raise OutputError("cannot write {path}: there is no time history to write", path=path)
     names = list(dict.fromkeys(name for response in responses for name in response.to_columns()))
-    parts = by_record(responses, lambda response: response.motion.record)
-    tables = [(row for response in part for row in _rows(response, names)) for part in parts]
-    write_table(path, *of_records(["component", *names, "phase"], tables))
+    header = ["component", *names, "phase"]
+    write_by_record(path, header, responses, lambda response: response.motion.record, lambda response: _rows(response, names))
 
 
 def _rows(response: Response[Any], names: Sequence[str]) -> Iterator[Sequence[Any]]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from seisblock.records.bearings import azimuth_of_bearing
+
 _POINTS = {
     0.0: ("ns", "n", "north", "northsouth", "northward", "南北"),
     90.0: ("ew", "e", "east", "eastwest", "eastward", "東西"),
@@ -114,9 +116,7 @@ def direction_of(text: str) -> Direction | None:
         return Direction(_AXIS[key])
     quadrant = _QUADRANT.fullmatch(re.sub(r"[°度]", "", re.sub(r"[\s_-]", "", text)))
     if quadrant and float(quadrant[2]) <= 90.0:
-        angle = float(quadrant[2])
-        turned = {"NE": angle, "SE": 180.0 - angle, "SW": 180.0 + angle, "NW": 360.0 - angle}
-        return towards(turned[(quadrant[1] + quadrant[3]).upper()])
+        return towards(azimuth_of_bearing(quadrant[1], float(quadrant[2]), quadrant[3]))
     degrees = _DEGREES.fullmatch(re.sub(r"[\s_:=-]", "", text))
     if degrees and float(degrees[1]) <= 360.0:
         return towards(float(degrees[1]), bare=degrees[0] == degrees[1])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
@@ -11,6 +10,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.errors import ComponentError, RecordError
+from seisblock.records.bearings import azimuth_meant
 from seisblock.records.doubts import Doubt
 from seisblock.showing import Drawn
 from seisblock.typing import ArrayLike, FloatArray
@@ -24,27 +24,6 @@ VERTICAL = "UD"
 
 IMPOSSIBLE = 1e9
 """No number beyond this, m/s^2, is an acceleration of the ground: squares of it would leave the range of numbers."""
-
-
-_BEARING = re.compile(r"([NS])(\d{1,2}(?:\.\d{1,9})?)?([EW])", re.IGNORECASE)
-_DEGREES = re.compile(r"(\d{1,3}(?:\.\d{1,9})?)(?:°|度|deg)", re.IGNORECASE)
-
-
-def azimuth_meant(name: str) -> float | None:
-    """Return the azimuth, degrees clockwise from north, that a bearing means; None where it is none.
-
-    Examples
-    --------
-    >>> [azimuth_meant(name) for name in ("N45E", "S30.5W", "NW", "45°", "EW")]
-    [45.0, 210.5, 315.0, 45.0, None]
-    """
-    if degrees := _DEGREES.fullmatch(name.strip()):
-        return float(degrees[1]) if float(degrees[1]) <= 360.0 else None
-    found = _BEARING.fullmatch(name.strip())
-    if found is None or float(found[2] or 45.0) > 90.0:
-        return None
-    angle = float(found[2] or 45.0)
-    return {"NE": angle, "SE": 180.0 - angle, "SW": 180.0 + angle, "NW": 360.0 - angle}[(found[1] + found[3]).upper()]
 
 
 def frozen(values: ArrayLike) -> FloatArray:

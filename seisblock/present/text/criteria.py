@@ -10,8 +10,7 @@ from rich.text import Text
 
 from seisblock.criteria.card import ACCELERATION, Row, once_each
 from seisblock.present.edges import edges
-from seisblock.present.files import write_table
-from seisblock.present.histories import by_record, of_records
+from seisblock.present.histories import write_by_record
 from seisblock.present.scales import acceleration_unit, velocity_unit
 from seisblock.present.text.agreement import agreement_line
 from seisblock.present.text.respond import verdict as fate
@@ -136,8 +135,7 @@ def _verdict(row: Row, card: Card) -> str:
 def write(path: Path, cards: Sequence[Card]) -> None:
     """Write all rows as CSV, SI; of several records the first column says which."""
     header = ["component", "criterion", "where", "unit", "frequency", "frequency_hz", "threshold", "demand", "overturns", "simulated"]
-    parts = by_record(cards, lambda card: card.record)
-    write_table(path, *of_records(header, [[cells for card in part for cells in _cells(card)] for part in parts]))
+    write_by_record(path, header, cards, lambda card: card.record, _cells)
 
 
 def _cells(card: Card) -> Iterator[list[Any]]:

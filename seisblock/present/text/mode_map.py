@@ -9,8 +9,7 @@ from typing import Any
 
 from rich.text import Text
 
-from seisblock.present.files import write_table
-from seisblock.present.histories import by_record, of_records
+from seisblock.present.histories import write_by_record
 from seisblock.present.text.spectrum import thinned
 from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
@@ -99,8 +98,7 @@ def _title(motion: Motion, found: ModeMap) -> str:
 def write(path: Path, maps: Maps) -> None:
     """Write every cell as a row of CSV, SI; of several records with their index."""
     header = ["component", "size_m", "b_over_h", "mu", "mode", "max_rotation_ratio", "slip_path_m", "final_displacement_m"]
-    parts = by_record(maps, lambda each: each[0].record)
-    write_table(path, *of_records(header, [(row for each in part for row in _rows(*each)) for part in parts]))
+    write_by_record(path, header, maps, lambda each: each[0].record, lambda each: _rows(*each))
 
 
 def _rows(motion: Motion, found: ModeMap) -> Iterator[list[Any]]:

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.present.files import write_table
-from seisblock.present.histories import by_record, of_records
+from seisblock.present.histories import write_by_record
 from seisblock.present.scales import length_cell, length_unit, told_length
 from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
@@ -55,6 +54,11 @@ def verdict(name: str, points: Sequence[SlidePoint]) -> str:
 
 def write(path: Path, curves: Curves) -> None:
     """Write every point as a row of CSV, SI; of several records with their index."""
-    parts = by_record(curves, lambda each: each[0].record)
-    rows = [([motion.name, p.mu, p.max_slip_m, p.residual_slip_m] for motion, points in part for p in points) for part in parts]
-    write_table(path, *of_records(["component", "mu", "max_slip_m", "residual_slip_m"], rows))
+    header = ["component", "mu", "max_slip_m", "residual_slip_m"]
+    write_by_record(
+        path,
+        header,
+        curves,
+        lambda each: each[0].record,
+        lambda each: ([each[0].name, p.mu, p.max_slip_m, p.residual_slip_m] for p in each[1]),
+    )

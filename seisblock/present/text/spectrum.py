@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from seisblock.present.files import write_table
-from seisblock.present.histories import by_record, of_records
+from seisblock.present.histories import write_by_record
 from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
 from seisblock.studies.rocking.spectra import RockingSpectrum
@@ -85,8 +84,7 @@ def write(path: Path, spectra: Spectra) -> None:
         "overturned",
         *(["overturning_rate", "worst_azimuth_deg"] if around else []),
     ]
-    parts = by_record(spectra, lambda each: each[0].record)
-    write_table(path, *of_records(header, [(row for each in part for row in _rows(*each)) for part in parts]))
+    write_by_record(path, header, spectra, lambda each: each[0].record, lambda each: _rows(*each))
 
 
 def _rows(motion: Motion, found: RockingSpectrum) -> Iterator[list[Any]]:
