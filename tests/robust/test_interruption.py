@@ -44,15 +44,15 @@ os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])
 """One core, so that one worker is to be stopped and processor time is time."""
 
 COMPILING = """
-from seisblock.solvers.slide.model import SLIDE
+from seisblock.solvers.respond.model import RESPOND
 print("go", flush=True)
 try:
-    SLIDE.pointers
+    RESPOND.pointers
 except KeyboardInterrupt:
     print(time.process_time(), flush=True)
     sys.exit(130)
 """
-"""Compiles, for the kernels are nowhere yet."""
+"""Compiles for many seconds, for the kernels are nowhere yet."""
 
 COMMAND = """
 import contextlib, io
