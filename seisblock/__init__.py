@@ -8,7 +8,7 @@ import lazy_loader
 
 from seisblock import showing
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 # the public names stand in __init__.pyi, with their types; each is imported when it is first asked for
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

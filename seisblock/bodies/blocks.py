@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.bodies.block import Block, lever_ratio, resized, restitution_onto
 from seisblock.bodies.inset import SHARP, Inset
-from seisblock.bodies.ranges import Ranges, within
+from seisblock.bodies.ranges import Range
 from seisblock.typing import ArrayLike, FloatArray, IntArray
 
 MOST_WORN = 0.8
@@ -134,34 +134,43 @@ def versions(block: Block, *, size: ArrayLike, slenderness: ArrayLike, inset_sha
     return Blocks(right, left, centre, gyration)
 
 
-def versions_within(
-    block: Block, known: Ranges, *, tall: FloatArray, wide: FloatArray, worn: FloatArray, size: float, inset: FloatArray
-) -> Blocks:
-    """Return versions of a block within the ranges of its kind, their width, height and edges drawn independently of each other.
+def within(known: Range, own: float, draws: FloatArray) -> FloatArray:
+    """Return samples of a range whose median is a body's own value, for uniform draws in [-1, 1].
+
+    The lower half of the draws lies evenly between the least and the own value, the upper half between that and the largest.
+
+    Examples
+    --------
+    >>> within((0.2, 0.7), 0.4, np.array([-1.0, -0.5, 0.0, 0.5, 1.0])).round(2).tolist()
+    [0.2, 0.3, 0.4, 0.55, 0.7]
+    """
+    low, high = min(known[0], own), max(known[1], own)
+    return own + np.where(draws < 0.0, own - low, high - own) * draws
+
+
+def samples(block: Block, tolerance: float, *, wide: FloatArray, tall: FloatArray, worn: FloatArray) -> Blocks:
+    """Return samples of a block: its widths and heights multiplied by factors, its edges drawn from their prior or about their own inset.
 
     Parameters
     ----------
     block : Block
-    known : Ranges
-    tall, wide, worn : (m,) arrays
-        In [-1, 1]: the height, the width and the worn edges of each version within their ranges.
-    size : float
-        How far, a share, a width or height differs for which there is no range.
-    inset : (m,) array
-        Edges where there is no range for them, a share of the width per side.
+        The median of the samples.
+    tolerance : float
+        Half width of a known inset, a share of itself; see :func:`wear_range`.
+    wide, tall : (m,) arrays
+        Factors on all lengths along the motion, and on all heights.
+    worn : (m,) array
+        In [-1, 1]: the worn edges of each sample within their range.
     """
-    heights = block.height * (1.0 + size * tall) if known.height_m is None else within(known.height_m, tall)
-    widths = block.width * (1.0 + size * wide) if known.width_m is None else within(known.width_m, wide)
-    larger = heights / block.height
-    share = inset if known.inset_m is None else within(known.inset_m, worn) / widths
-    return versions(block, size=larger, slenderness=widths / block.width / larger, inset_share=share)
+    share = within(wear_range(block, tolerance), block.inset / block.width, worn)
+    return versions(block, size=tall, slenderness=wide / tall, inset_share=share)
 
 
 def wear_within(block: Block, share: float) -> float:
-    """Return how far versions of a block may be worn, a share of its width per side.
+    """Return the inset of a block whose edges nobody has measured, a share of its width per side.
 
-    Less than asked where its two sides differ so much that hardly anything would be left under its centre of gravity: what stands is not
-    worn like that.
+    Less than the share of its kind where its two sides differ so much that hardly anything would be left under its centre of gravity:
+    what stands is not worn like that.
 
     Examples
     --------
@@ -174,43 +183,28 @@ def wear_within(block: Block, share: float) -> float:
     return min(share, max(MOST_WORN * smaller, block.inset / block.width))
 
 
-def deepest_within(block: Block, share: float) -> float:
-    """Return the deepest that versions of a block are worn which begin with sharp edges: never less than it is itself, a share.
+def wear_range(block: Block, tolerance: float) -> Range:
+    """Return the least and the largest inset of the samples of a block, shares of its width per side.
+
+    A known inset varies by a share of itself, so that sharp edges stay sharp; one that is not known has the range of its kind. Neither
+    leaves less than a fifth of what the block stands on. A tolerance of 0 means that the inset is known exactly.
 
     Examples
     --------
-    >>> deepest_within(Block(0.2, 0.6), 0.1), round(deepest_within(Block(0.2, 0.6).worn(0.3), 0.1), 6)
-    (0.1, 0.3)
-    """
-    return max(wear_within(block, share), block.inset / block.width)
-
-
-def wear_range(block: Block, share: float) -> tuple[float, float]:
-    """Return between which shares of its width per side versions of a block are worn, from sharp edges to `share`.
-
-    A block that is itself worn by more differs from that by half of `share`, and by no more than leaves a fifth of what it stands on.
-
-    Examples
-    --------
-    >>> [[round(end, 3) for end in wear_range(Block(0.2, 0.6).worn(own), 0.1)] for own in (0.0, 0.1, 0.3, 0.48)]
-    [[0.0, 0.1], [0.0, 0.1], [0.25, 0.35], [0.464, 0.496]]
+    >>> [[round(end, 3) for end in wear_range(Block(0.2, 0.6).worn(own), 0.1)] for own in (0.0, 0.1, 0.48)]
+    [[0.0, 0.0], [0.09, 0.11], [0.464, 0.496]]
+    >>> from seisblock.bodies.ranges import Ranges
+    >>> [round(end, 3) for end in wear_range(Block(0.2, 0.6, inset=0.01, ranges=Ranges(inset_m=(0.0, 0.02))), 0.1)]
+    [0.0, 0.1]
     """
     own = block.inset / block.width
-    return range_about(own, wear_within(block, share), 0.5 - abs(block.centroid_offset) / block.width - own)
-
-
-def range_about(own: float, deepest: float, left: float) -> tuple[float, float]:
-    """Return between which shares versions are worn of what is itself worn by one share, and has another one left to stand on.
-
-    Examples
-    --------
-    >>> [range_about(own, 0.1, 0.5 - own) for own in (0.0, 0.25)]
-    [(0.0, 0.1), (0.2, 0.3)]
-    """
-    if own <= deepest or math.isclose(own, deepest):
-        return 0.0, deepest
-    half = min(0.5 * deepest, MOST_WORN * left)
-    return own - half, own + half
+    most = MOST_WORN * (0.5 - abs(block.centroid_offset) / block.width - own)
+    known = None if block.ranges is None else block.ranges.inset_m
+    if known is None or tolerance == 0.0:
+        half = min(tolerance * own, most)
+        return own - half, own + half
+    low, high = (end / block.width for end in known)
+    return min(low, own), max(own, min(high, own + most))
 
 
 def gathered(blocks: Sequence[Block]) -> Blocks:

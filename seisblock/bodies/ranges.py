@@ -1,4 +1,4 @@
-"""How far bodies of a kind differ: ranges of width, height, worn edges and friction that a body's file tells, and what lies in them."""
+"""Ranges of a kind of body: priors of worn edges and friction, and the sizes that are usual."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from seisblock import checks
-from seisblock.bodies.toml import lengths, refuse_unknown, source_of, subtable
+from seisblock.bodies.inset import parse_inset
+from seisblock.bodies.toml import entries, lengths, refuse_unknown, source_of, subtable
 from seisblock.errors import BodyError
-from seisblock.typing import FloatArray
-from seisblock.words import Said, noted, roughly, said
+from seisblock.units import parse_length
+from seisblock.words import Said, noted, said
 
 Range = tuple[float, float]
 """Least and largest."""
@@ -18,14 +19,17 @@ Range = tuple[float, float]
 
 @dataclass(frozen=True)
 class Ranges:
-    """Within which limits the bodies of a kind lie; None where nothing is known.
+    """Limits of the bodies of a kind; None where they are not known.
+
+    Samples of a body are drawn from the ranges of its edges and its friction, values that nobody has measured on this one. Its width and
+    height are known, and vary by their own tolerance, whatever the sizes of its kind are.
 
     Parameters
     ----------
     width_m, height_m : (float, float) or None, m
-        Along the motion, and overall.
+        Usual sizes of the kind, along the motion and overall; not drawn from.
     inset_m : (float, float) or None, m
-        How far in from each side they turn.
+        Distance of the worn edges from each side.
     mu : (float, float) or None, 1
         Static friction.
 
@@ -61,37 +65,25 @@ class Ranges:
 
     @property
     def says(self) -> Said:
-        """What is known, in words."""
-        return said("{parts}", parts=[part for part in (*self._sizes, self.edges, self.friction) if part is not None])
+        """The ranges in words."""
+        width = _told(self.width_m, noted("width {low:.4g} to {high:.4g} m"))
+        height = _told(self.height_m, noted("height {low:.4g} to {high:.4g} m"))
+        return said("{parts}", parts=[part for part in (width, height, self.edges, self.friction) if part is not None])
 
     @property
-    def _sizes(self) -> tuple[Said | None, Said | None]:
-        """What is known of width and height, in words."""
-        return _told(self.width_m, noted("width {low:.4g} to {high:.4g} m")), _told(
-            self.height_m, noted("height {low:.4g} to {high:.4g} m")
-        )
+    def priors(self) -> Ranges | None:
+        """The ranges that samples are drawn from, edges and friction; None where there is neither."""
+        return self.without("width_m", "height_m")
 
     @property
     def edges(self) -> Said | None:
-        """What is known of the worn edges, in words."""
+        """The range of the worn edges, in words."""
         return _told(self.inset_m, noted("edges {low:.4g} to {high:.4g} m in"))
 
     @property
     def friction(self) -> Said | None:
-        """What is known of the friction, in words."""
+        """The range of the friction, in words."""
         return _told(self.mu, noted("mu {low:g} to {high:g}"))
-
-    def sizes(self, share: float) -> Said:
-        """Return how far width and height differ, in words: within their ranges, or by a share where they have none.
-
-        Examples
-        --------
-        >>> print(Ranges(width_m=(0.6, 0.75)).sizes(0.05))
-        width 0.6 to 0.75 m, height ±5 %
-        """
-        width, height = self._sizes
-        wide, tall = (said(text, share=roughly(share)) for text in (noted("width ±{share}"), noted("height ±{share}")))
-        return said("{parts}", parts=[width or wide, height or tall])
 
     def without(self, *names: str) -> Ranges | None:
         """Return the ranges but for some, which are known; None where none is left."""
@@ -104,19 +96,14 @@ def _told(known: Range | None, text: str) -> Said | None:
     return None if known is None else said(text, low=known[0], high=known[1])
 
 
-def within(known: Range, draws: FloatArray) -> FloatArray:
-    """Return what lies in a range, for draws in [-1, 1]."""
-    low, high = known
-    return low + 0.5 * (high - low) * (1.0 + draws)
-
-
 def ranges_of(table: Mapping[str, Any], held: Mapping[str, float | None]) -> Ranges | None:
     """Return the ranges of a body's file, None where it tells none.
 
     Parameters
     ----------
     table : mapping
-        Of the body; ``[ranges]`` in it holds two numbers for each of ``width``, ``height`` and ``inset`` (m, or with a unit) and ``mu``.
+        Of the body; ``[ranges]`` in it holds two numbers for each of ``width``, ``height`` and ``inset`` (m, or with a unit; an inset also
+        in per cent of the width) and ``mu``.
     held : mapping
         What the body itself has of these, which must lie in them.
 
@@ -129,7 +116,10 @@ def ranges_of(table: Mapping[str, Any], held: Mapping[str, float | None]) -> Ran
         return None
     told = subtable(table, "ranges")
     refuse_unknown(told, ("width", "height", "inset", "mu"))
-    found = {f"{key}_m": lengths(told, key, 2) for key in ("width", "height", "inset") if key in told}
+    found = {f"{key}_m": lengths(told, key, 2) for key in ("width", "height") if key in told}
+    if "inset" in told:
+        low, high = (_inset(told, end, held.get("width")) for end in entries(told, "inset", 2))
+        found["inset_m"] = (low, high)
     if "mu" in told:
         low, high = (checks.finite("{source}: {key}", each, error=BodyError, source=source_of(told), key="mu") for each in _pair(told))
         found["mu"] = (low, high)
@@ -143,6 +133,13 @@ def ranges_of(table: Mapping[str, Any], held: Mapping[str, float | None]) -> Ran
         return Ranges(**found)  # type: ignore[arg-type]
     except BodyError as error:
         raise BodyError("{source}: {why}", source=source_of(told), why=error.said) from error
+
+
+def _inset(told: Mapping[str, Any], end: Any, width: float | None) -> float:
+    """Return one end of the range of the edges, m: per cent are of the body's width."""
+    if width is not None and isinstance(end, str) and "%" in end:
+        return parse_inset(end).of(width)
+    return parse_length(end, what=said("{source}: {key}", source=source_of(told), key="inset"))
 
 
 def _pair(told: Mapping[str, Any]) -> list[Any]:

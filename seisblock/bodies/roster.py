@@ -30,7 +30,7 @@ NUMBERS = (
     "beta",
     "damping",
 )
-TEXTS = ("name", "body", "surface", "side")
+TEXTS = ("name", "body", "surface", "side", "kind")
 POSITIVE = ("width", "height", "depth", "centroid_height", "slope_length", "mass", "density", "frequency_vertical")
 SIGNED = ("centroid_offset", "slope_deg")
 """What may be negative: an offset has a side, a slope a direction. All other numbers are zero or more."""
@@ -46,6 +46,7 @@ _JAPANESE = {
     "centroid_height": ("重心高さ", "重心の高さ"),
     "name": ("名前", "名称", "資料名"),
     "surface": ("接触面",),
+    "kind": ("種類", "種別"),
 }
 _COLUMNS = {
     spelling: name
@@ -94,8 +95,9 @@ def read_bodies(names: str | Path | Iterable[str | Path]) -> tuple[ListedBody, .
     ``centroid_offset``, ``slope_length``, ``tenon``, ``drop`` (m, or with a unit in the heading, ``width (cm)``, or in the cell, ``24cm``);
     ``mass`` (kg, or with a unit); ``inset`` (a length, or a share per side); ``mu``, ``mu_kinetic``, ``kappa``, ``surface``,
     ``restitution``, ``rocking_restitution``, ``slope_deg``, ``frequency_vertical`` (Hz), ``beta``, ``damping``, ``density``,
-    ``centroid_inertia``; and ``body``, a file or a bundled body whose description a row takes, with ``side`` short or long. An empty cell
-    says nothing. Any other name is a file that describes one body, or a bundled body.
+    ``centroid_inertia``; ``kind`` (gravestone, furniture, statue or block) beside sizes; and ``body``, a file or a bundled body whose
+    description a row takes, with ``side`` short or long. An empty cell says nothing. Any other name is a file that describes one body, or a
+    bundled body.
 
     Parameters
     ----------

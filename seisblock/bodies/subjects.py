@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.library import block_of, friction_of, restitution_of
 from seisblock.bodies.spring_block import REFERENCE_MASS, SpringBlock
 from seisblock.bodies.spring_choice import PAPER_BETA, PAPER_DAMPING
@@ -47,8 +48,19 @@ class Subject:
     mu_kinetic: float | None = None
 
 
+def is_sizes(text: str) -> bool:
+    """Return whether a text names a body by its width and height."""
+    return _SIZES.match(text) is not None
+
+
 def subject(
-    text: str, *, side: str = "short", mu: float | None = None, mu_kinetic: float | None = None, frequency_vertical: float | None = None
+    text: str,
+    *,
+    side: str = "short",
+    kind: str = "block",
+    mu: float | None = None,
+    mu_kinetic: float | None = None,
+    frequency_vertical: float | None = None,
 ) -> Subject:
     """Return the body a text names.
 
@@ -58,6 +70,8 @@ def subject(
         A bundled body, a TOML file, or a width and a height such as ``24cmx72cm``.
     side : "short" or "long"
         Side of a two-layer body along the motion.
+    kind : str
+        Kind of a body given by its sizes, see :data:`~seisblock.bodies.kinds.KINDS`.
     mu, mu_kinetic : float
         Friction under the body; a body's own where left out.
     frequency_vertical : float, Hz
@@ -79,7 +93,7 @@ def subject(
     name: str
     if sizes:
         width, height = (parse_length(part, what=said("body {text}", text=text)) for part in sizes.groups())
-        block, own_restitution = Block(width, height), None
+        block, own_restitution = of_kind(Block(width, height), kind), None
         name = said("block {width:g} x {height:g} m", width=width, height=height)
     else:
         table = read_table(text)
@@ -93,6 +107,8 @@ def subject(
             layers, found = two_layer_block(table, side), contact(table)
             own = Contact(**found) if "mu" in found else None
         bare = friction_of(table, text)
+    if mu is not None:
+        block = block.known("mu")
     static = bare[0] if mu is None else mu
     kinetic = mu_kinetic if mu_kinetic is not None else (static if mu is not None or bare[1] is None else bare[1])
     return Subject(name, block, own_restitution, layers if own else None, own, _on_springs(block, frequency_vertical), static, kinetic)

@@ -137,7 +137,7 @@ def length(table: Mapping[str, Any], key: str) -> float:
 def lengths(table: Mapping[str, Any], key: str, count: int) -> tuple[float, ...]:
     """Return a required list of lengths in metres."""
     what = said("{source}: {key}", source=source_of(table), key=key)
-    return tuple(parse_length(entry, what=what) for entry in _of_length(table, key, count))
+    return tuple(parse_length(entry, what=what) for entry in entries(table, key, count))
 
 
 def inset_of(table: Mapping[str, Any]) -> Inset:
@@ -160,7 +160,7 @@ def mass(table: Mapping[str, Any], key: str) -> float:
 def masses(table: Mapping[str, Any], key: str, count: int) -> tuple[float, ...]:
     """Return a required list of masses in kilograms."""
     what = said("{source}: {key}", source=source_of(table), key=key)
-    return tuple(parse_mass(entry, what=what) for entry in _of_length(table, key, count))
+    return tuple(parse_mass(entry, what=what) for entry in entries(table, key, count))
 
 
 def _required(table: Mapping[str, Any], key: str) -> Any:
@@ -172,7 +172,7 @@ def _required(table: Mapping[str, Any], key: str) -> Any:
     return table[key]
 
 
-def _of_length(table: Mapping[str, Any], key: str, count: int) -> Sequence[Any]:
+def entries(table: Mapping[str, Any], key: str, count: int) -> Sequence[Any]:
     """Return a required list of a given length."""
     values = _required(table, key)
     if not isinstance(values, list) or len(values) != count:

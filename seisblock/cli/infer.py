@@ -79,7 +79,8 @@ JUMPED = (
     "--inset",
     type=INSET,
     metavar="SHARE|M",
-    help="Stones, rigid: how far in from each side worn edges lie, a share of the width (0.1, 10%), or m with a unit (1cm). [default: 0.1]",
+    help="Stones, rigid: how far in from each side worn edges lie, a share of the width (0.1, 10%), or m with a unit (1cm). "
+    "[default: 0.05]",
 )
 @option("--confidence", type=float, default=0.9, show_default=True, help="Stones: level of the intervals, 0 to 1.")
 @option(

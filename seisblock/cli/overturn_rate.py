@@ -107,7 +107,7 @@ def _fit(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple
     type=INSET,
     metavar="SHARE|M",
     help="rigid, simulate: how far in from each side a stone's worn edges lie, a share of its width (0.1, 10%), or m with a unit "
-    "(1cm). [default: 0.1]",
+    "(1cm). [default: 0.05]",
 )
 @option("--fit", callback=_fit, metavar="P,Q,R", help="furukawa: own parameters without a dowel, gal, Hz, 1. [default: 826.8,1.92,4.6]")
 @option(

@@ -7,10 +7,12 @@ from pathlib import Path
 
 import click
 
+from seisblock.bodies.kinds import KINDS
 from seisblock.cli import offered
 from seisblock.cli.bodies.options import side_option
 from seisblock.cli.command import Command, option
 from seisblock.cli.idle import refuse_without
+from seisblock.cli.meant import OneOf
 from seisblock.cli.options import Source, gravity_option, record_options
 from seisblock.cli.quiet import quietly
 from seisblock.cli.talk import say, warn
@@ -35,6 +37,9 @@ DEFAULT_BODIES = ("gravestone", "chozusha")
     help="Bundled body, TOML file, or width and height (24cmx72cm); may be repeated. [default: gravestone and chozusha]",
 )
 @side_option("Side of a two-layer body along the motion.")
+@option(
+    "--kind", type=OneOf(KINDS), section="Body", help="Kind of the bodies given by width and height. [default: block, with sharp edges]"
+)
 @option(
     "--mu", type=MU, section="Body", help="Static friction under the bodies, 1, for sliding. [default: the body's own, else no sliding]"
 )
@@ -68,6 +73,7 @@ def report(
     source: Source,
     body: tuple[str, ...],
     side: str,
+    kind: str | None,
     mu: float | None,
     mu_kinetic: float | None,
     frequency_vertical: float | None,
@@ -80,7 +86,7 @@ def report(
 
     It opens without network, on a phone and on paper. Margins stand beside every verdict.
     """
-    from seisblock.bodies.subjects import subject
+    from seisblock.bodies.subjects import is_sizes, subject
     from seisblock.cli.inputs import components, load
     from seisblock.cli.progress import progress
     from seisblock.present.figures.fonts import MISSING, drawable
@@ -95,9 +101,14 @@ def report(
         names = body or DEFAULT_BODIES
         if not body:
             say("no --body given: {bodies}", bodies=DEFAULT_BODIES)
-        subjects = [subject(name, side=side, mu=mu, mu_kinetic=mu_kinetic, frequency_vertical=frequency_vertical) for name in names]
+        subjects = [
+            subject(name, side=side, kind=kind or "block", mu=mu, mu_kinetic=mu_kinetic, frequency_vertical=frequency_vertical)
+            for name in names
+        ]
         if all(each.layers is None for each in subjects):
             refuse_without(said("a two-layer --body"), ("side", "drop"))
+        if not any(is_sizes(name) for name in names):
+            refuse_without(said("a --body given by width and height"), ("kind",))
         records = load(source)
         if len(records) != 1:
             raise InputError("a report is about one record, found {count}: give one, or run the command for each", count=len(records))

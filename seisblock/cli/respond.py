@@ -14,7 +14,7 @@ from seisblock.cli.options import Source, gravity_option, output_options, record
 from seisblock.cli.output import Output
 from seisblock.cli.sweeping import drawing, swept
 from seisblock.cli.talk import say
-from seisblock.cli.versions import version_options, widths_of
+from seisblock.cli.versions import ranges_replaced, version_options, widths_of
 
 if TYPE_CHECKING:
     from seisblock.records import Record
@@ -56,8 +56,9 @@ def respond(
 
     Plane motion of one rigid body with Coulomb friction, each horizontal component by itself, the vertical acting where the record has
     it. After the record's end the object is followed until it rests. Beside the verdict stands the share of plausible
-    versions of the object and the shaking that fall. --component all-azimuths looks in every direction and answers for the worst. A
-    scanned --block is another block in each direction.
+    versions of the object and the shaking that fall: they vary around what is given, and edges and friction that nobody has measured lie in
+    the ranges of the object's kind, unless --vary-inset or --vary-mu is given. --component all-azimuths looks in every direction and
+    answers for the worst. A scanned --block is another block in each direction.
     """
     from seisblock.cli.progress import progress
     from seisblock.present.documents.respond import document
@@ -66,6 +67,7 @@ def respond(
     from seisblock.studies.standing.probability import Versions, respond_probability
 
     widths = widths_of(given, *VARIED)
+    replaced = ranges_replaced()
     chosen = choose_standing({**given, "gal": output.gal})
     say("body: {says}", says=chosen.says)
     options: dict[str, Any] = {
@@ -83,7 +85,9 @@ def respond(
         if runs:
             same = {**options, "vertical": vertical, "runs": runs, "moved_m": moved, "seed": seed}
             with progress("versions {name}", name=motion.name) as advance:
-                extra["probability"] = respond_probability(block, motion, versions=Versions(**widths), progress=advance, **same)
+                extra["probability"] = respond_probability(
+                    block.known(*replaced), motion, versions=Versions(**widths), progress=advance, **same
+                )
         if directions:
             extra["directions"] = directions
         extras.append(extra)

@@ -13,10 +13,10 @@ from seisblock.cli.types import LENGTH, Count
 from seisblock.words import noted
 
 _VARIED = {
-    "size": (0.05, "Versions: half width of the size, a share."),
-    "inset": (0.1, "Versions: worn from sharp edges to this share of the width per side."),
+    "size": (0.05, "Versions: half width of width and height, a share of each."),
+    "inset": (0.1, "Versions: half width of a known inset, a share of itself."),
     "mu": (0.2, "Versions: half width of the friction, a share."),
-    "restitution": (0.1, "Versions: how much larger the restitution may be, 1."),
+    "restitution": (0.1, "Versions: half width of the restitution, 1; below 0 a share that rocking impacts lose."),
     "amplitude": (0.1, "Versions: half width of the shaking's amplitude, a share."),
     "azimuth": (10.0, "Versions: half width of the direction of shaking, degrees."),
 }
@@ -67,6 +67,11 @@ def widths_of(given: dict[str, Any], *varied: str) -> dict[str, float]:
     """
     _refuse_idle(*(f"vary_{name}" for name in varied), "moved", "seed")
     return {"azimuth_deg" if name == "azimuth" else name: given.pop(f"vary_{name}") for name in varied}
+
+
+def ranges_replaced() -> list[str]:
+    """Return the ranges of a body's kind that a width given on the command line replaces, by the names of their fields."""
+    return [name for option, name in (("vary_inset", "inset_m"), ("vary_mu", "mu")) if given([option])]
 
 
 def _refuse_idle(*names: str) -> None:

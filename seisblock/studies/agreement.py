@@ -113,7 +113,7 @@ def agreement(
     Parameters
     ----------
     block : Block
-        Its own inset counts as its worn edges; 0.1 of the width where it has none.
+        Its own inset counts as its worn edges; 0.05 of the width where it has none.
     motion : Motion
     stone : Block
         The upper stone alone, where the block is more than that: its proportions are those that the criterion of gravestones asks for.

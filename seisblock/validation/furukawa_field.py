@@ -16,7 +16,7 @@ import numpy as np
 
 from seisblock.bodies.cemetery.cemetery import Cemetery
 from seisblock.bodies.cemetery.table import read_cemetery
-from seisblock.bodies.inset import SHARP, WORN, Inset
+from seisblock.bodies.inset import SHARP, Inset
 from seisblock.studies.cemetery.limits import rigid_limits
 from seisblock.studies.cemetery.rate import overturning_rate
 from seisblock.studies.cemetery.simulated import simulated_overturns, sine_motion
@@ -83,7 +83,7 @@ class FieldModel:
 
 MODELS = (
     FieldModel("eq-9", "the criterion, eq. (9)", by_fit, 0.143, -0.04, ROUNDED, True),
-    FieldModel("worn", "rocking blocks with edges worn by 0.1 B per side (0.8 B)", partial(by_rocking, WORN), 0.145, -0.01, CHAOS, False),
+    FieldModel("worn", "rocking blocks with edges worn by 0.1 B per side (0.8 B)", partial(by_rocking, Inset(share=0.1)), 0.145, -0.01, CHAOS, False),
     FieldModel("sharp", "rocking blocks with sharp edges", partial(by_rocking, SHARP), 0.195, -0.11, CHAOS, False),
     FieldModel("half-sine", "blocks with sharp edges under half a sine", by_pulse, 0.206, -0.13, ROUNDED, True),
     FieldModel("worn-more", "rocking blocks with edges worn by 0.15 B per side (0.7 B)", partial(by_rocking, Inset(share=0.15)), 0.267, 0.18,

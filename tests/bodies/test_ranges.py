@@ -8,12 +8,13 @@ import pytest
 from click.testing import CliRunner
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import versions_within
+from seisblock.bodies.blocks import within
 from seisblock.bodies.library import load_block
 from seisblock.bodies.ranges import Ranges
 from seisblock.cli import main
 from seisblock.errors import BodyError
 from seisblock.records import Motion
+from seisblock.solvers.respond.solve import solve_respond
 from seisblock.solvers.rock.verdicts import rock_verdict
 from seisblock.studies.fragility.run import run_fragility
 from seisblock.studies.rocking.perturb import Spread, draws_of, perturb
@@ -25,49 +26,56 @@ FILE = 'kind = "block"\nname = "thing"\nwidth = "60cm"\nheight = "1.8m"\nmu = 0.
 
 
 def test_a_bundled_body_tells_its_ranges():
-    """In metres, whatever the unit of its file; a stone tells none."""
+    """In metres, whatever the unit of its file; a lantern tells none."""
     assert load_block("refrigerator").ranges == FRIDGE
     case = load_block("bookcase").ranges
     assert case.height_m == pytest.approx((29 * 0.0254, 81.25 * 0.0254)) and case.mu == (0.2, 0.7)
     assert case.width_m is None and case.inset_m is None
-    assert load_block("gravestone").ranges is None
+    assert load_block("lantern").ranges is None
 
 
-def test_versions_lie_within_the_ranges_and_reach_their_ends():
-    """Width, height and edges each for themselves; what has no range differs by the usual share."""
+def test_within_fills_a_range_with_the_own_value_as_median():
+    """Uniform draws of either half lie evenly between the own value and the end; one outside the range widens it."""
+    draws = np.linspace(-1.0, 1.0, 2001)
+    for own in (0.2, 0.4, 0.7):
+        values = within((0.2, 0.7), own, draws)
+        assert (values.min(), np.median(values), values.max()) == pytest.approx((0.2, own, 0.7))
+        assert np.ptp(np.diff(values[:1001])) < 1e-12 and np.ptp(np.diff(values[1000:])) < 1e-12
+    assert within((0.2, 0.7), 0.9, np.array([-1.0, 0.0, 1.0])).tolist() == pytest.approx([0.2, 0.9, 0.9])
+
+
+def test_samples_of_respond_draw_edges_and_friction_from_the_ranges_but_not_sizes():
+    """Width and height of this body are known, vary by 5 % independently of each other, and are the medians."""
     body = load_block("refrigerator")
-    ends = np.array([-1.0, -1.0, 1.0, 1.0])
-    some = versions_within(body, body.ranges, tall=ends, wide=-ends, worn=ends, size=0.05, inset=np.zeros(4))
-    np.testing.assert_allclose(2 * some.centre, [1.6, 1.6, 1.9, 1.9])
-    np.testing.assert_allclose(some.right, [0.375 - 0.02, 0.375 - 0.02, 0.3 - 0.06, 0.3 - 0.06])
-    np.testing.assert_allclose(some.gyration_squared, (np.array([0.75, 0.75, 0.6, 0.6]) ** 2 + (2 * some.centre) ** 2) / 12)
-    narrow = versions_within(body, Ranges(height_m=(1.6, 1.9)), tall=ends, wide=ends, worn=ends, size=0.05, inset=np.full(4, 0.1))
-    np.testing.assert_allclose(narrow.right, 0.65 * np.array([0.95, 0.95, 1.05, 1.05]) * (0.5 - 0.1))
-
-
-def test_versions_of_respond_lie_within_the_ranges():
-    """Friction too; width and height are drawn independently of each other."""
-    body = load_block("refrigerator")
-    draws = draws_of(400, 1)
+    draws = draws_of(4000, 1)
     some = changed_settings(body, Versions(), draws, mu=0.3)
     heights = 2 * some.blocks.centre
     widths = np.sqrt(12 * some.blocks.gyration_squared - heights**2)
-    for found, (low, high) in ((heights, FRIDGE.height_m), (widths, FRIDGE.width_m), (some.mu, FRIDGE.mu)):
-        assert low <= found.min() < low + 0.05 * (high - low) and high - 0.05 * (high - low) < found.max() <= high
-    assert abs(np.corrcoef(heights, widths)[0, 1]) < 0.15
+    insets = (widths / 2 - some.blocks.right) / widths * body.width
+    for values, (low, high), own in (
+        (heights, (0.95 * 1.8, 1.05 * 1.8), 1.8),
+        (widths, (0.95 * 0.65, 1.05 * 0.65), 0.65),
+        (insets, FRIDGE.inset_m, 0.04),
+        (some.mu, FRIDGE.mu, 0.3),
+    ):
+        margin = 0.01 * (high - low)
+        assert low - 1e-9 <= values.min() < low + margin and high - margin < values.max() <= high + 1e-9
+        assert np.median(values) == pytest.approx(own, abs=0.02 * (high - low))
+    assert abs(np.corrcoef(heights, widths)[0, 1]) < 0.05
 
 
-def test_ranges_of_one_point_are_the_body_itself():
-    """Nothing else varied, all versions do what it does: `rock` and `respond`."""
+def test_a_tolerance_of_nothing_takes_the_body_as_known_exactly():
+    """Ranges or not, all samples do what the body does: `rock` and `respond`."""
     block = Block(0.24, 0.8)
-    same = replace(block, ranges=Ranges(width_m=(0.24, 0.24), height_m=(0.8, 0.8), inset_m=(0.0, 0.0), mu=(0.5, 0.5)))
+    same = replace(block, ranges=Ranges(inset_m=(0.0, 0.02), mu=(0.2, 0.9)))
     for size in (0.8, 1.0, 1.5):
         motion = Motion.from_arrays(size * PULSE.horizontal, 0.01)
-        still = Spread(restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+        still = Spread(size=0.0, slenderness=0.0, inset=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
         found = perturb(same, motion, 5, spread=still)
         assert found.overturned == 5 * rock_verdict(block, motion).overturned
-        one = respond_probability(same, motion, mu=0.5, runs=3, versions=Versions(restitution=0.0, amplitude=0.0, azimuth_deg=0.0))
-        assert one.overturned in (0.0, 1.0) and one.ranges == same.ranges
+        nothing = Versions(size=0.0, inset=0.0, mu=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+        one = respond_probability(same, motion, mu=0.5, runs=3, versions=nothing)
+        assert one.overturned == float(solve_respond(block, motion, mu=0.5).outcome.overturned) and one.ranges == same.ranges
 
 
 def test_what_is_given_is_known():
@@ -75,39 +83,54 @@ def test_what_is_given_is_known():
     body = load_block("refrigerator")
     assert body.worn(0.05).ranges == Ranges(width_m=FRIDGE.width_m, height_m=FRIDGE.height_m, mu=FRIDGE.mu)
     line = ["respond", "elcentro_1940_ns.csv", "--block", "refrigerator", "--runs", "2", "--json", "--quiet"]
-    for more, known in (([], [0.15, 0.5]), (["--mu", "0.4"], None)):
-        told = json.loads(CliRunner().invoke(main, [*line, *more]).stdout)["results"][0]["probability"]["ranges"]
-        assert told["mu"] == known and told["width_m"] == [0.6, 0.75]
-
-
-def test_the_terminal_says_where_versions_come_from():
-    """`rock` and `respond`: each number once, its range or the usual share, never both; of one stone and of a pile."""
-    record = ("synthetic_jma.csv", "--window", "25:28", "--component", "NS", "--block", "refrigerator")
-    for words in (("rock", *record, "--perturb", "3"), ("respond", *record, "--runs", "3")):
-        said = " ".join(CliRunner().invoke(main, [*words, "--quiet"]).stdout.split())
-        assert "width 0.6 to 0.75 m, height 1.6 to 1.9 m, edges 0.02 to 0.06 m in, " in said and "±5 %, edges" not in said
-    for words, told in (
-        (("rock", *record[:-1], "bookcase", "--perturb", "3"), "varied: width ±5 %, height 0.7366 to 2.064 m, edges worn by 0 to 10 % of"),
-        (
-            ("respond", *record[:-1], "bookcase", "--runs", "3"),
-            "alone: width ±5 %, height 0.7366 to 2.064 m, edges worn by 0 to 10 % of the",
-        ),
-        (("respond", *record[:-1], "statue", "--runs", "3"), "width 0.4 to 0.6 m, height 1.4 to 2.2 m, edges worn by 0 to 10 % of the"),
+    for more, inset, mu in (
+        ([], [0.02, 0.06], [0.15, 0.5]),
+        (["--mu", "0.4"], [0.02, 0.06], None),
+        (["--vary-inset", "0.2"], None, [0.15, 0.5]),
     ):
-        said = " ".join(CliRunner().invoke(main, [*words, "--quiet"]).stdout.split())
-        assert told in said and said.count("friction ±") == 0
+        ranges = json.loads(CliRunner().invoke(main, [*line, *more]).stdout)["results"][0]["probability"]["ranges"]
+        assert (ranges["inset_m"], ranges["mu"], ranges["width_m"], ranges["height_m"]) == (inset, mu, None, None)
 
 
-def test_wider_ranges_scatter_more():
-    """The dispersion that is not known of a bookcase of any height is more than that of sizes known to 5 %."""
+def test_per_cent_of_an_inset_are_of_the_body_width():
+    """The range of the bundled gravestone is 0 to 0.1 of its width, and its own inset the median."""
+    stone = load_block("gravestone")
+    assert stone.ranges.inset_m == (0.0, pytest.approx(0.1 * stone.width)) and stone.ranges.mu is None
+    assert stone.inset == pytest.approx(0.05 * stone.width)
+
+
+def test_the_terminal_says_where_samples_come_from():
+    """`rock` and `respond`: each number once, its range or the usual share, never both; of one stone and of a pile."""
+    record = ("synthetic_jma.csv", "--window", "25:28", "--component", "NS", "--block")
+    for words, expected in (
+        (
+            ("rock", *record, "refrigerator", "--perturb", "3"),
+            "varied: size ±5 %, slenderness ±5 %, edges worn by 3 % to 9 % of the width,",
+        ),
+        (
+            ("respond", *record, "refrigerator", "--runs", "3"),
+            "alone: width and height ±5 %, edges worn by 3 % to 9 % of the width, mu 0.15 to 0.5, restitution ±0.1,",
+        ),
+        (("rock", *record, "bookcase", "--perturb", "3"), "slenderness ±5 %, sharp edges, restitution ±5 %"),
+        (("respond", *record, "bookcase", "--runs", "3"), "alone: width and height ±5 %, sharp edges, mu 0.2 to 0.7,"),
+        (("respond", *record, "statue", "--runs", "3"), "alone: width and height ±5 %, sharp edges, mu 0.4 to 0.8,"),
+        (("respond", *record, "gravestone", "--runs", "3"), "edges worn by 0 to 10 % of the width, friction ±20 %,"),
+        (("respond", *record, "gravestone", "--runs", "3", "--inset", "0.1"), "edges worn by 9 % to 11 % of the width, friction ±20 %,"),
+        (("respond", *record, "bookcase", "--runs", "3", "--vary-mu", "0.1"), "sharp edges, friction ±10 %,"),
+    ):
+        text = " ".join(CliRunner().invoke(main, [*words, "--quiet"]).stdout.split())
+        assert expected in text, (words, text)
+
+
+def test_unmeasured_edges_scatter_more():
+    """The dispersion of a gravestone of unknown edges is more than that of one whose edges were measured."""
     suite = ["synthetic_jma.csv", "elcentro_1940_ns.csv"]
-    case = load_block("bookcase")
-    bodies = {"any": case, "one": case.known("width_m", "height_m", "inset_m", "mu")}
-    study = run_fragility(suite, bodies, "rock", im="pgv", perturb=12, steps=12, bootstrap=2)
+    stone = load_block("gravestone")
+    study = run_fragility(suite, {"any": stone, "one": stone.known("inset_m")}, "rock", im="pgv", perturb=12, steps=12, bootstrap=2)
     wide, narrow = study.curves
-    assert wide.dispersion.beta_parameter > 1.5 * narrow.dispersion.beta_parameter
-    (told,) = (note for note in study.notes if note.startswith("any: its versions lie within its own ranges"))
-    assert "height 0.7366 to 2.064 m" in told and "mu" not in told
+    assert wide.dispersion.beta_parameter > 1.1 * narrow.dispersion.beta_parameter
+    (note,) = (note for note in study.notes if note.startswith("any: its versions lie within its own ranges"))
+    assert "edges 0 to 0.02424 m in" in note
     assert not any("one: its versions" in note for note in study.notes)
 
 

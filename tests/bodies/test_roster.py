@@ -2,9 +2,13 @@
 
 import pytest
 
+from seisblock.bodies.block import Block
 from seisblock.bodies.inset import Inset
+from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.roster import read_bodies
+from seisblock.bodies.subjects import subject
 from seisblock.errors import BodyError
+from seisblock.studies.batch.models import batch_model
 from seisblock.units import SUN
 
 
@@ -74,3 +78,18 @@ def test_what_is_no_table(tmp_path):
             read_bodies(tmp_path / name)
     with pytest.raises(BodyError, match="no body was named"):
         read_bodies([])
+
+
+def test_kind_of_a_row_gives_its_sizes_the_edges_of_the_kind(tmp_path):
+    """As `--kind` does for one body, in both languages of the heading; beside a file, or misspelt, it is refused with its line."""
+    path = tmp_path / "stones.csv"
+    path.write_text("名前,幅,高さ,種類,mu\n墓,0.24,0.72,gravestone,0.6\n棚,0.3,1.8,furniture,0.6\n")
+    grave, shelf = (batch_model("respond").place(listed, {}).body for listed in read_bodies(path))
+    assert (grave.inset, grave.ranges.inset_m) == (of_kind(Block(0.24, 0.72), "gravestone").inset, (0.0, pytest.approx(0.024)))
+    assert (shelf.inset, shelf.ranges) == (0.0, None)
+    assert subject("24cmx72cm", kind="gravestone").block.inset == grave.inset
+    for row, says in (("a,,,statue,0.5,lantern", "or `body`, not both"), ("a,0.2,0.6,grave,0.5,", "no kind of body 'grave'")):
+        path.write_text(f"name,width,height,kind,mu,body\n{row}\n")
+        (listed,) = read_bodies(path)
+        with pytest.raises(BodyError, match=rf"line 2: .*{says}"):
+            batch_model("respond").place(listed, {})

@@ -259,12 +259,19 @@ def test_versions_that_come_back_end_where_they_stood(q05, q95, ends):
     assert share(found).endswith(ends)
 
 
-@pytest.mark.parametrize(("inset", "worn"), [("0", "0 to 10 %"), ("0.3", "25 % to 35 %"), ("0.48", "46 % to 50 %")])
+@pytest.mark.parametrize(
+    ("inset", "worn"),
+    [
+        ("0", "sharp edges"),
+        ("0.3", "edges worn by 27 % to 33 % of the width"),
+        ("0.48", "edges worn by 46 % to 50 % of the width"),
+    ],
+)
 def test_what_is_worn_is_varied_about_itself_and_said(inset, worn):
     """As far as a fifth of the base is left: a stone worn almost to nothing is no error."""
     shown = run("elcentro_1940_ns", *CABINET, "--inset", inset, "--runs", "5", "--quiet")
     assert shown.exit_code == 0, shown.stderr
-    assert f"edges worn by {worn} of the width" in " ".join(shown.stdout.split())
+    assert f"±5 %, {worn}, friction" in " ".join(shown.stdout.split())
 
 
 @pytest.mark.parametrize("told", [("--seed", "3"), ("--moved", "2cm"), ("--vary-size", "0.1"), ("--vary-azimuth", "5")])

@@ -75,11 +75,25 @@ def test_document(run, pulse):
 
 
 def test_sizes_in_sun_and_bundled_body_agree(run, pulse):
-    """8 sun by 20.8 sun with edges worn by a tenth per side is the bundled gravestone."""
-    sizes = json.loads(run(pulse, "--width", "8sun", "--height", "20.8sun", "--inset", "10%", "--json").stdout)
+    """8 sun by 20.8 sun with edges worn by a twentieth per side is the bundled gravestone."""
+    sizes = json.loads(run(pulse, "--width", "8sun", "--height", "20.8sun", "--inset", "5%", "--json").stdout)
     named = json.loads(run(pulse, "--block", "gravestone", "--json").stdout)
     assert sizes["results"] == named["results"]
     assert named["parameters"]["block"]["width_m"] == pytest.approx(0.2424)
+
+
+def test_kind_gives_sizes_the_edges_of_the_kind(run, pulse):
+    """A gravestone by its sizes is the bundled one; furniture is sharp, an inset goes before the kind, and a file tells its own."""
+    sizes = ("--width", "8sun", "--height", "20.8sun", "--perturb", "4", "--json")
+    named = json.loads(run(pulse, "--block", "gravestone", "--perturb", "4", "--json").stdout)
+    assert json.loads(run(pulse, *sizes, "--kind", "gravestone").stdout)["results"] == named["results"]
+    insets = [
+        json.loads(run(pulse, *sizes, *more).stdout)["parameters"]["block"]["inset_m"]
+        for more in ((), ("--kind", "furniture"), ("--kind", "gravestone", "--inset", "1cm"))
+    ]
+    assert insets == pytest.approx([0.0, 0.0, 0.01])
+    refused = run(pulse, "--block", "gravestone", "--kind", "statue")
+    assert refused.exit_code == 3 and "--kind has no effect with --block" in refused.stderr
 
 
 def test_two_layer_body_rocks_as_one(run, pulse):
@@ -124,9 +138,9 @@ def test_margin_and_perturbation(run, pulse):
 
 def test_a_margin_leads_with_the_first_fall_and_shows_a_share(run):
     """It falls from some factor on, the first one found; the share of versions stands beside it, with what was varied (N11, N12)."""
-    shown = " ".join(run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--margin").stdout.split())
-    assert "falls from 1.23 times this record on (first found, looked at every 0.002 up to 3)" in shown
-    assert shown.index("falls from 1.23") < shown.index("falls were found at factors") < shown.index("versions of body and shaking")
+    shown = " ".join(run("elcentro_1940_ns.csv", "--width", "8sun", "--height", "80cm", "--kind", "gravestone", "--margin").stdout.split())
+    assert "falls from 1.13 times this record on (first found, looked at every 0.002 up to 3)" in shown
+    assert shown.index("falls from 1.13") < shown.index("falls were found at factors") < shown.index("versions of body and shaking")
     assert "is the 95 % interval of this model's own scatter, no more" in shown
     assert "varied: size ±5 %" in shown
 

@@ -103,16 +103,16 @@ def test_versions_tell_how_sure_it_is(pulse):
     count = round(6 * chance["overturned"])
     assert f"a stone falls in {count} of 6 plausible versions" in shown
     assert "6 plausible versions; moves: more than 1.0 cm, or falls" in shown
-    assert "size ±5 %, edges worn by 0 to 10 % of the width, friction of each joint ±20 %" in shown
+    assert "size ±5 %, sharp edges, friction of each joint ±20 %" in shown
     assert "probability" not in answer(pulse, "--scale", "0.7")["results"][0]
     refused = run("--criterion", "--runs", "3")
     assert refused.exit_code == 3 and "--criterion takes no --runs" in refused.stderr
 
 
 def test_what_is_worn_is_told(pulse):
-    """Stones worn by more than versions are differ from their own; a grid of points knows no wear, and says so to who asks for it."""
+    """Insets of stones vary by a share of themselves; a grid of points knows no wear, and says so to who asks for it."""
     several = pulse, "--window", "0:1.2", "--runs", "2"
-    assert "edges worn by their own ±5 % of the width" in " ".join(run(*several, "--inset", "0.2").stdout.split())
+    assert "worn edges ±10 % of their inset" in " ".join(run(*several, "--inset", "0.2").stdout.split())
     assert "scatter alone: size ±5 %, friction" in " ".join(run(*several, "--vary-inset", "0").stdout.split())
     grid = *several, "--contact", "grid=5"
     assert answer(*grid)["results"][0]["probability"]["versions"]["inset"] == 0.0

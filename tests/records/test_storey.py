@@ -202,7 +202,7 @@ def test_the_command_line_tells_of_the_floor():
             "--solver",
             "rock",
             "--steps",
-            "8",
+            "12",
             "--bootstrap",
             "2",
         ),

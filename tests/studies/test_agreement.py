@@ -9,6 +9,7 @@ import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.inset import WORN
 from seisblock.bodies.pile.toml import load_pile
 from seisblock.criteria.gravestones import overturning_pga
 from seisblock.measures import measure
@@ -60,10 +61,10 @@ def test_closed_forms_are_their_threshold_over_the_peak():
 def test_simulated_factors_are_first_falls():
     """At the factor the block falls, a little below it stands, and no factor that was looked at below it lets it fall."""
     found = opinions(agreement(STONE, MOTION))
-    for model, block in ((SHARP_BLOCK, STONE), (WORN_BLOCK, STONE.worn(0.1))):
+    for model, block in ((SHARP_BLOCK, STONE), (WORN_BLOCK, STONE.worn(WORN))):
         factor = found[model].factor
         assert rock_verdict(block, MOTION, scale=factor).overturned
-        assert not rock_verdict(block, MOTION, scale=factor * 0.998).overturned
+        assert not rock_verdict(block, MOTION, scale=factor * 0.999).overturned
         assert found[model].falls == rock_verdict(block, MOTION).overturned
     assert found[WORN_BLOCK].factor < found[SHARP_BLOCK].factor
 

@@ -1,12 +1,14 @@
 """How close it was: factors at which the verdict changes, and how often it changes when everything does a little."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from seisblock.bodies.block import Block, from_slenderness, resized
+from seisblock.bodies.kinds import of_kind
 from seisblock.errors import ParameterError
 from seisblock.records import Motion
 from seisblock.solvers.rock.solve import solve_rock
@@ -131,18 +133,28 @@ def test_what_the_interval_is_of():
     assert perturb(BLOCK, one_sine(3.0), 5).interval_of == "this model's own scatter"
 
 
-def test_edges_are_worn_between_nothing_and_a_tenth():
+def test_perturb_draws_unmeasured_edges_from_the_range_of_the_kind():
     """With nothing else changing, a stone that falls only when it is worn by more than half of that falls in half of the runs."""
-    motion = one_sine(2.8)
+    motion, stone = one_sine(2.8), of_kind(BLOCK, "gravestone")
     only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
     share = next(x for x in np.linspace(0.0, 0.1, 401) if rock_verdict(BLOCK.worn(float(x)), motion, restitution=0.9).overturned)
     assert 0.01 < share < 0.09
-    found = perturb(BLOCK, motion, 400, restitution=0.9, spread=only)
+    found = perturb(stone, motion, 400, restitution=0.9, spread=only)
     low, high = found.probability_interval
-    assert low < 1.0 - share / 0.1 < high
-    sharp = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0, inset=0.0)
-    assert perturb(BLOCK, motion, 5, restitution=0.9, spread=sharp).overturned == 0
-    assert perturb(BLOCK.worn(0.1), motion, 5, restitution=0.9, spread=sharp).overturned == 5
+    assert low < 1.0 - share / 0.1 < high and found.ranges == stone.ranges
+    exact = replace(only, inset=0.0)
+    assert perturb(stone, motion, 5, restitution=0.9, spread=exact).overturned == 5 * (share < 0.05)
+
+
+def test_perturb_varies_a_known_inset_by_a_share_of_itself():
+    """Sharp edges stay sharp; an inset just beyond that at which the stone falls falls in half of the runs."""
+    motion = one_sine(2.8)
+    only = Spread(size=0.0, slenderness=0.0, restitution=0.0, amplitude=0.0, azimuth_deg=0.0)
+    assert perturb(BLOCK, motion, 5, restitution=0.9, spread=only).overturned == 0
+    share = next(x for x in np.linspace(0.0, 0.1, 4001) if rock_verdict(BLOCK.worn(float(x)), motion, restitution=0.9).overturned)
+    low, high = perturb(BLOCK.worn(float(share)), motion, 400, restitution=0.9, spread=only).probability_interval
+    assert low < 0.5 < high
+    assert perturb(BLOCK.worn(1.11 * share), motion, 50, restitution=0.9, spread=replace(only, inset=0.05)).overturned == 50
 
 
 def test_same_seed_same_runs():
@@ -162,9 +174,9 @@ def test_resized_block_keeps_its_shape():
     assert math.tan(wider.slenderness) == pytest.approx(1.1 * math.tan(block.slenderness))
 
 
-@pytest.mark.parametrize("spread", [{"size": 1.0}, {"amplitude": -0.1}, {"slenderness": math.nan}, {"azimuth_deg": 200.0}, {"inset": 0.5}])
+@pytest.mark.parametrize("spread", [{"size": 1.0}, {"amplitude": -0.1}, {"slenderness": math.nan}, {"azimuth_deg": 200.0}, {"inset": 1.0}])
 def test_impossible_spreads_are_refused(spread):
-    """Shares lie in [0, 1), that of the inset in [0, 0.5), degrees in [0, 180]."""
+    """Shares lie in [0, 1), degrees in [0, 180]."""
     with pytest.raises(ParameterError, match="spread"):
         Spread(**spread)
 

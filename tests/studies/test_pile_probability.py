@@ -8,7 +8,7 @@ import pytest
 from seisblock.bodies.inset import Inset
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.bodies.pile.wear import deepest_wear, worn_to
+from seisblock.bodies.pile.wear import widest_wear, worn_to
 from seisblock.errors import BodyError, ParameterError, SolverError
 from seisblock.readers import read
 from seisblock.records import Motion, motion_of
@@ -75,9 +75,11 @@ def test_versions_stay_within_their_half_widths():
     rough = np.array([[stone.mu for stone in pile.stones] for pile in changed]) / [0.6, 0.5]
     assert np.abs(rough - 1.0).max() <= 0.2 + 1e-12 < np.abs(rough - 1.0).max() + 0.02
     assert abs(np.corrcoef(rough.T)[0, 1]) < 0.5
-    wear = np.array([[stone.inset.share for stone in pile.stones] for pile in changed])
-    assert (wear[:, 0] == wear[:, 1]).all() and wear.min() >= 0.0
-    assert 0.09 < wear.max() <= 0.1 and wear.mean() == pytest.approx(0.05, abs=0.01)
+    assert all(stone.inset == Inset() for pile in changed for stone in pile.stones)
+    worn = PILE.worn(0.1)
+    wear = np.array([[stone.inset.share for stone in changed_pile(worn, PileVersions(), draw).stones] for draw in draws])
+    assert (wear[:, 0] == wear[:, 1]).all()
+    assert 0.09 <= wear.min() < 0.091 and 0.109 < wear.max() <= 0.11 and np.median(wear) == pytest.approx(0.1, abs=0.003)
     assert all(len(pile.joints()) == len(PILE.joints()) for pile in changed)
 
 
@@ -103,14 +105,14 @@ def test_what_makes_no_sense_is_refused(wrong, says):
         stack_probability(PILE, PULSE, **wrong)
 
 
-def test_stones_worn_by_more_than_versions_are_differ_from_their_own():
-    """A length grows with the stone and stays a length; half of the deepest to both sides, and never to nothing of a base."""
+def test_samples_of_a_pile_vary_about_the_inset_of_each_stone():
+    """A length grows with the stone and stays a length; sharp stones stay sharp, and something of each base is left."""
     worn = replace(PILE, stones=(PILE.stones[0], replace(PILE.stones[1], inset=Inset(length_m=0.04))))
     for draw in (-1.0, 0.0, 1.0):
         lower, upper = changed_pile(worn, PileVersions(size=0.1), np.array([1.0, 0.0, 0.0, draw, 0.0, 0.0])).stones
         assert upper.inset.share == 0.0
-        assert upper.insets()[0] / upper.width == pytest.approx(0.2 + 0.05 * draw)
-        assert lower.insets()[0] / lower.width == pytest.approx(0.05 + 0.05 * draw)
+        assert upper.insets()[0] / upper.width == pytest.approx(0.2 + 0.02 * draw)
+        assert lower.insets() == (0.0, 0.0)
     alone = Pile("one", (PILE.stones[0],)).worn(0.48)
     assert worn_to(alone, 0.1, 1.0).stones[0].inset.share == pytest.approx(0.496)
     kept = changed_pile(worn, replace(NOTHING_VARIES, size=0.1), np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]))
@@ -118,34 +120,33 @@ def test_stones_worn_by_more_than_versions_are_differ_from_their_own():
 
 
 def test_worn_stones_fall_sooner():
-    """Of a pile shaken so that it just stands, versions with worn edges fall, and only these."""
-    motion = Motion.from_arrays(0.75 * PULSE.horizontal, PULSE.dt)
+    """Of a worn pile shaken near its limit, samples that are worn more fall, and only these."""
+    motion, worn = Motion.from_arrays(0.75 * PULSE.horizontal, PULSE.dt), PILE.worn(0.15)
     assert not solve_stack(PILE, motion).outcome.overturned
-    assert stack_probability(PILE, motion, runs=8, versions=NOTHING_VARIES).overturned == 0.0
-    assert 0.0 < stack_probability(PILE, motion, runs=8, versions=replace(NOTHING_VARIES, inset=0.3)).overturned < 1.0
+    assert stack_probability(PILE, motion, runs=8, versions=replace(NOTHING_VARIES, inset=0.9)).overturned == 0.0
+    assert 0.0 < stack_probability(worn, motion, runs=8, versions=replace(NOTHING_VARIES, inset=0.9)).overturned < 1.0
 
 
 def test_a_grid_of_points_has_no_worn_edges():
-    """Its points stand inside by themselves: what is answered says that none was worn, and is that of no wear."""
+    """Its points stand inside by themselves: the answer says that no inset was varied."""
     asked = stack_probability(PILE, PULSE, runs=4, points=5, versions=PileVersions(inset=0.3))
-    assert asked == stack_probability(PILE, PULSE, runs=4, points=5, versions=PileVersions(inset=0.0))
     assert asked.versions.inset == 0.0
 
 
 def test_versions_are_worn_no_further_than_they_stand():
-    """A stone whose load is near an edge is worn by less than asked, and the answer says by how much; each version stands at rest."""
-    edgy = Pile("edgy", (PILE.stones[0], replace(PILE.stones[1], offset=(0.23, 0.0))))
-    deepest = deepest_wear(edgy, 0.45)
-    assert 0.1 < deepest < 0.36
+    """A stone whose load is near an edge varies by less than asked, and the answer says by how much; each sample stands at rest."""
+    edgy = Pile("edgy", (PILE.stones[0], replace(PILE.stones[1], offset=(0.23, 0.0)))).worn(0.25)
+    widest = widest_wear(edgy, 0.9)
+    assert 0.1 < widest < 0.8
     still = Motion.from_arrays(np.zeros(100), 0.01)
-    assert not solve_stack(worn_to(edgy, deepest, 1.0), still).outcome.overturned
+    assert not solve_stack(worn_to(edgy, widest, 1.0), still).outcome.overturned
     with pytest.raises(BodyError, match="unstable at rest"):
-        edgy.worn(1.25 * deepest + 0.002)
-    found = stack_probability(edgy, still, runs=3, versions=PileVersions(inset=0.45))
-    assert (found.versions.inset, found.overturned) == (deepest, 0.0)
+        edgy.worn(0.25 * (1.0 + 1.25 * widest + 0.002))
+    found = stack_probability(edgy, still, runs=3, versions=PileVersions(inset=0.9))
+    assert (found.versions.inset, found.overturned) == (widest, 0.0)
 
 
-@pytest.mark.parametrize("width", [("size", 1.0), ("inset", 0.5), ("mu", -0.1), ("amplitude", 1.0), ("azimuth_deg", 200.0)])
+@pytest.mark.parametrize("width", [("size", 1.0), ("inset", 1.0), ("mu", -0.1), ("amplitude", 1.0), ("azimuth_deg", 200.0)])
 def test_impossible_widths_are_refused(width):
     """Shares lie below 1, azimuths within half a turn."""
     with pytest.raises(ParameterError, match="spread"):

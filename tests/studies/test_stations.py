@@ -7,6 +7,7 @@ import pytest
 
 from seisblock.bodies.block import Block
 from seisblock.bodies.cemetery.table import read_cemetery
+from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.bodies.spring_block import SpringBlock
 from seisblock.bodies.two_layer import Contact, load_two_layer
@@ -25,7 +26,8 @@ from seisblock.studies.stations.effects import StandingBody, StandingStones
 from seisblock.studies.stations.survey import survey_stations
 from tests.stations import bundle, station_files
 
-BODY = StandingBody(Block(0.24, 0.8), {"mu": 0.6}, runs=20)
+STONE = of_kind(Block(0.24, 0.8), "gravestone")
+BODY = StandingBody(STONE, {"mu": 0.6}, runs=20)
 
 
 @pytest.fixture(scope="module")
@@ -79,9 +81,9 @@ def test_each_station_is_that_of_the_commands_of_one_record(event, found):
     assert answer.pga_m_s2 == max(m.pga_m_s2 for m in horizontal)
     assert answer.pgv_m_s == pytest.approx(max(m.pgv_m_s for m in horizontal), rel=1e-12)
     assert answer.jma_intensity == told.jma_intensity
-    worst = respond_directions(Block(0.24, 0.8), record, mu=0.6)[0]
+    worst = respond_directions(STONE, record, mu=0.6)[0]
     assert (answer.effect.azimuth_deg, answer.effect.max_slip_m) == (worst.azimuth_deg, worst.max_displacement_m)
-    alone = solve_respond(Block(0.24, 0.8), motion_of(record, f"{worst.azimuth_deg:g}"), mu=0.6).outcome
+    alone = solve_respond(STONE, motion_of(record, f"{worst.azimuth_deg:g}"), mu=0.6).outcome
     assert alone.overturned == answer.effect.overturned
 
 

@@ -1,52 +1,49 @@
-"""Versions of a pile with worn edges: how far, and how far at most."""
+"""Samples of a pile with worn edges."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from seisblock.bodies.blocks import MOST_WORN, range_about
-from seisblock.bodies.inset import HALF, Inset
+from seisblock.bodies.blocks import MOST_WORN
+from seisblock.bodies.inset import HALF
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
 from seisblock.errors import BodyError
 
 CLOSE = 1e-3
-"""Shares of the width this near are one."""
+"""Tolerances this near are one."""
 
 
-def worn_to(body: Pile, deepest: float, draw: float) -> Pile:
-    """Return a version of a pile whose edges are worn, all by one share of their widths.
+def worn_to(body: Pile, tolerance: float, draw: float) -> Pile:
+    """Return a sample of a pile whose insets differ from their own by one share of themselves; sharp stones stay sharp.
 
     Parameters
     ----------
     body : Pile
-    deepest : float, 1
-        Largest inset per side, a share of the width; 0: worn as it is. A stone that is itself worn by more differs from that by half
-        of it, and by no more than leaves a fifth of what it stands on.
+    tolerance : float, 1
+        Half width of the insets, a share of each; less where hardly a fifth of what a stone stands on would be left.
     draw : float
-        In [-1, 1]: from sharp edges, or from its own less half of `deepest`, to the deepest.
+        In [-1, 1].
 
     Examples
     --------
     >>> from seisblock.bodies.pile.toml import load_pile
     >>> pile = load_pile("lantern")
-    >>> [worn_to(worn, 0.1, draw).stones[0].inset.share for worn in (pile, pile.worn(0.25)) for draw in (-1.0, 1.0)]
-    [0.0, 0.1, 0.2, 0.3]
+    >>> [round(worn_to(worn, 0.1, draw).stones[0].inset.share, 3) for worn in (pile, pile.worn(0.2)) for draw in (-1.0, 1.0)]
+    [0.0, 0.0, 0.18, 0.22]
     """
-    if deepest == 0.0:
+    if tolerance == 0.0:
         return body
-    return replace(body, stones=tuple(replace(stone, inset=_inset(stone, deepest, draw)) for stone in body.stones))
+    return replace(body, stones=tuple(_worn(stone, tolerance, draw) for stone in body.stones))
 
 
-def _inset(stone: PileStone, deepest: float, draw: float) -> Inset:
-    """Return how far in one stone of a version turns: one of its own is scaled, so that a length stays one."""
+def _worn(stone: PileStone, tolerance: float, draw: float) -> PileStone:
+    """Return one stone of a sample; an inset that is a length stays one."""
     own = worn_share(stone)
-    low, high = range_about(own, deepest, HALF - own)
-    worn = 0.5 * (low + high) + 0.5 * (high - low) * draw
-    if low == 0.0:
-        return Inset(share=worn)
-    factor = worn / own
-    return Inset(length_m=factor * stone.inset.length_m, share=factor * stone.inset.share)
+    if own == 0.0:
+        return stone
+    factor = 1.0 + min(tolerance, MOST_WORN * (HALF - own) / own) * draw
+    return replace(stone, inset=replace(stone.inset, length_m=factor * stone.inset.length_m, share=factor * stone.inset.share))
 
 
 def worn_share(stone: PileStone) -> float:
@@ -55,30 +52,31 @@ def worn_share(stone: PileStone) -> float:
     return max(along / stone.width, across / stone.depth)
 
 
-def deepest_wear(body: Pile, share: float) -> float:
-    """Return how far versions of a pile may be worn, a share of the width per side.
+def widest_wear(body: Pile, tolerance: float) -> float:
+    """Return the half width of the insets of the samples of a pile, a share of each.
 
     Less than asked where the pile would not stand at rest, its load being near an edge: what stands is not worn like that.
 
     Examples
     --------
     >>> lower, upper = PileStone("lower", 0.6, 0.6, 0.2), PileStone("upper", 0.4, 0.4, 0.9, offset=(0.24, 0.0), on="lower")
-    >>> deepest_wear(Pile("one", (lower,)), 0.1), round(deepest_wear(Pile("two", (lower, upper)), 0.4), 2)
-    (0.1, 0.19)
+    >>> one, two = Pile("one", (lower,)).worn(0.1), Pile("two", (lower, upper)).worn(0.15)
+    >>> widest_wear(one, 0.9), round(widest_wear(two, 0.9), 2)
+    (0.9, 0.44)
     """
-    if _stands(body, share / MOST_WORN):
-        return share
-    low, high = 0.0, share / MOST_WORN
+    if _stands(body, tolerance / MOST_WORN):
+        return tolerance
+    low, high = 0.0, tolerance / MOST_WORN
     while high - low > CLOSE:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if _stands(body, middle) else (low, middle)
-    return min(share, MOST_WORN * low)
+    return min(tolerance, MOST_WORN * low)
 
 
-def _stands(body: Pile, deepest: float) -> bool:
-    """Return whether the most worn version of a pile stands at rest."""
+def _stands(body: Pile, tolerance: float) -> bool:
+    """Return whether the most worn sample of a pile stands at rest."""
     try:
-        worn_to(body, deepest, 1.0)
+        worn_to(body, tolerance, 1.0)
     except BodyError:
         return False
     return True

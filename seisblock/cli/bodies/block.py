@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from seisblock.bodies.block import Block
+from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.library import body_of, restitution_of
 from seisblock.bodies.scan.body import ScannedBody
 from seisblock.bodies.toml import read_table
@@ -60,8 +61,8 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
     Parameters
     ----------
     asked : mapping
-        ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI; ``restitution`` and ``inset`` override
-        what a file brings along. None where not given. ``gal``: False where lengths are told in m.
+        ``block`` and ``side``, or ``width``, ``height`` and the other sizes of a block, SI, and ``kind``; ``restitution`` and ``inset``
+        override what a file brings along. None where not given. ``gal``: False where lengths are told in m.
 
     Raises
     ------
@@ -74,6 +75,7 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
     if asked.get("block"):
         if sizes:
             raise BodyError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
+        refuse_kind(asked)
         table = read_table(asked["block"])
         if restitution is None:
             restitution = restitution_of(table, asked["block"])
@@ -87,13 +89,19 @@ def choose_block(asked: Mapping[str, Any]) -> BlockChoice:
             raise BodyError(
                 "which block? {missing} missing: give --width and --height, or --block NAME|FILE (say gravestone)", missing=missing
             )
-        body = Block(**sizes)
+        body = of_kind(Block(**sizes), asked.get("kind") or "block")
         origin = said("block {width:g} m wide, {height:g} m high", width=body.width, height=body.height)
     if asked.get("inset") is not None:
         body = body.worn(asked["inset"])
     return BlockChoice(
         body, restitution, said("{parts}", parts=[part for part in (origin, edges(body, gal=asked.get("gal", True))) if part])
     )
+
+
+def refuse_kind(asked: Mapping[str, Any]) -> None:
+    """Refuse the kind of a body that comes from a file, which tells its own ranges."""
+    if asked.get("kind") is not None:
+        raise BodyError("--kind has no effect with --block: give it with --width and --height")
 
 
 def refuse_side(asked: Mapping[str, Any], kind: str | None) -> None:

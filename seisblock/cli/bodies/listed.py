@@ -8,11 +8,11 @@ from typing import Any
 
 from seisblock.bodies.roster import ListedBody
 from seisblock.bodies.toml import read_table
-from seisblock.cli.bodies.block import refuse_side
+from seisblock.cli.bodies.block import refuse_kind, refuse_side
 from seisblock.errors import ParameterError
 from seisblock.words import said
 
-SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset")
+SIZES = ("width", "height", "depth", "mass", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "kind")
 """Options that describe a body which has no name."""
 
 OWN = ("mu", "mu_kinetic", "surface", "restitution", "rocking_restitution", "tenon")
@@ -44,9 +44,10 @@ def listed_body(asked: Mapping[str, Any], solver: str) -> ListedBody:
     taken = (*SIZES, *(name for name in OWN if name in batch_model(solver).columns))
     told = {key: asked[key] for key in taken if asked.get(key) is not None}
     if asked.get("block"):
-        sizes = [key for key in told if key != "inset" and key in SIZES]
+        sizes = [key for key in told if key not in ("inset", "kind") and key in SIZES]
         if sizes:
             raise ParameterError("give either --block or sizes ({sizes}), not both", sizes=["--" + key.replace("_", "-") for key in sizes])
+        refuse_kind(asked)
         side = {} if asked.get("side") is None else {"side": asked["side"]}
         table = read_table(asked["block"])
         refuse_side(asked, table.get("kind"))

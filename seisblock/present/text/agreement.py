@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import deepest_within
-from seisblock.bodies.ranges import Ranges
+from seisblock.present.edges import sampled_edges
 from seisblock.studies.agreement import GRAVESTONES, Agreement, Opinion
 from seisblock.studies.cemetery.models import RateOpinion
 from seisblock.studies.rocking.perturb import Perturbation
@@ -129,7 +128,7 @@ def chance_lines(found: Perturbation, block: Block) -> tuple[str, str]:
     ----------
     found : Perturbation
     block : Block
-        The middle of the versions.
+        The median of the samples.
     """
     values = {"fallen": found.overturned, "runs": found.runs, "share": chance(found.probability), "of": tell(found.interval_of)}
     low, high = found.probability_interval
@@ -141,13 +140,12 @@ def chance_lines(found: Perturbation, block: Block) -> tuple[str, str]:
         text = noted(
             "falls in {fallen} of {runs} versions of body and shaking: {share}; {low} to {high} is the 95 % interval of {of}, no more."
         )
-    s, known = found.spread, found.ranges or Ranges()
-    deepest = deepest_within(block, s.inset) if s.inset else 0.0
-    drawn = said("size ±{size}, slenderness ±{slenderness}", size=roughly(s.size), slenderness=roughly(s.slenderness))
+    s = found.spread
+    sizes = said("size ±{size}, slenderness ±{slenderness}", size=roughly(s.size), slenderness=roughly(s.slenderness))
     varied = tell(
         "varied: {sizes}, {edges}, restitution ±{restitution}, amplitude ±{amplitude}, azimuth ±{azimuth:g} deg.",
-        sizes=drawn if found.ranges is None else known.sizes(s.size),
-        edges=known.edges or said("edges worn by 0 to {share} of the width", share=roughly(deepest)),
+        sizes=sizes,
+        edges=sampled_edges(block, found.ranges, s.inset),
         restitution=roughly(s.restitution),
         amplitude=roughly(s.amplitude),
         azimuth=s.azimuth_deg,

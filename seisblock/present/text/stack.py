@@ -166,15 +166,11 @@ def varied(found: PileProbability, pile: Pile) -> str:
     )
 
 
-def _worn(pile: Pile, deepest: float) -> Said:
-    """Return how far the edges of versions are worn."""
-    own = [worn_share(stone) > deepest for stone in pile.stones]
-    share, half = roughly(deepest), roughly(0.5 * deepest)
-    if all(own):
-        return said("edges worn by their own ±{half} of the width", half=half)
-    if any(own):
-        return said("edges worn by 0 to {share} of the width, or by more of their own ±{half}", share=share, half=half)
-    return said("edges worn by 0 to {share} of the width", share=share)
+def _worn(pile: Pile, tolerance: float) -> Said:
+    """Return how the insets of the stones of samples vary."""
+    if not any(worn_share(stone) for stone in pile.stones):
+        return said("sharp edges")
+    return said("worn edges ±{share} of their inset", share=roughly(tolerance))
 
 
 def standing(response: Response[StackOutcome]) -> str:

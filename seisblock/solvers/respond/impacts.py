@@ -223,7 +223,7 @@ def land(right, y, f, p, held):
 
 @kernel(_t.Tuple((_t.float64, _t.float64, _t.float64, _t.boolean))(_t.boolean, VECTOR, VECTOR, _t.boolean))
 def _given_ratio(onto_right, y, p, held):
-    """Return theta', slip velocity, loss and whether the ratio was lowered, of a rocking impact with the user's ratio."""
+    """Return theta', slip velocity, loss and whether the ratio was lowered, of a rocking impact with a ratio that is given."""
     h = p[HEIGHT]
     mu = p[MU_KINETIC]
     omega = y[OMEGA]
@@ -232,6 +232,11 @@ def _given_ratio(onto_right, y, p, held):
     energy = speed * speed + fall * fall + p[GYRATION] * omega * omega
     low = 0.0
     high = p[ROCKING_RESTITUTION]
+    if high < 0.0:
+        # less a share of Housner's ratio
+        struck_foot = foot(onto_right, p)
+        kept = p[GYRATION] + h * h + struck_foot * foot(not onto_right, p)
+        high *= -max(kept, 0.0) / (p[GYRATION] + h * h + struck_foot * struck_foot)
     ratio = high
     lowered = False
     for _ in range(HALVINGS + 1):
@@ -265,7 +270,7 @@ def come_down(onto_right, y, f, p, held):
         return go_on(onto_right or omega == 0.0, not onto_right or omega == 0.0, NONE, y, f, p, held)
     y[IMPACTS] += 1.0
     rate = 0.0
-    if p[ROCKING_RESTITUTION] >= 0.0:
+    if p[ROCKING_RESTITUTION] > NONE:
         turned, after, loss, lowered = _given_ratio(onto_right, y, p, held)
         if lowered:
             y[LOWERED] += 1.0

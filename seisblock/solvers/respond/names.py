@@ -65,8 +65,9 @@ GUARDS = (
 ) = range(16)  # fmt: skip
 """Parameters, SI.
 
-ROCKING_RESTITUTION: the user's ratio of angular velocities, -1 for none; ARM_*: horizontal distances b2 and b1 from the lower corners to
-the centre, whose height is HEIGHT; GYRATION: squared radius; TENON: depth; STEEP: 1 where kinetic friction is near Painleve's limit;
+ROCKING_RESTITUTION: ratio of angular velocities that is given, -1 for none, between -1 and 0 less a share of Housner's ratio; ARM_*:
+horizontal distances b2 and b1 from the lower corners to the centre, whose height is HEIGHT; GYRATION: squared radius; TENON: depth;
+STEEP: 1 where kinetic friction is near Painleve's limit;
 STILL: 1 when the record is over; SMALL_RATE: v_z, below which hops are at their end; then xi, eta of each further point."""
 
 HALF_PI = 0.5 * math.pi

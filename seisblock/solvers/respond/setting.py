@@ -130,6 +130,8 @@ class Setting:
         Depth to which tenons hold the feet; 0 without.
     further_points : tuple of (float, float), m
         Points of the body, to +x of its centre and above it, that end the motion when they meet the ground.
+    rocking_share : float
+        Where no rocking restitution is given: share of Housner's ratio that a rocking impact leaves; 1: the impact law itself.
     """
 
     stand: Stand
@@ -140,6 +142,7 @@ class Setting:
     gravity: float = 9.80665
     tenon: float = 0.0
     further_points: tuple[tuple[float, float], ...] = ()
+    rocking_share: float = 1.0
 
     def __post_init__(self) -> None:
         not_negative(noted("the friction coefficient mu"), self.mu)
@@ -151,6 +154,7 @@ class Setting:
         within(noted("the restitution"), self.restitution, "[0, 1)")
         if self.rocking_restitution is not None:
             fraction(noted("the rocking restitution, a ratio of angular velocities,"), self.rocking_restitution)
+        within(noted("the share of a rocking impact"), self.rocking_share, "(0, 1]")
         check_gravity(self.gravity)
         not_negative(noted("the tenon's depth"), self.tenon, "m")
         for point in self.further_points:
@@ -188,7 +192,7 @@ class Setting:
     def parameters(self, dt: float, *, duration_s: float = 0.0, still: bool = False) -> FloatArray:
         """Return the parameters of the model in the order of its names, for a run that ends so long after the first sample."""
         body = self.stand
-        given = NONE if self.rocking_restitution is None else self.rocking_restitution
+        given = NONE * self.rocking_share if self.rocking_restitution is None else self.rocking_restitution
         row = [
             self.gravity, dt, self.mu, self.mu_kinetic, self.restitution, given, body.right, body.left, body.height, body.gyration_squared,
             self.tenon, float(self.mu_kinetic >= NEARLY_JAMS * body.friction_limit), float(still), self.small_rate,

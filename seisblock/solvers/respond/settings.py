@@ -20,7 +20,12 @@ class Settings:
     ----------
     blocks : Blocks
     mu, mu_kinetic, restitution : (m,) arrays, 1
-    rocking_restitution, gravity, tenon : float or None, 1; float, m/s^2; float, m
+    rocking : (m,) array, 1
+        Angular velocity after over that before a rocking impact where `rocking_given`; else over that of an impact without losses beyond
+        the impact law's, at most 1.
+    rocking_given : bool
+        Whether `rocking` stands in place of the impact law.
+    gravity, tenon : float, m/s^2; float, m
         The same for all.
 
     Raises
@@ -33,13 +38,15 @@ class Settings:
     mu: FloatArray
     mu_kinetic: FloatArray
     restitution: FloatArray
-    rocking_restitution: float | None
+    rocking: FloatArray
+    rocking_given: bool
     gravity: float
     tenon: float
 
     def __post_init__(self) -> None:
         good = (self.mu < np.inf) & (self.mu_kinetic >= 0.0) & (self.mu_kinetic <= self.mu)
         good &= (self.restitution >= 0.0) & (self.restitution < 1.0)
+        good &= (self.rocking >= 0.0) & (self.rocking <= 1.0)
         # what is the same for all, or wrong in one, is refused in the words of one
         self.one(int(np.argmin(good)))
 
@@ -49,20 +56,27 @@ class Settings:
     def __getitem__(self, part: slice) -> Settings:
         """Return some of them."""
         return replace(
-            self, blocks=self.blocks[part], mu=self.mu[part], mu_kinetic=self.mu_kinetic[part], restitution=self.restitution[part]
+            self,
+            blocks=self.blocks[part],
+            mu=self.mu[part],
+            mu_kinetic=self.mu_kinetic[part],
+            restitution=self.restitution[part],
+            rocking=self.rocking[part],
         )
 
     def one(self, row: int) -> Setting:
         """Return one of them, by its number; nobody knows its mass and name."""
         right, left, height, gyration = (float(column[row]) for column in self.blocks.columns)
+        rocking = float(self.rocking[row])
         return Setting(
             Stand(right, left, height, gyration, 1.0, ""),
             float(self.mu[row]),
             float(self.mu_kinetic[row]),
             float(self.restitution[row]),
-            self.rocking_restitution,
+            rocking if self.rocking_given else None,
             self.gravity,
             self.tenon,
+            rocking_share=1.0 if self.rocking_given else rocking,
         )
 
     def parameters(self, dt: float, *, duration_s: float = 0.0, still: bool = False) -> FloatArray:
@@ -72,6 +86,7 @@ class Settings:
         kappa = self.blocks.gyration_squared / (largest * largest)
         limit = 2.0 * np.sqrt(kappa * (1.0 + kappa))
         table[:, names.MU : names.RESTITUTION + 1] = np.column_stack([self.mu, self.mu_kinetic, self.restitution])
+        table[:, names.ROCKING_RESTITUTION] = self.rocking if self.rocking_given else -self.rocking
         table[:, names.ARM_RIGHT : names.GYRATION + 1] = np.column_stack(self.blocks.columns)
         table[:, names.STEEP] = self.mu_kinetic >= NEARLY_JAMS * limit
         table[:, names.SMALL_RATE] = SMALL_RATE * np.sqrt(self.gravity * largest)

@@ -11,6 +11,7 @@ from typing import Any
 from seisblock.bodies.block import Block
 from seisblock.bodies.friction import surface
 from seisblock.bodies.inset import Inset
+from seisblock.bodies.kinds import of_kind
 from seisblock.bodies.library import block_of, body_of, friction_of, restitution_of
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.toml import load_pile
@@ -41,8 +42,8 @@ from seisblock.studies.standing.probability import respond_probability
 Told = Mapping[str, Any]
 Row = dict[str, Any]
 
-_BLOCK = ("width", "height", "depth", "mass", "density", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "side")
-_SIZES = _BLOCK[:-2]
+_BLOCK = ("width", "height", "depth", "mass", "density", "centroid_height", "centroid_offset", "centroid_inertia", "inset", "side", "kind")
+_SIZES = _BLOCK[:-3]
 
 
 @dataclass(frozen=True)
@@ -122,14 +123,17 @@ def _rigid(listed: ListedBody) -> Block | ScannedBody:
     told = listed.told
     sizes = {key: told[key] for key in _SIZES if key in told}
     if listed.description is not None:
-        if sizes:
-            raise BodyError("{source}: give sizes or `body`, not both", source=listed.source)
+        if sizes or "kind" in told:
+            raise BodyError("{source}: give sizes, with or without `kind`, or `body`, not both", source=listed.source)
         body = body_of(listed.description, side=told.get("side", "short"))
     else:
         missing = [key for key in ("width", "height") if key not in sizes]
         if missing:
             raise BodyError("{source}: {missing} missing: a block needs width and height", source=listed.source, missing=missing)
-        body = Block(**sizes, name=listed.name)
+        try:
+            body = of_kind(Block(**sizes, name=listed.name), told.get("kind", "block"))
+        except BodyError as error:
+            raise BodyError("{source}: {why}", source=listed.source, why=error.said) from error
     inset = told.get("inset")
     return body.worn(inset) if isinstance(inset, Inset) else body
 

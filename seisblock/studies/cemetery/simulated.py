@@ -1,7 +1,8 @@
 """Which stones of a cemetery fall when each is let rock as one rigid block, beside the formula fitted to whole piles.
 
-A block that turns about the edges of its base needs more shaking than [Furukawa2009]_ eq. (9) says; about edges worn by 0.1 of its
-width per side, where the outermost of 5 x 5 contact points lie, it comes within a tenth of (9).
+A block that turns about the edges of its base needs more shaking than [Furukawa2009]_ eq. (9) says; under sines it comes within a tenth of
+(9) about edges worn by 0.1 of its width per side, where the outermost of 5 x 5 contact points lie. Stones stand on edges worn by the median
+of gravestones (:data:`~seisblock.bodies.inset.WORN`) unless an inset is given.
 """
 
 from __future__ import annotations
@@ -62,7 +63,7 @@ def sao(height_over_width: float, width: float = PAPER_WIDTH, *, inset: Inset = 
     height_over_width, width : float, 1 and m
         H/B and B of the homogeneous stone.
     inset : Inset
-        Per side; 0.1 of the width is where the outermost of 5 x 5 segment centres lie.
+        Per side.
 
     Raises
     ------

@@ -31,7 +31,7 @@ from seisblock.studies.standing.probability import Versions, changed_settings
 from seisblock.typing import FloatArray
 
 Draws = FloatArray | None
-"""What tells the versions of a body apart, (v, 6), each uniform in [-1, 1]; None for the body as it is."""
+"""Draws of the samples of a body, (v, 7), each uniform in [-1, 1]; None for the body as it is."""
 
 Follow = Callable[[Placed, Motion, FloatArray, Draws], Ends]
 """``follow(placed, motion, factors, draws)``: the ends of all versions at the first factor, then at the next."""

@@ -71,9 +71,10 @@ def _of(curve: Fragility, values: FloatArray, rules: Rules, *, several: bool) ->
 
 
 def ranges_noted(bodies: Sequence[Placed], solver: str) -> list[Said]:
-    """Return a sentence for each body whose versions lie within the ranges of its own kind; friction plays no part in rocking."""
+    """Return a sentence for each body whose samples are drawn from the ranges of its kind; friction plays no part in rocking."""
     ranges = ((placed.name, getattr(placed.body, "ranges", None)) for placed in bodies)
-    known = ((name, told.without("mu") if told and solver == "rock" else told) for name, told in ranges)
+    left_out = ("width_m", "height_m", *(["mu"] if solver == "rock" else []))
+    known = ((name, told and told.without(*left_out)) for name, told in ranges)
     return [
         said("{body}: its versions lie within its own ranges: {ranges}", body=said_name(name), ranges=told.says)
         for name, told in known

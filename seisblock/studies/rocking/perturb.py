@@ -9,8 +9,7 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import deepest_within, versions, versions_within
-from seisblock.bodies.inset import HALF
+from seisblock.bodies.blocks import samples
 from seisblock.bodies.ranges import Ranges
 from seisblock.limits import check_budget
 from seisblock.records import Motion
@@ -30,15 +29,15 @@ AMPLITUDE, TURN = 3, 4
 
 @dataclass(frozen=True)
 class Spread:
-    """Half widths of the uniform changes: shares of the value, and degrees for the azimuth; and how far the edges may be worn.
+    """Half widths of the uniform changes: shares of the value, and degrees for the azimuth.
 
     Parameters
     ----------
     size, slenderness, restitution, amplitude : float
         Shares, in [0, 1).
     inset : float
-        The edges are worn by a share of the width, per side, between 0 and this, or that of the block where it is more worn; in
-        [0, 0.5).
+        Half width of a known inset, a share of itself, in [0, 1): sharp edges stay sharp. Edges that nobody has measured are drawn from
+        the range of the block's kind instead; 0 takes them as known exactly.
     azimuth_deg : float
         Degrees; without effect where the record's second horizontal is unknown.
     """
@@ -56,7 +55,7 @@ class Spread:
         checks.within("the spread of the restitution, a share,", self.restitution, "[0, 1)")
         checks.within("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
         checks.within("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
-        checks.within("the spread of the inset, a share of the width,", self.inset, f"[0, {HALF})")
+        checks.within("the spread of the inset, a share,", self.inset, "[0, 1)")
 
 
 @dataclass(frozen=True)
@@ -76,7 +75,7 @@ class Perturbation:
     spread : Spread
     seed : int
     ranges : Ranges or None
-        Of the body's own kind, where its file tells them: in these lie its versions, instead of the spread of size, slenderness and edges.
+        Prior of the worn edges of the block's kind, from which they were drawn instead of varying by a share.
     """
 
     runs: int
@@ -142,18 +141,24 @@ def perturb(
     found = all_verdicts(some, motion, gains, progress=progress)
     count = int(found.overturned.sum())
     return Perturbation(
-        runs, count, count / runs, wilson_interval(count, runs), spread, seed, ranges=block.ranges and block.ranges.without("mu")
+        runs,
+        count,
+        count / runs,
+        wilson_interval(count, runs),
+        spread,
+        seed,
+        ranges=block.ranges and block.ranges.without("width_m", "height_m", "mu"),
     )
 
 
 def draws_of(runs: int, seed: int) -> FloatArray:
-    """Return what tells so many versions of a block and its shaking apart, (runs, 7): in [-1, 1], but for the sixth, in [0, 1]."""
-    dice = np.random.default_rng(seed)
-    return np.column_stack([dice.uniform(-1.0, 1.0, (runs, 5)), dice.uniform(0.0, 1.0, runs), dice.uniform(-1.0, 1.0, runs)])
+    """Return the draws of so many samples of a block and its shaking, (runs, 7), uniform in [-1, 1]."""
+    rng = np.random.default_rng(seed)
+    return np.column_stack([rng.uniform(-1.0, 1.0, (runs, 5)), rng.uniform(-1.0, 1.0, runs), rng.uniform(-1.0, 1.0, runs)])
 
 
 def changed_rockers(block: Block, motion: Motion, spread: Spread, draws: FloatArray, **options: Unpack[RockOptions]) -> Rockers:
-    """Return the versions of a block as they rock: changed by the shares that the draws say, each within its spread.
+    """Return the samples of a block as they rock, by draws of each parameter within its spread.
 
     Parameters
     ----------
@@ -163,17 +168,7 @@ def changed_rockers(block: Block, motion: Motion, spread: Spread, draws: FloatAr
         Of :func:`draws_of`.
     """
     size, slenderness, bounce, _, _, wear, _ = draws.T
-    deepest = deepest_within(block, spread.inset) if spread.inset else None
-    if block.ranges is not None:
-        worn = np.full(len(draws), block.inset / block.width) if deepest is None else deepest * wear
-        drawn = {"tall": size, "wide": slenderness, "worn": 2.0 * wear - 1.0}
-        changed = versions_within(block, block.ranges, **drawn, size=spread.size, inset=worn)
-    else:
-        changed = versions(
-            block,
-            size=1.0 + spread.size * size,
-            slenderness=1.0 + spread.slenderness * slenderness,
-            inset_share=None if deepest is None else deepest * wear,
-        )
+    larger = 1.0 + spread.size * size
+    changed = samples(block, spread.inset, wide=larger * (1.0 + spread.slenderness * slenderness), tall=larger, worn=wear)
     some = rockers(changed, motion, **options)
     return replace(some, onto=np.minimum(some.onto * (1.0 + spread.restitution * bounce[:, None]), 1.0))

@@ -69,7 +69,7 @@ def respond_directions(
     >>> from seisblock.readers import read
     >>> worst = respond_directions(load_block("gravestone"), read("synthetic_jma.csv"), mu=0.5, step_deg=45.0)[0]
     >>> worst.azimuth_deg
-    90.0
+    135.0
     """
     settle_s = options.pop("settle_s", 60.0)
     around = sweep(block, record, step_deg=step_deg, vertical=vertical)

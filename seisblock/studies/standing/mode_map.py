@@ -128,7 +128,7 @@ def mode_map(
         raise ParameterError("a map needs at least one cell")
     check_budget(noted("cells"), cells, "SEISBLOCK_CELLS")
     kinds, rough = np.arange(cells) // mu.size, np.tile(mu, len(blocks))
-    settings = Settings(gathered(blocks)[kinds], rough, rough, np.full(cells, restitution), None, gravity, 0.0)
+    settings = Settings(gathered(blocks)[kinds], rough, rough, np.full(cells, restitution), np.ones(cells), False, gravity, 0.0)
     alphas = settings.blocks.slendernesses.min(axis=1)
     up = vertical_gain(motion, vertical)
     ratio, time = loading(motion, vertical=vertical, gravity=gravity)

@@ -13,10 +13,9 @@ from typing import Any
 import numpy as np
 
 from seisblock import checks
-from seisblock.bodies.inset import HALF
 from seisblock.bodies.pile.pile import Pile
 from seisblock.bodies.pile.stone import PileStone
-from seisblock.bodies.pile.wear import deepest_wear, worn_to
+from seisblock.bodies.pile.wear import widest_wear, worn_to
 from seisblock.errors import SolverError
 from seisblock.limits import check_budget
 from seisblock.records.given import check_call
@@ -42,8 +41,7 @@ class PileVersions:
     size, amplitude : float
         Half widths as shares: of all lengths of the pile, and of the shaking.
     inset : float
-        Largest inset per side, a share of the width: versions are worn from sharp edges to this, all stones by the same share. A stone
-        that is itself worn by more, from its own less to its own plus half of it. On a grid of points without effect.
+        Half width of the insets of all stones alike, a share of each: sharp edges stay sharp. On a grid of points without effect.
     mu : float
         Half width as a share, of the friction under each stone by itself.
     azimuth_deg : float
@@ -63,7 +61,7 @@ class PileVersions:
 
     def __post_init__(self) -> None:
         checks.within("the spread of the size, a share,", self.size, "[0, 1)")
-        checks.within("the spread of the inset, a share of the width,", self.inset, f"[0, {HALF})")
+        checks.within("the spread of the inset, a share,", self.inset, "[0, 1)")
         checks.within("the spread of the friction, a share,", self.mu, "[0, 1)")
         checks.within("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
         checks.within("the spread of the azimuth", self.azimuth_deg, "[0, 180]", "degrees")
@@ -182,7 +180,7 @@ def stack_probability(
     checks.positive("the displacement that counts as moved", moved_m, "m")
     if (mu_kinetic := options.pop("mu_kinetic", None)) is not None:
         body = body.sliding_at(mu_kinetic)
-    versions = replace(versions, inset=deepest_wear(body, versions.inset) if options.get("points", EDGES) == EDGES else 0.0)
+    versions = replace(versions, inset=widest_wear(body, versions.inset) if options.get("points", EDGES) == EDGES else 0.0)
     draws = np.random.default_rng(checks.seed(seed)).uniform(-1.0, 1.0, (runs, FRICTION + len(body.stones)))
 
     def work(draw: FloatArray) -> StackOutcome | SolverError:

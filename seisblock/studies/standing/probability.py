@@ -1,8 +1,9 @@
-"""How sure it is: plausible versions of an object and its shaking, and the share of them that fall or move.
+"""Overturning probability of a free-standing object: the share of samples of it and its shaking that fall or move.
 
-Nobody knows an object to the last per cent. Each version differs in what cannot be known: size, worn edges, friction,
-restitution, amplitude and direction of the shaking. What comes out is of this model's own scatter: on shaking tables 3 % of two
-granite rocks fell where none of 20 such versions did, and 2 % stood where all fell.
+Samples vary around the object as it was given, which is their median in every parameter: width, height, worn edges, friction,
+restitution, amplitude and direction of the shaking. A given value varies by its own tolerance; worn edges and friction that nobody has
+measured are drawn from the ranges of the object's kind. The share is of this model's own scatter: on shaking tables 3 % of two granite
+rocks fell where none of 20 samples did, and 2 % stood where all fell.
 """
 
 from __future__ import annotations
@@ -14,10 +15,8 @@ import numpy as np
 
 from seisblock import checks
 from seisblock.bodies.block import Block
-from seisblock.bodies.blocks import Blocks, versions_within, wear_range
-from seisblock.bodies.blocks import versions as resized_versions
-from seisblock.bodies.inset import HALF
-from seisblock.bodies.ranges import Ranges, within
+from seisblock.bodies.blocks import samples, within
+from seisblock.bodies.ranges import Ranges
 from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
@@ -36,23 +35,28 @@ QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 ROUGHEST = 0.95
 """Restitutions of versions stay below this: hops near 1 have no end."""
 
+HEIGHT, INSET, MU, RESTITUTION, AMPLITUDE, AZIMUTH, WIDTH = range(7)
+"""Columns of the draws."""
+
 AT_ONCE = 100
 """Versions handed over at a time, so that progress can be told."""
 
 
 @dataclass(frozen=True)
 class Versions:
-    """How far plausible versions differ from what was given; each change uniform and independent of the others.
+    """Half widths of the samples around what was given; each change uniform and independent of the others.
 
     Parameters
     ----------
     size, mu, amplitude : float
-        Half widths as shares of the value.
+        Half widths as shares of the value; size is that of the width and, independently, of the height.
     inset : float
-        Largest inset per side, a share of the width: versions are worn from sharp edges to this. Where the body is itself worn by
-        more, from its own less to its own plus half of it, as far as a fifth of the base is left.
+        Half width of a known inset, a share of itself, as far as a fifth of the base is left: sharp edges stay sharp. Edges that nobody
+        has measured are drawn from the range of the body's kind instead; 0 takes them as known exactly, and likewise for `mu`.
     restitution : float, 1
-        How much more than the given one it may be.
+        Half width of the restitution. Below 0 it continues as a share of what an impact without restitution leaves of the angular
+        velocity of rocking: -0.05 stands for 0.95 of Housner's ratio, as measured on concrete. A given rocking restitution varies by
+        this share of itself.
     azimuth_deg : float
         Half width, degrees; without effect where the record's second horizontal is unknown.
 
@@ -71,7 +75,7 @@ class Versions:
 
     def __post_init__(self) -> None:
         checks.within("the spread of the size, a share,", self.size, "[0, 1)")
-        checks.within("the spread of the inset, a share of the width,", self.inset, f"[0, {HALF})")
+        checks.within("the spread of the inset, a share,", self.inset, "[0, 1)")
         checks.within("the spread of the friction, a share,", self.mu, "[0, 1)")
         checks.within("the spread of the restitution", self.restitution, "[0, 1)")
         checks.within("the spread of the amplitude, a share,", self.amplitude, "[0, 1)")
@@ -96,7 +100,7 @@ class Probability:
         What was varied, and how far.
     seed : int
     ranges : Ranges or None
-        Of the body's own kind, where its file tells them: in these lie its versions, instead of differing by shares.
+        Priors of the body's kind, edges and friction, from which samples were drawn instead of varying by shares.
     """
 
     runs: int
@@ -133,8 +137,7 @@ def respond_probability(
     Parameters
     ----------
     block, motion, mu, mu_kinetic, restitution, rocking_restitution, vertical, gravity, settle_s, tenon
-        As in :func:`~seisblock.solvers.respond.solve.solve_respond`; the middle of the versions, but where the body knows the ranges of
-        its kind.
+        As in :func:`~seisblock.solvers.respond.solve.solve_respond`; the median of the samples.
     runs : int
         How many versions, at least 1.
     moved_m : float, m
@@ -208,7 +211,7 @@ def respond_probability(
         {f"q{round(100 * share):02d}": float(value) for share, value in zip(QUANTILES, standing, strict=False)},
         versions,
         seed,
-        block.ranges,
+        block.ranges and block.ranges.priors,
     )
 
 
@@ -224,7 +227,7 @@ def changed_settings(
     gravity: float = STANDARD_GRAVITY,
     tenon: float = 0.0,
 ) -> Settings:
-    """Return the versions of a body and its contact: changed by the shares that the draws say, each as far as versions may differ.
+    """Return the samples of a body and its contact, by draws of each parameter within its half width.
 
     Parameters
     ----------
@@ -233,33 +236,35 @@ def changed_settings(
     draws : (m, 7) array
         In [-1, 1].
     """
-    rough = 1.0 + versions.mu * draws[:, 2]
-    if block.ranges is not None and block.ranges.mu is not None:
-        rough = within(block.ranges.mu, draws[:, 2]) / mu
-    bouncy = restitution + versions.restitution * 0.5 * (1.0 + draws[:, 3])
+    rough = 1.0 + versions.mu * draws[:, MU]
+    if versions.mu > 0.0 and block.ranges is not None and block.ranges.mu is not None:
+        rough = within(block.ranges.mu, mu, draws[:, MU]) / mu if mu > 0.0 else np.ones(len(draws))
+    change = versions.restitution * draws[:, RESTITUTION]
+    bounce = restitution + change
+    # kept on both sides of 0: a restitution below it is a loss on top of a plastic impact
+    kept = 1.0 + np.minimum(bounce, 0.0)
+    if rocking_restitution is not None:
+        kept = np.minimum(rocking_restitution * (1.0 + change), max(rocking_restitution, 1.0))
     return Settings(
-        _bodies(block, versions, draws),
+        samples(
+            block,
+            versions.inset,
+            wide=1.0 + versions.size * draws[:, WIDTH],
+            tall=1.0 + versions.size * draws[:, HEIGHT],
+            worn=draws[:, INSET],
+        ),
         mu * rough,
         (mu if mu_kinetic is None else mu_kinetic) * rough,
-        np.maximum(restitution, np.minimum(bouncy, ROUGHEST)),
-        rocking_restitution,
+        np.clip(bounce, 0.0, max(restitution, ROUGHEST)),
+        kept,
+        rocking_restitution is not None,
         gravity,
         tenon,
     )
 
 
-def _bodies(block: Block, versions: Versions, draws: FloatArray) -> Blocks:
-    """Return the versions of a body: their size, and how far their edges are worn."""
-    low, high = wear_range(block, versions.inset)
-    worn = np.maximum(0.5 * (low + high) + 0.5 * (high - low) * draws[:, 1], 0.0)
-    if block.ranges is not None:
-        drawn = {"tall": draws[:, 0], "wide": draws[:, 6], "worn": draws[:, 1]}
-        return versions_within(block, block.ranges, **drawn, size=versions.size, inset=worn)
-    return resized_versions(block, size=1.0 + versions.size * draws[:, 0], slenderness=np.ones(len(draws)), inset_share=worn)
-
-
 def _gains(motion: Motion, versions: Versions, draws: FloatArray, vertical: Factor | None) -> FloatArray:
     """Return the factors on the rows along, across and up that scale and turn the shaking of each version, (runs, 3)."""
-    amplitude = 1.0 + versions.amplitude * draws[:, 4]
-    angle = np.radians(versions.azimuth_deg) * draws[:, 5] * bool(motion.transverse.any())
+    amplitude = 1.0 + versions.amplitude * draws[:, AMPLITUDE]
+    angle = np.radians(versions.azimuth_deg) * draws[:, AZIMUTH] * bool(motion.transverse.any())
     return np.column_stack([amplitude * np.cos(angle), -amplitude * np.sin(angle), amplitude * vertical_gain(motion, vertical)])

@@ -64,7 +64,7 @@ def test_settings_of_arrays_are_the_settings_one_by_one(initial):
     blocks = [Block(0.35 * a, 0.9 * b, centroid_offset=0.05 * c) for a, b, c in rng.uniform(0.7, 1.3, (n, 3))]
     mu, kinetic, e = rng.uniform(0.8, 1.6, n), rng.uniform(0.2, 0.8, n), rng.uniform(0.0, 0.5, n)
     kinetic[::3] = mu[::3]
-    some = Settings(gathered(blocks), mu, kinetic, e, None, 9.81, 0.01)
+    some = Settings(gathered(blocks), mu, kinetic, e, np.ones(n), False, 9.81, 0.01)
     numbers = zip(blocks, mu.tolist(), kinetic.tolist(), e.tolist(), strict=True)
     each = [make_setting(block, mu=m, mu_kinetic=k, restitution=r, gravity=9.81, tenon=0.01) for block, m, k, r in numbers]
     for still in (False, True):
@@ -85,7 +85,7 @@ def test_a_wrong_number_among_many_is_refused_in_the_words_of_one():
         (0.3, 0.3, 1.0, "restitution"),
     ):
         with pytest.raises(ParameterError, match=why):
-            Settings(two, np.array([0.5, mu]), np.array([0.5, kinetic]), np.array([0.0, e]), None, 9.81, 0.0)
+            Settings(two, np.array([0.5, mu]), np.array([0.5, kinetic]), np.array([0.0, e]), np.ones(2), False, 9.81, 0.0)
 
 
 def test_threads_do_not_matter():
