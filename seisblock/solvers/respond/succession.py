@@ -103,7 +103,11 @@ def slack(kind, left, right, theta, omega, slip, push, weight, p, held):
         if not both or held or s * slip < 0.0:
             return IMPOSSIBLE
         reach = s * p[MU_KINETIC] * p[HEIGHT]
-        least = min(p[GRAVITY] * min(p[ARM_RIGHT] - reach, p[ARM_LEFT] + reach) / base, weight)
+        least = weight
+        tips = p[GRAVITY] * min(p[ARM_RIGHT] - reach, p[ARM_LEFT] + reach) / base
+        if tips < -FLAT_TOLERANCE * p[GRAVITY]:
+            # no input changes where the resultant is, so that nothing is decided by looking at it later
+            least = min(tips, weight)
         return least if slip != 0.0 else min(least, -s * push - p[MU_KINETIC] * weight)
     about_right = is_right(kind)
     if not (right if about_right else left):
