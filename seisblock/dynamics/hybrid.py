@@ -132,10 +132,10 @@ def _lift_touched(touched, g):
 @kernel(_t.boolean(VECTOR, MATRIX), inline=True)
 def _is_unchanged(y, c):
     """Return whether a state is that in the first column of `c`."""
+    differing = 0
     for i in range(y.size):
-        if y[i] != c[i, 0]:
-            return False
-    return True
+        differing += y[i] != c[i, 0]
+    return differing == 0
 
 
 @kernel(_t.int64(*POINTERS, GROUND, SHAPE, VECTOR, CURSOR, KEPT, SCRATCH))
