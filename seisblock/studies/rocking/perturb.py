@@ -77,6 +77,8 @@ class Perturbation:
     seed : int
     ranges : Ranges or None
         Of the body's own kind, where its file tells them: in these lie its versions, instead of the spread of size, slenderness and edges.
+    no_answer : tuple of int
+        Numbers, from 1, of the versions that were given up, which are not among `runs`.
     """
 
     runs: int
@@ -87,6 +89,7 @@ class Perturbation:
     seed: int
     interval_of: str = OWN_SCATTER
     ranges: Ranges | None = None
+    no_answer: tuple[int, ...] = ()
 
 
 def perturb(
@@ -140,9 +143,16 @@ def perturb(
     # +x turned clockwise, seen from above
     gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * some.vertical])
     found = all_verdicts(some, motion, gains, progress=progress)
-    count = int(found.overturned.sum())
+    count, answered = int(found.overturned.sum()), int((~found.gave_up).sum())
     return Perturbation(
-        runs, count, count / runs, wilson_interval(count, runs), spread, seed, ranges=block.ranges and block.ranges.without("mu")
+        answered,
+        count,
+        count / answered,
+        wilson_interval(count, answered),
+        spread,
+        seed,
+        ranges=block.ranges and block.ranges.without("mu"),
+        no_answer=tuple((np.flatnonzero(found.gave_up) + 1).tolist()),
     )
 
 
