@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from seisblock.dynamics.halt import halting, heeding
 from seisblock.typing import Progress
-from seisblock.words import Said, said
+from seisblock.words import Said, noted, said
 
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
@@ -48,8 +48,8 @@ def left_out_versions(numbers: Sequence[int], answered: int) -> Said | None:
     """
     if not numbers:
         return None
-    text = "{count} of {all} versions were given up and are left out: numbers {numbers}"
-    more = "{count} of {all} versions were given up and are left out: numbers {numbers} and others"
+    text = noted("{count} of {all} versions were given up and are left out: numbers {numbers}")
+    more = noted("{count} of {all} versions were given up and are left out: numbers {numbers} and others")
     named = ", ".join(str(number) for number in numbers[:MOST_NAMED])
     return said(text if len(numbers) <= MOST_NAMED else more, count=len(numbers), all=answered + len(numbers), numbers=named)
 
