@@ -13,9 +13,9 @@ from seisblock.records import Motion
 from seisblock.solvers.respond.many import respond_many
 from seisblock.studies.batch.run import run_batch
 from seisblock.studies.standing import azimuths, mode_map, probability
-from tests.solvers.respond.cases import leaning
 from seisblock.studies.stations.effects import StandingBody
 from seisblock.studies.stations.survey import survey_stations
+from tests.solvers.respond.cases import leaning
 
 BLOCK = Block(0.24, 0.8, name="shelf")
 PULSE = Motion.from_arrays(4.0 * np.sin(np.linspace(0.0, np.pi, 101)), 0.01)
