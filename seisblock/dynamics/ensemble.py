@@ -39,7 +39,7 @@ from seisblock.dynamics.model import Model
 from seisblock.dynamics.status import FAILURES, PAUSED, Status
 from seisblock.errors import ParameterError, SolverError
 from seisblock.records.motion import Motion
-from seisblock.typing import ArrayLike, FloatArray, IntArray
+from seisblock.typing import ArrayLike, BoolArray, FloatArray, IntArray
 from seisblock.words import said
 
 _t = types()
@@ -103,6 +103,8 @@ class Ensemble:
         How often each guard led to each mode.
     stays : (m, n_modes, 2) array, s
         How long it was in each mode, in all and at the longest stretch between two events.
+    failed : (m,) array of bool
+        Rows that were given up: what stands in them is the state in which that happened, and no answer.
     """
 
     model: Model
@@ -115,6 +117,7 @@ class Ensemble:
     extrema: FloatArray
     tally: IntArray
     stays: FloatArray
+    failed: BoolArray
 
     @property
     def end_time(self) -> FloatArray:
@@ -132,6 +135,7 @@ def follow_many(
     gains: ArrayLike,
     start: Instant | Instants = BEGINNING,
     called: IntArray | None = None,
+    allow_failures: bool = False,
 ) -> Ensemble:
     """Follow a model through a motion once per row of parameters, without the GIL.
 
@@ -152,6 +156,8 @@ def follow_many(
         Where to begin, all of them or each.
     called : (m,) array of int
         The numbers by which an error names the rows, where they are some of many.
+    allow_failures : bool
+        Whether rows that had to be given up are marked in the answer instead of ending all of them in an error.
 
     Returns
     -------
@@ -162,7 +168,7 @@ def follow_many(
     ParameterError
         If the shapes do not fit.
     SolverError
-        If one of the integrations had to be given up.
+        If one of the integrations had to be given up and failures are not allowed.
     """
     p = np.array(parameters, dtype=np.float64, order="C")
     if p.ndim != 2:
@@ -192,7 +198,8 @@ def follow_many(
             heed()
             row = integrate_rows(*model.pointers, grounds, model.shape, p, rows, row, SLICE)
     end = Instants(rows.places[:, SAMPLE], rows.clocks[:, TAU])
-    for row in np.flatnonzero(_FAILED[rows.statuses])[:1]:
+    failed: BoolArray = _FAILED[rows.statuses]
+    for row in () if allow_failures else np.flatnonzero(failed)[:1]:
         raise SolverError(
             "{name}, row {row}: given up at {at:.6f} s, where {failure}",
             name=model.name,
@@ -211,6 +218,7 @@ def follow_many(
         rows.extrema,
         rows.tallies,
         rows.stays,
+        failed,
     )
 
 

@@ -14,6 +14,11 @@ Events
     A guard fires at the first time in (t0, t0 + h] from which it is negative. Touching zero is no event; a guard that a reset
     leaves at zero is judged by its first coefficient that is more than round-off. Of guards that cross
     together, the first in the model's order fires.
+Ties
+    A guard is a difference of larger numbers. Where the input turns exactly at a threshold, it may lie below zero by the round-off of
+    those numbers, which its own coefficients do not show, and fires. A reset that knows the tolerance of the model's conditions then
+    returns the mode and the state that were there: the limit was touched. That is no event, and up to the next step the guard
+    starts from zero, so that its slope decides; firing again from the same state would lead to the same answer without end.
 Slices
     Compiled code hears no interruption. The loop pauses after so many steps, between two samples, and goes on from there when it is
     called again: the answer does not depend on where it paused. No sample may take more than ``MOST_STEPS``.
@@ -52,7 +57,7 @@ from seisblock.dynamics.arguments import (
     TOTAL,
     Scratch,
 )
-from seisblock.dynamics.arrays import VECTOR
+from seisblock.dynamics.arrays import MATRIX, VECTOR
 from seisblock.dynamics.changes import EVENT_FROM, EVENT_GUARD, EVENT_SAMPLE, EVENT_TO
 from seisblock.dynamics.contract import CONSTANT, OFF, RESET, SERIES, SKIP, stay
 from seisblock.dynamics.extrema import begin, keep
@@ -116,6 +121,23 @@ def _keep_stay(kept, mode, clock, now):
     clock[SINCE] = now
 
 
+@kernel(_t.void(_t.int64, MATRIX), inline=True)
+def _lift_touched(touched, g):
+    """Set touched guards, the bits of `touched`, that start below zero to start from zero."""
+    for k in range(min(g.shape[0], 63)):
+        if (touched >> k) & 1 and g[k, 0] < 0.0:
+            g[k, 0] = 0.0
+
+
+@kernel(_t.boolean(VECTOR, MATRIX), inline=True)
+def _is_unchanged(y, c):
+    """Return whether a state is that in the first column of `c`."""
+    differing = 0
+    for i in range(y.size):
+        differing += y[i] != c[i, 0]
+    return differing == 0
+
+
 @kernel(_t.int64(*POINTERS, GROUND, SHAPE, VECTOR, CURSOR, KEPT, SCRATCH))
 def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
     """Follow one trajectory on from its cursor; return a status.
@@ -170,8 +192,11 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
         read(ground, sample, tau, f)
         least = left - MOST_STEPS
         before = found
+        touched = 0
         while True:
             degree = series(mode, y, f, p, order, c, g)
+            if touched != 0:
+                _lift_touched(touched, g)
             still = degree == CONSTANT
             rest = dt - tau
             h = rest
@@ -187,6 +212,7 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
                     break
                 if tau + h > tau:
                     repeated = 0
+                    touched = 0
             at_sample = h == rest
             tau += h
             if not at_sample or fired >= 0:
@@ -198,7 +224,19 @@ def go_on(series, reset, skip, ground, shape, p, cursor, kept, scratch):
                         status = TOO_MANY_EVENTS
                         break
                     _keep_limit(kept, found - logged, 0, y)
+                below = h == 0.0 and g[fired, 0] < 0.0
+                if below:
+                    # no step was made, so that the series has room for the state
+                    for i in range(y.size):
+                        c[i, 0] = y[i]
                 following = reset(mode, fired, y, f, p)
+                if below and following == mode and _is_unchanged(y, c):
+                    touched |= 1 << fired
+                    repeated += 1
+                    if repeated > SAME_INSTANT:
+                        status = CHATTERING
+                        break
+                    continue
                 if keeps_events:
                     row = found - logged
                     events[row, EVENT_SAMPLE] = base + sample

@@ -12,6 +12,7 @@ from typing import TypeVar
 
 from seisblock.dynamics.halt import halting, heeding
 from seisblock.typing import Progress
+from seisblock.words import Said, noted, said
 
 Item = TypeVar("Item")
 Answer = TypeVar("Answer")
@@ -24,6 +25,33 @@ AHEAD = 128
 
 RECORDS = 16
 """The same of runs that hold a record each."""
+
+
+MOST_NAMED = 5
+"""Versions without an answer that are named, at most."""
+
+
+def left_out_versions(numbers: Sequence[int], answered: int) -> Said | None:
+    """Return a sentence on the versions of a body that were given up, None where there are none.
+
+    Parameters
+    ----------
+    numbers : sequence of int
+        Of those versions, from 1.
+    answered : int
+        Versions that have an answer.
+
+    Examples
+    --------
+    >>> print(left_out_versions((3, 17), 198))
+    2 of 200 versions were given up and are left out: numbers 3, 17
+    """
+    if not numbers:
+        return None
+    text = noted("{count} of {all} versions were given up and are left out: numbers {numbers}")
+    more = noted("{count} of {all} versions were given up and are left out: numbers {numbers} and others")
+    named = ", ".join(str(number) for number in numbers[:MOST_NAMED])
+    return said(text if len(numbers) <= MOST_NAMED else more, count=len(numbers), all=answered + len(numbers), numbers=named)
 
 
 def cores() -> int:

@@ -20,7 +20,7 @@ from tests.trees import tree_of
 PACKAGE = Path(seisblock.__file__).parent
 CITATION = re.compile(r"\[(\w+)\]_")
 CITING = ("measures", "criteria", "solvers", "bodies", "studies")
-LONGEST = 300
+LONGEST = 400
 
 HEAVY = {"numba", "obspy", "scipy", "matplotlib", "PIL", "rich", "pandas"}
 LIGHT = (

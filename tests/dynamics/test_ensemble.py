@@ -73,3 +73,15 @@ def test_one_flat_row_of_parameters_is_refused():
     """Parameters without the axis of rows are an error, not one trajectory per number."""
     with pytest.raises(ParameterError, match="one row"):
         follow_many(SLED, Motion.from_arrays(np.zeros(3), 0.01), [0.3], [0.0, 0.0], 0, gains=[1.0, 0.0, 0.0])
+
+
+def test_follow_many_marks_failed_rows_where_failures_are_allowed():
+    """A ball that bounces without end is marked; the other row is what it is alone."""
+    motion = Motion.from_arrays(np.zeros(60), 0.02)
+    parameters = np.array([[9.81, 0.5, 1e-3], [9.81, 0.5, -1.0]])
+    start = [0.1, 0.0]
+    with pytest.raises(SolverError, match="row 1: given up"):
+        follow_many(BALL, motion, parameters, start, 0, gains=(1.0, 0.0, 0.0))
+    many = follow_many(BALL, motion, parameters, start, 0, gains=(1.0, 0.0, 0.0), allow_failures=True)
+    assert many.failed.tolist() == [False, True]
+    np.testing.assert_array_equal(many.final[0], follow(BALL, motion, parameters[0], start, 0).final)

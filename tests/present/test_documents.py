@@ -81,6 +81,7 @@ PURE_NUMBERS = re.compile(
     | (latitude|longitude)  # degrees, under the names that maps and surveys have
     | (falls|models|runs|samples|seed|impacts|reversals|flights|jams|ratios_lowered|initial|year)
     | im | ((non_monotone|censored)_)?(records|motions) | exceeding | versions | without_curve  # of a fragility; the unit is its result's
+    | no_answer
     | beta_(interval|alone|record_to_record|parameter|sum) | perturb | bootstrap
     | (fallen|standing|stones_saved|overturned|moved|agreement|grid)
     | years | value | weight(_after)? | levels | median | im_(from|to) | annual_rate(s|_after)? | beyond_levels_share  # units beside

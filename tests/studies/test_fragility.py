@@ -26,7 +26,7 @@ from seisblock.studies.fragility.estimate import Passed, Rules, estimate
 from seisblock.studies.fragility.followers import FOLLOWERS, version_draws
 from seisblock.studies.fragility.goodness import goodness_of_capacities, goodness_of_cloud, goodness_of_stripes
 from seisblock.studies.fragility.intensity import factors_for, intensity_measure
-from seisblock.studies.fragility.limits import limit_state, limit_states
+from seisblock.studies.fragility.limits import Ends, limit_state, limit_states
 from seisblock.studies.fragility.lognormal import Lognormal, curves, curves_together, fit_fragility
 from seisblock.studies.fragility.run import bodies_of, run_fragility
 from seisblock.studies.fragility.suite import suite_of
@@ -502,3 +502,40 @@ def test_on_a_storey_the_intensity_is_that_of_the_ground():
         assert count.exceeding == fell
     assert any("those of the ground" in note for note in on_it.notes)
     assert pelicun_rows(on_it)[1][0][2] == "Peak Ground Velocity"
+
+
+@pytest.mark.parametrize("method", ["stripes", "ida"])
+def test_run_fragility_leaves_out_and_names_a_run_without_an_answer(monkeypatch, records, method):
+    """One run of one motion is given up: its level has one run less, the fit goes on, and a note names record and level."""
+    levels = np.array([0.3, 0.36, 0.42, 0.5])
+
+    def study():
+        return run_fragility(records, SHELF, "respond", mu=0.7, im="pgv", levels=levels, method=method, bootstrap=20)
+
+    whole = study()
+    follow, calls = FOLLOWERS["respond"], []
+
+    def lossy(placed, motion, factors, draws):
+        ends = follow(placed, motion, factors, draws)
+        calls.append(motion)
+        gave_up = np.zeros(factors.size, dtype=bool)
+        gave_up[1] = len(calls) == 1
+        return Ends(ends.overturned & ~gave_up, ends.lean, ends.slip_m, gave_up)
+
+    monkeypatch.setitem(FOLLOWERS, "respond", lossy)
+    partial = study()
+    curve = partial.curves[0]
+    assert (whole.curves[0].no_answer, curve.no_answer) == (0, 1)
+    motions = curve.motions
+    assert [level.runs for level in curve.levels] == [motions, motions - 1, motions, motions]
+    assert curve.median == pytest.approx(whole.curves[0].median, rel=0.1)
+    assert any("1 of" in note and "given up" in note and calls[0].name in note for note in partial.notes)
+
+
+def test_capacities_leave_out_levels_without_an_answer():
+    """The level below the first one that is passed is the last of those that have an answer."""
+    passed = np.array([[False, False, True, True], [False, False, False, False]])
+    answered = np.array([[True, False, True, True], [False, False, False, False]])
+    found = capacities(passed, np.array([0.0, 1.0, 2.0, 3.0]), answered)
+    assert found.log_factor.tolist() == [1.0, np.inf]
+    assert found.monotone.all()

@@ -17,16 +17,24 @@ from seisblock.present.figures.heading import heading_of, names_of
 from seisblock.present.figures.spectrum import edges, log_edges, log_ticks
 from seisblock.present.text.mode_map import Maps, by_size
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
-from seisblock.studies.standing.mode_map import GOVERNING, ModeMap
+from seisblock.studies.standing.mode_map import GOVERNING, NO_ANSWER, ModeMap
 from seisblock.typing import FloatArray
 from seisblock.words import noted, tell
 
-COLOURS = {REST: "#f6f6f2", SLIDE: "#b9d6e8", ROCK: "#dd9d2c", SLIDE_ROCK: "#a270a0", FLIGHT: "#176a64", OVERTURNED: "#6b1f23"}
+COLOURS = {
+    REST: "#f6f6f2",
+    SLIDE: "#b9d6e8",
+    ROCK: "#dd9d2c",
+    SLIDE_ROCK: "#a270a0",
+    FLIGHT: "#176a64",
+    OVERTURNED: "#6b1f23",
+    NO_ANSWER: "#ffffff",
+}
 """Lighter to darker from rest to overturning, so that they differ in grey and to every eye."""
 
 NAMES = {
     REST: noted("stands still"), SLIDE: noted("slides"), ROCK: noted("rocks"), SLIDE_ROCK: noted("slides while it rocks"),
-    FLIGHT: noted("leaves the ground"), OVERTURNED: noted("falls"),
+    FLIGHT: noted("leaves the ground"), OVERTURNED: noted("falls"), NO_ANSWER: noted("no answer"),
 }  # fmt: skip
 """As a region of the map is called."""
 

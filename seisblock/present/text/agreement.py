@@ -7,6 +7,7 @@ from seisblock.present.edges import sampled_edges
 from seisblock.studies.agreement import GRAVESTONES, Agreement, Opinion
 from seisblock.studies.cemetery.models import RateOpinion
 from seisblock.studies.rocking.perturb import Perturbation
+from seisblock.studies.runs import left_out_versions
 from seisblock.words import noted, roughly, said, strung, tell
 
 LEAST, MOST = 0.03, 0.98
@@ -150,4 +151,5 @@ def chance_lines(found: Perturbation, block: Block) -> tuple[str, str]:
         amplitude=roughly(s.amplitude),
         azimuth=s.azimuth_deg,
     )
-    return tell(text, **values, low=chance(low), high=chance(high)), varied
+    whole, left_out = tell(text, **values, low=chance(low), high=chance(high)), left_out_versions(found.no_answer, found.runs)
+    return whole if left_out is None else strung([whole, f"{tell(left_out)}."]), varied

@@ -14,18 +14,19 @@ from seisblock.present.text.spectrum import thinned
 from seisblock.present.text.tables import answered, line, table
 from seisblock.records import Motion
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
-from seisblock.studies.standing.mode_map import GOVERNING, ModeMap
+from seisblock.studies.standing.mode_map import GOVERNING, NO_ANSWER, ModeMap
 from seisblock.words import listed, noted, roughly, strung, tell
 
 Maps = Sequence[tuple[Motion, ModeMap]]
 
 MOST_ROWS, MOST_COLUMNS = 20, 60
-LETTERS = {REST: ".", SLIDE: "s", ROCK: "r", SLIDE_ROCK: "b", FLIGHT: "f", OVERTURNED: "#"}
+LETTERS = {REST: ".", SLIDE: "s", ROCK: "r", SLIDE_ROCK: "b", FLIGHT: "f", OVERTURNED: "#", NO_ANSWER: "?"}
 """What stands for a mode on the map."""
 
 SHARES = {
     REST: noted("{share} stand still"), SLIDE: noted("{share} slide"), ROCK: noted("{share} rock"),
     SLIDE_ROCK: noted("{share} slide and rock"), FLIGHT: noted("{share} leave the ground"), OVERTURNED: noted("{share} fall"),
+    NO_ANSWER: noted("{share} have no answer"),
 }  # fmt: skip
 
 
@@ -50,6 +51,8 @@ def _drawn(motion: Motion, found: ModeMap, worn: str) -> Iterator[Any]:
     across = f"{first}{last:>{max(columns.size - len(first), 1)}}" if columns.size > 1 else first
     yield table(_title(motion, found) + tell(worn), [f"{symbol(found)} \\ μ", across], cells)
     yield line(tell(". stands still, s slides, r rocks, b slides and rocks, f leaves the ground, # falls"), "dim")
+    if found.share(NO_ANSWER) > 0.0:
+        yield line(tell("? no answer: the run was given up; it hops without end"), "dim")
     yield line()
 
 

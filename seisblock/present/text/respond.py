@@ -18,9 +18,10 @@ from seisblock.present.text.tables import NOTHING, answered, line, number, secon
 from seisblock.results import Response
 from seisblock.solvers.respond.outcome import RespondOutcome
 from seisblock.solvers.respond.tale import HOPS_ON
-from seisblock.studies.standing.azimuths import AzimuthFate
+from seisblock.studies.runs import left_out_versions
+from seisblock.studies.standing.azimuths import AzimuthFate, left_out_directions
 from seisblock.studies.standing.probability import Probability
-from seisblock.words import listed, noted, roughly, said, tell
+from seisblock.words import listed, noted, roughly, said, strung, tell
 
 Responds = Sequence[Response[RespondOutcome]]
 
@@ -138,7 +139,9 @@ def share(found: Probability, *, gal: bool = True) -> str:
             middle = tell("; nine in ten of those that stand end where they stood")
         else:
             middle = tell("; nine in ten of those that stand end between {low} and {high}", low=least, high=most)
-    return tell("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
+    whole = tell("{falls}; {moves}{middle}.", falls=falls, moves=moves, middle=middle)
+    left_out = left_out_versions(found.no_answer, found.runs)
+    return whole if left_out is None else strung([whole, f"{tell(left_out)}."])
 
 
 def signed(value_m: float, unit: Unit) -> str:
@@ -151,7 +154,9 @@ def signed(value_m: float, unit: Unit) -> str:
 def around(found: Sequence[Any]) -> str:
     """Return in how many directions it falls."""
     fallen = sum(each.overturned for each in found)
-    return tell("falls in {fallen} of {all} directions; this is the worst.", fallen=fallen, all=len(found))
+    answered = sum(not each.gave_up for each in found)
+    worst = tell("falls in {fallen} of {all} directions; this is the worst.", fallen=fallen, all=answered)
+    return strung([worst, *(f"{tell(text)}." for text in left_out_directions(found))])
 
 
 def _directions(found: Sequence[AzimuthFate], *, gal: bool) -> Any:

@@ -68,6 +68,8 @@ class JumpFates:
         Largest that a landing needed; NaN where it never landed.
     rocking_threshold_m_s2, spin_ratio : m/s^2, 1
     chains : Chains
+    gave_up : bool
+        Runs without an answer: their other entries are those of the chains before.
     """
 
     fate: IntArray
@@ -78,6 +80,7 @@ class JumpFates:
     rocking_threshold_m_s2: FloatArray
     spin_ratio: FloatArray
     chains: Chains
+    gave_up: BoolArray
 
     @property
     def outcomes(self) -> list[str]:

@@ -42,6 +42,8 @@ def jump_many(
 ) -> JumpFates:
     """Return the fates of many two-layer blocks under one motion; bit by bit those of single runs ([Sugimoto2017]_).
 
+    A run that has to be given up is marked in the fates.
+
     Parameters
     ----------
     blocks, contacts : sequences of TwoLayerBlock and of Contact
@@ -59,8 +61,6 @@ def jump_many(
     ------
     ParameterError
         If an option is outside its range, or the numbers of rows differ.
-    SolverError
-        If an integration had to be given up.
 
     Examples
     --------
@@ -143,18 +143,23 @@ def _follow(rows: _Rows, motion: Motion, factor: FloatArray, floor: FloatArray, 
     now = Instants(np.zeros(runs, dtype=np.int64), np.zeros(runs))
     fate, jammed, has_jumped = np.zeros(runs, dtype=np.int64), np.zeros(runs, dtype=np.bool_), np.zeros(runs, dtype=np.bool_)
     total, moved, needed = np.zeros(runs), np.zeros(runs), np.full(runs, np.nan)
+    gave_up = np.zeros(runs, dtype=np.bool_)
     found: list[Chains] = []
     going = np.arange(runs)
     while going.size:
         here = Instants(now.sample[going], now.tau[going])
         along = factor[going, None] * [1.0, 0.0, 0.0]
-        rose = follow_many(rocking.ROCKING, motion, rows.onset[going], np.zeros(2), rocking.REST, gains=along, start=here, called=going)
-        up = rose.final_mode != rocking.REST
+        rose = follow_many(
+            rocking.ROCKING, motion, rows.onset[going], np.zeros(2), rocking.REST, gains=along, start=here, allow_failures=True
+        )
+        gave_up[going[rose.failed]] = True
+        up = ~rose.failed & (rose.final_mode != rocking.REST)
         going, onset = going[up], Instants(rose.end.sample[up], rose.end.tau[up])
         if not going.size:
             break
         sign = np.where(rose.final_mode[up] == rocking.ROSE_FORWARD, 1.0, -1.0)
         some = _chain(rows, motion, going, left[going], sign, sign[:, None] * along[up], onset)
+        gave_up[going[some.gave_up]] = True
         found.append(some.chains)
         fate[going], jammed[going] = some.chains.fate, some.jammed
         has_jumped[going] |= some.chains.fate == JUMP
@@ -163,28 +168,30 @@ def _follow(rows: _Rows, motion: Motion, factor: FloatArray, floor: FloatArray, 
         needed[going] = np.fmax(needed[going], some.chains.needed)
         left[going] = np.where(np.isnan(some.chains.needed), left[going], 0.0)
         now.sample[going], now.tau[going] = some.end
-        on = np.isin(some.chains.fate, (IMPACT, JUMP)) & ~some.jammed & (some.end.sample < motion.samples - 1)
+        on = np.isin(some.chains.fate, (IMPACT, JUMP)) & ~some.jammed & ~some.gave_up & (some.end.sample < motion.samples - 1)
         going = going[on & (not first)]
     fate[(fate == IMPACT) & has_jumped] = JUMP
     threshold = rows.rocking[:, rocking.THRESHOLD_FORWARD]
-    return JumpFates(fate, jammed, total, moved, needed, threshold, rows.ratio, joined(found))
+    return JumpFates(fate, jammed, total, moved, needed, threshold, rows.ratio, joined(found), gave_up)
 
 
 @dataclass(frozen=True, eq=False)
 class _Chain:
-    """One chain of each of some rows: what becomes of it, how far it moves the centroid, m, and where it ends."""
+    """One chain of each of some rows: what becomes of it, how far it moves the centroid, m, where it ends, and whether it was given up."""
 
     chains: Chains
     jammed: BoolArray
     moved: FloatArray
     end: Instants
+    gave_up: BoolArray
 
 
 def _chain(rows: _Rows, motion: Motion, going: IntArray, left: FloatArray, sign: FloatArray, gains: FloatArray, onset: Instants) -> _Chain:
     """Follow one chain of some rows from its onset, each in the frame in which it goes forward."""
     sizes = rows.of_sizes(going)
     p = rows.rocking[going]
-    rocked = follow_many_on(rocking.ROCKING, motion, p, np.zeros(2), rocking.ROCK, gains=gains, start=onset, called=going)
+    rocked = follow_many_on(rocking.ROCKING, motion, p, np.zeros(2), rocking.ROCK, gains=gains, start=onset)
+    gave_up = rocked.failed.copy()
     omega, ratio, lift = rocked.final[:, rocking.OMEGA], rows.ratio[going], rows.restitution_y[going]
     along, up, spin = thrown(omega, ratio, rows.restitution_x[going], lift, sizes.centroid_height, sizes.width)
     hit = rocked.final_mode == rocking.IMPACT
@@ -193,14 +200,15 @@ def _chain(rows: _Rows, motion: Motion, going: IntArray, left: FloatArray, sign:
     moved, end = sizes.radius * np.sin(lean) - sizes.width / 2, rocked.end
     jammed, touched = np.zeros(going.size, dtype=np.bool_), np.full(going.size, np.nan)
     needed, before, after = (np.full(going.size, np.nan) for _ in range(3))
-    jumps = np.flatnonzero(hit & (omega < 0.0) & (lift > abs(ratio)))
+    jumps = np.flatnonzero(hit & ~gave_up & (omega < 0.0) & (lift > abs(ratio)))
     if jumps.size:
         p = rows.flight[going[jumps]]
         p[:, flying.DROP] = left[jumps]
         start = np.zeros((jumps.size, len(FLYING.states)))
         start[:, flying.OMEGA], start[:, flying.VX], start[:, flying.VY] = spin[jumps], along[jumps], up[jumps]
         since = Instants(rocked.end.sample[jumps], rocked.end.tau[jumps])
-        flown = follow_many_on(FLYING, motion, p, start, flying.FLIGHT, gains=gains[jumps], start=since, called=going[jumps])
+        flown = follow_many_on(FLYING, motion, p, start, flying.FLIGHT, gains=gains[jumps], start=since)
+        gave_up[jumps] = flown.failed
         side, last = flown.final[:, flying.SIDE], flown.final_mode
         # the end names no corner: it is that which landed last
         mode = np.where(last < 0, 1 + (side > 0.0), last)
@@ -213,4 +221,4 @@ def _chain(rows: _Rows, motion: Motion, going: IntArray, left: FloatArray, sign:
         for kept, state in ((needed, flying.NEEDED), (before, flying.BEFORE), (after, flying.AFTER)):
             kept[jumps] = np.where(landed, flown.final[:, state], np.nan)
     begun = onset.sample * motion.dt + onset.tau
-    return _Chain(Chains(going, fate, begun, touched, needed, before, after), jammed, sign * moved, end)
+    return _Chain(Chains(going, fate, begun, touched, needed, before, after), jammed, sign * moved, end, gave_up)

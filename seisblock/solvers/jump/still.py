@@ -10,7 +10,7 @@ import numpy as np
 
 from seisblock.dynamics import Ensemble, Instant, Instants, Model, Path, Trajectory, follow, follow_many
 from seisblock.records import Motion
-from seisblock.typing import ArrayLike, FloatArray, IntArray
+from seisblock.typing import ArrayLike, BoolArray, FloatArray, IntArray
 
 STRETCH_S, MOST_S = 4.0, 60.0
 """Still ground is added in stretches of so many seconds, and at most so long."""
@@ -83,7 +83,6 @@ def follow_many_on(
     *,
     gains: ArrayLike,
     start: Instants,
-    called: IntArray,
 ) -> FollowedOn:
     """Follow many as :func:`follow_on` follows one, bit by bit.
 
@@ -92,13 +91,15 @@ def follow_many_on(
     p, scale = np.asarray(parameters, dtype=np.float64), np.asarray(gains, dtype=np.float64)
     runs, last = len(p), motion.samples - 1
     each: FloatArray = np.array(np.broadcast_to(np.asarray(initial, dtype=np.float64), (runs, len(model.states))))
-    found = FollowedOn(each, np.full(runs, mode), Instants(start.sample.copy(), start.tau.copy()), np.full(runs, np.nan))
+    found = FollowedOn(
+        each, np.full(runs, mode), Instants(start.sample.copy(), start.tau.copy()), np.full(runs, np.nan), np.zeros(runs, dtype=np.bool_)
+    )
     shaken = np.flatnonzero(start.sample < last)
     if shaken.size:
         here = Instants(start.sample[shaken], start.tau[shaken])
-        some = follow_many(model, motion, p[shaken], each[shaken], mode, gains=scale[shaken], start=here, called=called[shaken])
+        some = follow_many(model, motion, p[shaken], each[shaken], mode, gains=scale[shaken], start=here, allow_failures=True)
         found.put(shaken, some, 0)
-    going = np.flatnonzero(found.final_mode >= 0)
+    going = np.flatnonzero((found.final_mode >= 0) & ~found.failed)
     if going.size:
         # what begins on still ground has a stretch more, as it has alone
         stretch = math.ceil(STRETCH_S / motion.dt)
@@ -107,7 +108,7 @@ def follow_many_on(
         still = Motion(np.zeros((3, (math.ceil(MOST_S / STRETCH_S) + 1) * stretch + 1)), motion.dt)
         here = Instants(begin, found.end.tau[going])
         state, modes = found.final[going], found.final_mode[going]
-        after = follow_many(model, still, p[going], state, modes, gains=(1.0, 0.0, 0.0), start=here, called=called[going])
+        after = follow_many(model, still, p[going], state, modes, gains=(1.0, 0.0, 0.0), start=here, allow_failures=True)
         found.put(going, after, found.end.sample[going] - begin)
     return found
 
@@ -122,16 +123,20 @@ class FollowedOn:
     end : Instants
     first_change : (m,) array, s after sample 0
         Time of the first event, NaN where there was none.
+    failed : (m,) array of bool
+        Rows that were given up.
     """
 
     final: FloatArray
     final_mode: IntArray
     end: Instants
     first_change: FloatArray
+    failed: BoolArray
 
     def put(self, rows: IntArray, found: Ensemble, samples: IntArray | int) -> None:
         """Write what some rows came to on a clock that started so many samples late."""
         self.final[rows], self.final_mode[rows] = found.final, found.final_mode
         self.end.sample[rows], self.end.tau[rows] = found.end.sample + samples, found.end.tau
+        self.failed[rows] = found.failed
         first = self.first_change[rows]
         self.first_change[rows] = np.where(np.isnan(first), found.first_change + samples * found.dt, first)

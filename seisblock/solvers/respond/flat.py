@@ -47,7 +47,7 @@ from seisblock.solvers.respond.names import (
     X,
     corner,
 )
-from seisblock.solvers.respond.succession import ACROSS, ALONG, SOON, UP
+from seisblock.solvers.respond.succession import ACROSS, ALONG, FLAT_TOLERANCE, SOON, UP
 
 _t = types()
 _SERIES = _t.int64(VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
@@ -97,6 +97,12 @@ def rest_slacks(held, f, p, g):
         g[RIGHT, k] = (p[ARM_LEFT] * weight - p[HEIGHT] * push) * base
         g[FORWARD, k] = p[MU] * weight - push
         g[BACKWARD, k] = p[MU] * weight + push
+    least = -FLAT_TOLERANCE * p[GRAVITY]
+    for k in (LEFT, RIGHT, FORWARD, BACKWARD):
+        # met within the tolerance by which the mode was chosen, now and a sampling interval later: a tie, which keeps the mode
+        if least <= g[k, 0] < 0.0 and g[k, 0] + g[k, 1] * p[DT] >= least:
+            g[k, 0] = 0.0
+            g[k, 1] = max(g[k, 1], 0.0)
     if held:
         g[FORWARD, 0] = g[BACKWARD, 0] = OFF
 

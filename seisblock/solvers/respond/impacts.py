@@ -10,6 +10,8 @@ Rocking impact
 Hops
     Below SMALL_RATE = 1e-12 sqrt(g R) a rebound is left out where contact would hold, and a rocking body is put flat where it would
     rest or slide: lifts of 1e-21 R are left out, and the time of rest is early by less than 1e-8 sqrt(R/g).
+    A hop that is over within the resolution of time (1e-14 of the sampling interval) begins and ends in the same state, a gap or a lean
+    of exactly zero: its contact closes. Round-off leaves such hops where two limits coincide, as those of friction and tilt do at mu = b/h.
 Clatter
     A plastic landing that throws the other corner down, within 1e-16 sqrt(R/g), is one of both corners: where nothing presses it to the
     ground a compact body would clatter on, infinitely often at one instant, and the impact of both has the same momentum as the limit.
@@ -148,6 +150,15 @@ def stays_flat(slip, f, p, held):
     return kind in (REST, SLIDE_PLUS, SLIDE_MINUS)
 
 
+@kernel(_t.int64(_t.float64, _t.float64, VECTOR, MATRIX, VECTOR, _t.boolean))
+def _put_flat(omega, slip, y, f, p, held):
+    """Return the mode of a body put flat that turned at `omega`, too slowly to matter, and slipped at `slip`."""
+    speed = slip + p[HEIGHT] * omega
+    y[THETA] = y[OMEGA] = 0.0
+    y[SPEED] = 0.0 if abs(slip) < p[SMALL_RATE] or speed * slip <= 0.0 else speed
+    return go_on(True, True, NONE, y, f, p, held)
+
+
 @kernel(_t.UniTuple(_t.float64, 4)(_t.boolean, _t.float64, _t.float64, VECTOR, MATRIX, VECTOR, _t.boolean))
 def _struck_once(right, u, v, y, f, p, held):
     """Return theta', u, v and loss of one corner's impact; a rebound too small to matter is left out where contact would hold."""
@@ -197,11 +208,25 @@ def _land_flat(right, y, f, p, held):
 
 
 @kernel(_STRIKE)
+def _close(right, y, f, p, held):
+    """Return the mode after a corner that leaves the ground has met it again within the resolution of time."""
+    gap, rate = (GAP_LEFT, RATE_LEFT) if right else (GAP_RIGHT, RATE_RIGHT)
+    slip = y[SPEED] + corner(right, y[THETA], p)[1] * y[OMEGA]
+    if y[gap] == 0.0 and abs(y[rate]) < p[SMALL_RATE] and stays_flat(slip, f, p, held):
+        return _put_flat(y[OMEGA], slip, y, f, p, held)
+    y[SPEED] = slip
+    return go_on(not right, right, NONE, y, f, p, held)
+
+
+@kernel(_STRIKE)
 def land(right, y, f, p, held):
     """Return the mode after a corner of a flying body has met the ground ([WangMason1992]_)."""
     gap, rate = (GAP_RIGHT, RATE_RIGHT) if right else (GAP_LEFT, RATE_LEFT)
+    at_once = y[gap] == 0.0
     y[gap] = 0.0
     if y[rate] >= 0.0:
+        if at_once and y[rate] < p[SMALL_RATE]:
+            return _close(right, y, f, p, held)
         return FLIGHT
     y[IMPACTS] += 1.0
     if y[THETA] == 0.0 and y[OMEGA] == 0.0:
@@ -261,11 +286,14 @@ def _given_ratio(onto_right, y, p, held):
 @kernel(_STRIKE)
 def come_down(onto_right, y, f, p, held):
     """Return the mode after the other corner of a rocking or skidding body has come down ([Housner1963]_, [WangMason1992]_)."""
+    at_once = y[THETA] == 0.0
     y[THETA] = 0.0
     omega = y[OMEGA]
     slip = y[SPEED]
     apart = foot(onto_right, p) - foot(not onto_right, p)
     if apart * omega <= 0.0:
+        if at_once and 0.0 < abs(apart * omega) < p[SMALL_RATE] and stays_flat(slip, f, p, held):
+            return _put_flat(omega, slip, y, f, p, held)
         # it does not press: the last digit of a lean that has just begun, or of none
         return go_on(onto_right or omega == 0.0, not onto_right or omega == 0.0, NONE, y, f, p, held)
     y[IMPACTS] += 1.0
@@ -284,10 +312,7 @@ def come_down(onto_right, y, f, p, held):
     if rate > 0.0:
         return lift_off(onto_right, rate, y, p)
     if abs(apart * turned) < p[SMALL_RATE] and stays_flat(after, f, p, held):
-        speed = after + p[HEIGHT] * turned
-        y[OMEGA] = 0.0
-        y[SPEED] = 0.0 if abs(after) < p[SMALL_RATE] or speed * after <= 0.0 else speed
-        return go_on(True, True, NONE, y, f, p, held)
+        return _put_flat(turned, after, y, f, p, held)
     if turned == 0.0:
         return go_on(True, True, NONE, y, f, p, held)
     return go_on(not onto_right, onto_right, NONE, y, f, p, held)

@@ -41,6 +41,8 @@ class Fates:
     Parameters
     ----------
     overturned, settled, gave_up : bool
+        A run that was given up, among its hops or where its motion could not be followed on, has no answer: its other entries are
+        those of the instant at which that happened.
     towards : int
         +1 or -1 where it has fallen to +x or -x, else 0.
     final_displacement_m, max_displacement_m : m
@@ -75,18 +77,22 @@ class Fates:
         Raises
         ------
         SolverError
-            If one was given up in the midst of its hops: whether it would fall is not known.
+            If one was given up: whether it would fall is not known.
         """
         count = int(np.count_nonzero(self.gave_up))
         if count:
-            raise SolverError(
-                "{count} of {runs} runs were given up after {impacts} impacts and have no answer: they hop without end; lower the "
-                "restitution",
-                count=count,
-                runs=len(self.gave_up),
-                impacts=int(self.impacts[self.gave_up].min()),
-            )
+            raise no_answer(count, len(self.gave_up), int(self.impacts[self.gave_up].min()))
         return self
+
+
+def no_answer(count: int, runs: int, impacts: int) -> SolverError:
+    """Return the error of so many of some runs, which were given up after so many impacts at least."""
+    return SolverError(
+        "{count} of {runs} runs were given up after {impacts} impacts and have no answer: they hop without end; lower the restitution",
+        count=count,
+        runs=runs,
+        impacts=impacts,
+    )
 
 
 def respond_many(
@@ -155,17 +161,21 @@ def _fates(settings: Sequence[Setting] | Settings, motion: Motion, gains: FloatA
         first, starts = settings[0], np.array([setting.state(initial) for setting in settings])
     model = first.model
     duration = (motion.samples - 1) * motion.dt
-    shaken = follow_many(model, motion, _parameters(settings, motion.dt, duration), starts, first.first_mode, gains=gains)
+    shaken = follow_many(
+        model, motion, _parameters(settings, motion.dt, duration), starts, first.first_mode, gains=gains, allow_failures=True
+    )
+    failed = shaken.failed.copy()
     final, mode, end = shaken.final.copy(), shaken.final_mode.copy(), shaken.end_time.copy()
     high, low = _extrema(shaken)
     spent, longest = _stays(shaken)
-    moving = (mode >= 0) & (mode % names.HELD != names.REST)
+    moving = ~failed & (mode >= 0) & (mode % names.HELD != names.REST)
     if settle_s > 0.0 and moving.any():
         ground = still_ground(settle_s)
         p = _parameters(settings, ground.dt, duration + settle_s, still=True)
         for kind in np.unique(mode[moving]):
             rows = np.flatnonzero(moving & (shaken.final_mode == kind))
-            after = follow_many(model, ground, p[rows], shaken.final[rows], int(kind), gains=(1.0, 0.0, 1.0))
+            after = follow_many(model, ground, p[rows], shaken.final[rows], int(kind), gains=(1.0, 0.0, 1.0), allow_failures=True)
+            failed[rows] = after.failed
             final[rows], mode[rows] = after.final, after.final_mode
             end[rows] = duration + after.end_time
             higher, lower = _extrema(after)
@@ -176,8 +186,8 @@ def _fates(settings: Sequence[Setting] | Settings, motion: Motion, gains: FloatA
     fallen = mode == names.OVERTURNED
     return Fates(
         overturned=fallen,
-        settled=(mode == names.SETTLED) | ((mode >= 0) & (mode % names.HELD == names.REST)),
-        gave_up=mode == names.GAVE_UP,
+        settled=~failed & ((mode == names.SETTLED) | ((mode >= 0) & (mode % names.HELD == names.REST))),
+        gave_up=failed | (mode == names.GAVE_UP),
         towards=np.where(fallen, np.sign(final[:, names.THETA]), 0.0).astype(np.int64),
         final_displacement_m=final[:, names.X],
         max_displacement_m=np.maximum(high[:, names.X], -low[:, names.X]) + 0.0,

@@ -203,6 +203,9 @@ def reset(mode, guard, y, f, p):
         following = _put_down(y, f, p, held)
     elif kind == FLIGHT:
         following = land(guard == LAND_RIGHT, y, f, p, held)
+    elif guard == DOWN and y[THETA] == 0.0 and y[OMEGA] == 0.0:
+        # it would turn the other way from the beginning
+        following = go_on(True, True, kind, y, f, p, held)
     elif guard == DOWN:
         following = come_down(not is_right(kind), y, f, p, held)
     else:
@@ -211,7 +214,8 @@ def reset(mode, guard, y, f, p):
         ended = kind
         if held and guard == LIFT:
             ended = kind if _rises(is_right(kind), y, f, p) else NONE
-        flat = kind != ROCK_RIGHT and kind != ROCK_LEFT and kind < SKID_RIGHT_PLUS
+        # a body that has not yet begun to turn still touches with both corners
+        flat = (kind != ROCK_RIGHT and kind != ROCK_LEFT and kind < SKID_RIGHT_PLUS) or (y[THETA] == 0.0 and y[OMEGA] == 0.0)
         following = go_on(flat or not is_right(kind), flat or is_right(kind), ended, y, f, p, held)
     if following == REST and p[STILL] > 0.0:
         return SETTLED

@@ -52,6 +52,9 @@ SOON, LATER = 1e-6, 1e3
 """Flat modes, whose forces depend on the input alone, are judged this share of the sampling interval later, and, while a condition is
 met or missed by no more than the tolerance, so many times later still, up to one interval: there the slope of the input decides."""
 
+CONE_ROUND_OFF = 1e-6
+"""Round-off of Painleve's denominator, a sum of terms of the order of 1 known to 1e-14, as a share of its least value."""
+
 IMPOSSIBLE = -1e300
 """Slack of a mode that does not come into question."""
 
@@ -103,7 +106,11 @@ def slack(kind, left, right, theta, omega, slip, push, weight, p, held):
         if not both or held or s * slip < 0.0:
             return IMPOSSIBLE
         reach = s * p[MU_KINETIC] * p[HEIGHT]
-        least = min(p[GRAVITY] * min(p[ARM_RIGHT] - reach, p[ARM_LEFT] + reach) / base, weight)
+        least = weight
+        tips = p[GRAVITY] * min(p[ARM_RIGHT] - reach, p[ARM_LEFT] + reach) / base
+        if tips < -FLAT_TOLERANCE * p[GRAVITY]:
+            # no input changes where the resultant is, so that nothing is decided by looking at it later
+            least = min(tips, weight)
         return least if slip != 0.0 else min(least, -s * push - p[MU_KINETIC] * weight)
     about_right = is_right(kind)
     if not (right if about_right else left):
@@ -174,10 +181,26 @@ def following(left, right, ended, theta, omega, slip, f, p, held):
         about_right = slip > 0.0 if left and right else right
         rx, ry = corner(about_right, theta, p)
         friction = p[MU_KINETIC] if slip > 0.0 else -p[MU_KINETIC]
-        if 1.0 + rx * (rx + friction * ry) / p[GYRATION] <= LEAST_CONE:
+        # the limit was located but for round-off where a slip has just reached it
+        least_cone = LEAST_CONE * (1.0 + CONE_ROUND_OFF) if ended >= SKID_RIGHT_PLUS else LEAST_CONE
+        if 1.0 + rx * (rx + friction * ry) / p[GYRATION] <= least_cone:
             return NONE
     # round-off alone leads here: a limit that was only touched, or the mode that misses least
     return ended if touched else nearest
 
 
-__all__ = ["ACROSS", "ALONG", "ROCK_LEFT", "ROCK_RIGHT", "SKID_RIGHT_PLUS", "UP", "following", "loads", "skidding", "slack", "sticking"]
+__all__ = [
+    "ACROSS",
+    "ALONG",
+    "FLAT_TOLERANCE",
+    "ROCK_LEFT",
+    "ROCK_RIGHT",
+    "SKID_RIGHT_PLUS",
+    "TOLERANCE",
+    "UP",
+    "following",
+    "loads",
+    "skidding",
+    "slack",
+    "sticking",
+]

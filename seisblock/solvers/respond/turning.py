@@ -41,7 +41,7 @@ from seisblock.solvers.respond.names import (
     X,
     corner,
 )
-from seisblock.solvers.respond.succession import ACROSS, ALONG, UP
+from seisblock.solvers.respond.succession import ACROSS, ALONG, TOLERANCE, UP
 
 _t = types()
 TURNING = _t.int64(_t.boolean, _t.float64, VECTOR, MATRIX, VECTOR, _t.int64, MATRIX, MATRIX)
@@ -174,6 +174,10 @@ def rock_series(right, held, y, f, p, order, c, g):
         y_before = along
         power *= dt
     g[LIFT, degree] = g[FORWARD, degree] = g[BACKWARD, degree] = 0.0
+    for k in (LIFT, FORWARD, BACKWARD):
+        # the mode was taken as consistent within this tolerance: a limit that it leaves behind does not end it
+        if -TOLERANCE * p[GRAVITY] <= g[k, 0] < 0.0 and g[k, 1] > 0.0:
+            g[k, 0] = 0.0
     if held > 0.0:
         if g[LIFT, 0] <= BOUND * p[GRAVITY]:
             _bound_slacks(ry, degree, weight, up_rate, p, c, g)

@@ -41,12 +41,27 @@ class Verdicts:
         +1 or -1 where it falls to +x or to -x, else 0.
     lies_down_s : s
         After the motion's first sample, where it falls before the last one; else NaN.
+    gave_up : bool
+        Runs without an answer: their motion could not be followed, or rocks on for ever at a restitution of 1. They count as standing
+        nowhere; their largest lean is NaN.
     """
 
     overturned: BoolArray
     max_rotation_ratio: FloatArray
     towards: IntArray
     lies_down_s: FloatArray
+    gave_up: BoolArray
+
+    def answered(self) -> Verdicts:
+        """Return these verdicts, all of them answers.
+
+        Raises
+        ------
+        SolverError
+            If one was given up.
+        """
+        refuse_endless(bool(self.gave_up.any()))
+        return self
 
 
 def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options: Unpack[RockOptions]) -> Verdict:
@@ -75,7 +90,7 @@ def rock_verdict(block: Block, motion: Motion, *, scale: float = 1.0, **options:
     """
     checks.finite("the scale factor", scale)
     one = rocker(block, motion, **options)
-    found = rock_verdicts([one], motion, one.gains(scale))
+    found = rock_verdicts([one], motion, one.gains(scale)).answered()
     return Verdict(bool(found.overturned[0]), float(found.max_rotation_ratio[0]))
 
 
@@ -94,23 +109,21 @@ def rock_verdicts(blocks: Rockers | Sequence[Rocker], motion: Motion, gains: Arr
     -------
     Verdicts
         In the order of the runs: whatever still rocks at the record's end then rocks on freely.
-
-    Raises
-    ------
-    SolverError
-        If an integration had to be given up, or a restitution of 1 makes a block rock on for ever.
     """
     rows = np.atleast_2d(np.asarray(gains, dtype=np.float64))
     given = [blocks] if isinstance(blocks, Rockers) else blocks
     p = np.concatenate([np.atleast_2d(model.parameters(some, motion.dt)) for some in given])
     runs = max(len(p), len(rows))
     p = np.repeat(p, runs, axis=0) if len(p) == 1 else p
-    shaken = follow_many(ROCKING_TOGETHER, motion, p, np.zeros(2), model.REST, gains=rows)
+    shaken = follow_many(ROCKING_TOGETHER, motion, p, np.zeros(2), model.REST, gains=rows, allow_failures=True)
     ends, late = np.empty(runs, dtype=np.int64), np.zeros((runs, 2))
-    rock_on(p, shaken.final, np.ascontiguousarray(shaken.final_mode), ends, late)
-    refuse_endless(bool((ends == ENDLESS).any()))
+    # rows that were given up are not followed on: they rest
+    final, mode = np.where(shaken.failed[:, None], 0.0, shaken.final), np.where(shaken.failed, model.REST, shaken.final_mode)
+    rock_on(p, final, mode, ends, late)
+    gave_up = shaken.failed | (ends == ENDLESS)
     highest, _, lowest, _ = shaken.extrema[:, model.THETA].T
     to_right = np.maximum(highest, late[:, RIGHT]) / p[:, model.ALPHA_RIGHT]
     to_left = np.maximum(-lowest, late[:, LEFT]) / p[:, model.ALPHA_LEFT]
     lies_down = np.where(shaken.final_mode == model.OVERTURNED, shaken.end_time, np.nan)
-    return Verdicts(ends != STANDS, np.maximum(to_right, to_left), ends, lies_down)
+    ends[gave_up] = STANDS
+    return Verdicts(ends != STANDS, np.where(gave_up, np.nan, np.maximum(to_right, to_left)), ends, lies_down, gave_up)

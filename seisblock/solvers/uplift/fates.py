@@ -68,6 +68,8 @@ class UpliftFates:
     within_model : bool
     rise_m, rise_again_m : m
         Highest position of any corner above the spring's natural length, as two integrations with other round-off have it.
+    gave_up : bool
+        Runs without an answer: their other entries are those of the instant at which they were given up.
     """
 
     uplifts: BoolArray
@@ -86,6 +88,7 @@ class UpliftFates:
     within_model: BoolArray
     rise_m: FloatArray
     rise_again_m: FloatArray
+    gave_up: BoolArray
 
     def told(self, row: int, start_s: float) -> dict[str, Any]:
         """Return the scalars of one run, by their names in its outcome, None where there is no such thing; times on a clock of its own.
@@ -129,7 +132,9 @@ def ends_of_many(ensemble: Ensemble) -> UpliftEnds:
     return UpliftEnds(ensemble.extrema, ensemble.final, ensemble.stays[:, : WHOLE_BASE + 1, TOTAL], ensemble.first_change)
 
 
-def fates_of(bodies: Sequence[SpringBlock], ends: UpliftEnds, glued: FloatArray, again: FloatArray, gravity: float) -> UpliftFates:
+def fates_of(
+    bodies: Sequence[SpringBlock], ends: UpliftEnds, glued: FloatArray, again: FloatArray, gravity: float, gave_up: BoolArray | None = None
+) -> UpliftFates:
     """Return what many runs come to ([Okumura1987]_ section 2, extended to records).
 
     Parameters
@@ -140,6 +145,8 @@ def fates_of(bodies: Sequence[SpringBlock], ends: UpliftEnds, glued: FloatArray,
     glued, again : (m, n_tracked, 4) arrays
         Extrema of the linear system, and of an integration with other round-off.
     gravity : float, m/s^2
+    gave_up : (m,) array of bool or None
+        Runs without an answer; None: each has one.
     """
     settlement = np.array([body.static_settlement(gravity) for body in bodies])
     mass, width, depth, height = np.array([[body.mass, body.width, body.depth, body.height] for body in bodies]).T
@@ -166,6 +173,7 @@ def fates_of(bodies: Sequence[SpringBlock], ends: UpliftEnds, glued: FloatArray,
         within_model=lean <= SMALL,
         rise_m=rise,
         rise_again_m=_highest(again),
+        gave_up=np.zeros(len(settlement), dtype=np.bool_) if gave_up is None else gave_up,
     )
 
 

@@ -23,6 +23,8 @@ def uplift_many(
 ) -> UpliftFates:
     """Return the fates of many blocks on corner springs under one motion; bit by bit those of single runs ([Okumura1987]_).
 
+    A run that has to be given up is marked in the fates.
+
     Parameters
     ----------
     bodies : sequence of SpringBlock
@@ -31,11 +33,6 @@ def uplift_many(
     gains : (3,) or (m, 3) array
         Factors on the motion's rows along, across and up.
     gravity : float, m/s^2
-
-    Raises
-    ------
-    SolverError
-        If an integration had to be given up.
 
     Examples
     --------
@@ -55,6 +52,9 @@ def uplift_many(
     runs = max(len(bodies), len(rows))
     each = list(bodies) * runs if len(bodies) == 1 else list(bodies)
     p, starts = np.array([parameters(body, gravity) for body in each]), np.array([at_rest(body, gravity) for body in each])
-    shaken, again = (follow_many(model, motion, p, starts, WHOLE_BASE, gains=rows) for model in (UPLIFT, UPLIFT_AGAIN))
-    glued = follow_many(UPLIFT, motion, p, starts, GLUED, gains=rows)
-    return fates_of(each, ends_of_many(shaken), glued.extrema, again.extrema, gravity)
+    shaken, again, glued = (
+        follow_many(model, motion, p, starts, mode, gains=rows, allow_failures=True)
+        for model, mode in ((UPLIFT, WHOLE_BASE), (UPLIFT_AGAIN, WHOLE_BASE), (UPLIFT, GLUED))
+    )
+    gave_up = shaken.failed | again.failed | glued.failed
+    return fates_of(each, ends_of_many(shaken), glued.extrema, again.extrema, gravity, gave_up)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.errors import ParameterError
@@ -13,9 +13,9 @@ from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.studies.azimuths import azimuths_of
 from seisblock.studies.batch.models import Placed
 from seisblock.studies.batch.table import DIRECTIONS, FALLEN
-from seisblock.studies.rocking.azimuths import rock_directions
+from seisblock.studies.rocking.azimuths import RockAzimuth, rock_directions
 from seisblock.studies.sliding import slide_study, worst_directions
-from seisblock.studies.standing.azimuths import respond_directions
+from seisblock.studies.standing.azimuths import AzimuthFate, left_out_directions, respond_directions
 
 
 def around(components: Sequence[str]) -> bool:
@@ -43,7 +43,11 @@ def check_around(solver: str, components: Sequence[str], options: Mapping[str, A
         raise ParameterError("{solver} in every direction has no option {names}: leave it out", solver=solver, names=unknown)
 
 
-def worst_azimuth(solver: str, placed: Placed, record: Record) -> tuple[str, dict[str, int]]:
+Worst: TypeAlias = tuple[str, dict[str, int], list[str]]
+"""A direction, in how many it was looked for, and what is to be known of them."""
+
+
+def worst_azimuth(solver: str, placed: Placed, record: Record) -> Worst:
     """Return the direction in which a record is worst for a body, and in how many it was looked for.
 
     Parameters
@@ -56,19 +60,23 @@ def worst_azimuth(solver: str, placed: Placed, record: Record) -> tuple[str, dic
     return WORST[solver][0](placed, record)
 
 
-def _rocking(placed: Placed, record: Record) -> tuple[str, dict[str, int]]:
+def _rocking(placed: Placed, record: Record) -> Worst:
     """Look at a block that rocks."""
-    found = rock_directions(placed.body, record, **placed.options)
-    return f"{found[0].azimuth_deg:g}", {DIRECTIONS: len(found), FALLEN: sum(each.overturned for each in found)}
+    return _counted(rock_directions(placed.body, record, **placed.options))
 
 
-def _standing(placed: Placed, record: Record) -> tuple[str, dict[str, int]]:
+def _standing(placed: Placed, record: Record) -> Worst:
     """Look at a free-standing body."""
-    found = respond_directions(placed.body, record, **placed.options)
-    return f"{found[0].azimuth_deg:g}", {DIRECTIONS: len(found), FALLEN: sum(each.overturned for each in found)}
+    return _counted(respond_directions(placed.body, record, **placed.options))
 
 
-def _sliding(placed: Placed, record: Record) -> tuple[str, dict[str, int]]:
+def _counted(found: Sequence[AzimuthFate] | Sequence[RockAzimuth]) -> Worst:
+    """Count the directions that have an answer, the worst of which comes first, and those in which the body falls."""
+    fallen, answered = sum(each.overturned for each in found), sum(not each.gave_up for each in found)
+    return f"{found[0].azimuth_deg:g}", {DIRECTIONS: answered, FALLEN: fallen}, left_out_directions(found)
+
+
+def _sliding(placed: Placed, record: Record) -> Worst:
     """Look at an object that slides."""
     base = placed.body if isinstance(placed.body, SlidingBase) else SlidingBase(placed.body)
     motions = [motion_of(record, f"{azimuth:g}") for azimuth in azimuths_of(base)]
@@ -83,10 +91,10 @@ def _sliding(placed: Placed, record: Record) -> tuple[str, dict[str, int]]:
         **{key: value for key, value in placed.options.items() if key != "vertical"},
         workers=1,
     )
-    return worst_directions(points)[0].component, {DIRECTIONS: len(points)}
+    return worst_directions(points)[0].component, {DIRECTIONS: len(points)}, []
 
 
-WORST: dict[str, tuple[Callable[[Placed, Record], tuple[str, dict[str, int]]], tuple[str, ...]]] = {
+WORST: dict[str, tuple[Callable[[Placed, Record], Worst], tuple[str, ...]]] = {
     "respond": (_standing, ("mu", "mu_kinetic", "restitution", "rocking_restitution", "gravity", "tenon", "settle_s", "vertical")),
     "rock": (_rocking, ("restitution", "linear", "vertical", "gravity")),
     "slide": (_sliding, ("mu", "mu_kinetic", "vertical", "gravity")),

@@ -37,6 +37,7 @@ from seisblock.solvers.uplift.outcome import UpliftOutcome
 from seisblock.solvers.uplift.solve import solve_uplift
 from seisblock.studies.batch.scalars import scalars_of
 from seisblock.studies.rocking.perturb import perturb
+from seisblock.studies.runs import left_out_versions
 from seisblock.studies.standing.probability import respond_probability
 
 Told = Mapping[str, Any]
@@ -228,19 +229,24 @@ def _chance_of_standing(placed: Placed, motion: Motion, runs: int, seed: int, op
     """Return what plausible versions of a free-standing object do."""
     found = respond_probability(placed.body, motion, runs=runs, seed=seed, **options)
     low, high = found.interval
-    return _chance(found.runs, found.overturned, low, high) | {"probability_moved": found.moved}
+    return _chance(found.runs, found.overturned, low, high, found.no_answer) | {"probability_moved": found.moved}
 
 
 def _chance_of_rocking(placed: Placed, motion: Motion, runs: int, seed: int, options: Told) -> Row:
     """Return what slightly changed versions of a rocking block do."""
     found = perturb(placed.body, motion, runs, seed=seed, **options)
-    return _chance(found.runs, found.probability, *found.probability_interval)
+    return _chance(found.runs, found.probability, *found.probability_interval, found.no_answer)
 
 
-def _chance(runs: int, overturned: float, low: float, high: float) -> Row:
-    """Return a share of falls as columns."""
-    return {"runs": runs, "probability_overturned": overturned, "probability_low": low, "probability_high": high}
+def _chance(runs: int, overturned: float, low: float, high: float, no_answer: tuple[int, ...]) -> Row:
+    """Return a share of falls as columns, with a warning where versions have no answer."""
+    row: Row = {"runs": runs, "probability_overturned": overturned, "probability_low": low, "probability_high": high}
+    warning = left_out_versions(no_answer, runs)
+    return row if warning is None else {**row, LEFT_OUT: warning}
 
+
+LEFT_OUT = "left_out"
+"""Key under which what perturbed runs say holds a sentence on those of them that have no answer; it is no column."""
 
 _CHANCES: dict[str, type] = {"runs": int, "probability_overturned": float, "probability_low": float, "probability_high": float}
 

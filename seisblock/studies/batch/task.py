@@ -18,7 +18,7 @@ from seisblock.records.motion import ALL_AZIMUTHS
 from seisblock.records.site import is_of_station
 from seisblock.results import Status
 from seisblock.studies.batch.azimuths import around, worst_azimuth
-from seisblock.studies.batch.models import BATCH_MODELS, BatchModel, Placed
+from seisblock.studies.batch.models import BATCH_MODELS, LEFT_OUT, BatchModel, Placed
 from seisblock.studies.batch.table import REASON, WARNINGS, Row
 from seisblock.studies.batch.together import answers_together
 from seisblock.words import said
@@ -179,11 +179,11 @@ def _of_the_worst(record: Record, body: Placed | Unplaced, plan: Plan, doubts: S
     if isinstance(body, Unplaced):
         return {**row, REASON: body.reason}
     try:
-        worst, seen = worst_azimuth(plan.solver, body, record)
+        worst, seen, remarks = worst_azimuth(plan.solver, body, record)
         motion = motion_of(record, worst)
     except SeisblockError as error:
         return {**row, REASON: error.said}
-    return {**row, "component": motion.name, **seen, **_answer(motion, body, plan, doubts)}
+    return {**row, "component": motion.name, **seen, **_answer(motion, body, plan, [*doubts, *remarks])}
 
 
 def _answer(motion: Motion, body: Placed, plan: Plan, doubts: Sequence[str]) -> Row:
@@ -197,9 +197,9 @@ def _answer(motion: Motion, body: Placed, plan: Plan, doubts: Sequence[str]) -> 
         return {REASON: error.said}
     if response.status == Status.TOO_MANY_EVENTS:
         return {REASON: response.warnings[0]}
-    told = [*doubts, *response.warnings]
+    told = [*doubts, *response.warnings, *([chance[LEFT_OUT]] if LEFT_OUT in chance else ())]
     found = {name: _plain(getattr(response.outcome, name), kind) for name, kind in model.scalars.items()}
-    return {**found, **chance, WARNINGS: "; ".join(told) or None}
+    return {**found, **{key: value for key, value in chance.items() if key != LEFT_OUT}, WARNINGS: "; ".join(told) or None}
 
 
 def _plain(value: Any, kind: type) -> Any:

@@ -46,14 +46,18 @@ def answers_together(solver: str, bodies: Sequence[Placed], motion: Motion) -> d
 
 
 def _uplifts(bodies: Sequence[Placed], motion: Motion, **shared: Any) -> dict[str, Answer]:
-    """Follow blocks on springs."""
+    """Follow blocks on springs; a run that was given up is followed alone, which tells why."""
     gains = [(1.0, 1.0, vertical_gain(motion, body.options.get("vertical"))) for body in bodies]
     fates = uplift_many([body.body for body in bodies], motion, gains=gains, **shared)
-    return {body.name: (fates.told(row, motion.start_s), uplift_warnings(motion, fates, row)) for row, body in enumerate(bodies)}
+    return {
+        body.name: (fates.told(row, motion.start_s), uplift_warnings(motion, fates, row))
+        for row, body in enumerate(bodies)
+        if not fates.gave_up[row]
+    }
 
 
 def _jumps(bodies: Sequence[Placed], motion: Motion, **shared: Any) -> dict[str, Answer]:
-    """Follow two-layer blocks; of a foot that jams there is no answer."""
+    """Follow two-layer blocks; where a foot jams, or a run was given up, there is no answer."""
     contacts, drop = [body.options["contact"] for body in bodies], [body.options.get("drop", 0.0) for body in bodies]
     fates = jump_many([body.body for body in bodies], motion, contacts=contacts, drop=drop, **shared)
     return {
@@ -62,7 +66,7 @@ def _jumps(bodies: Sequence[Placed], motion: Motion, **shared: Any) -> dict[str,
             warnings_of(motion, fates.chains_of(row, motion.start_s), contact.mu),
         )
         for row, (body, contact) in enumerate(zip(bodies, contacts, strict=True))
-        if not fates.jammed[row]
+        if not (fates.jammed[row] or fates.gave_up[row])
     }
 
 

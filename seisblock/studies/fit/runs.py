@@ -58,7 +58,7 @@ def shares_of(
             some, gains = family.versions(
                 np.repeat(places[part], many, axis=0), shifts[part].reshape(-1, CHANGES), shaking.motion, shaking.scale
             )
-            found = rock_verdicts(some, shaking.motion, gains)
+            found = rock_verdicts(some, shaking.motion, gains).answered()
             seen = found.overturned if experiment.kind == FELL else found.max_rotation_ratio > 0.0
             happened[part] = seen.reshape(-1, many).sum(axis=1)
         return happened * (LEVELS // many)

@@ -154,6 +154,8 @@ class Fragility:
         The measures that were compared, this one first.
     problem : str or None
         Why there is no curve.
+    no_answer : int
+        Runs that were given up; they are left out of the counts and of the fit.
     """
 
     body: str
@@ -178,6 +180,7 @@ class Fragility:
     goodness: Goodness | None = None
     measures: tuple[Efficiency, ...] = ()
     problem: str | None = None
+    no_answer: int = 0
 
     @property
     def curve(self) -> Lognormal | None:

@@ -27,7 +27,7 @@ class Capacities:
     monotone: BoolArray
 
 
-def capacities(passed: BoolArray, log_levels: FloatArray) -> Capacities:
+def capacities(passed: BoolArray, log_levels: FloatArray, answered: BoolArray | None = None) -> Capacities:
     """Return when each row of runs passed a limit first, on rising levels ([Vamvatsikos2002]_ section 4).
 
     Parameters
@@ -35,8 +35,17 @@ def capacities(passed: BoolArray, log_levels: FloatArray) -> Capacities:
     passed : (m, n) array of bool
     log_levels : (m, n) or (n,) array
         Logarithms of the factors, or of the intensities.
+    answered : (m, n) array of bool
+        Runs that have an answer; the levels of the others are left out. All when left out.
     """
     grid = np.broadcast_to(log_levels, passed.shape)
+    if answered is not None and not answered.all():
+        # a level without an answer stands for the one below it that has one
+        below = np.maximum.accumulate(np.where(answered, np.arange(passed.shape[1]), -1), axis=1)
+        first = np.argmax(answered, axis=1)[:, None]
+        below = np.where(below < 0, first, below)
+        passed = np.take_along_axis(passed, below, axis=1) & answered.any(axis=1, keepdims=True)
+        grid = np.take_along_axis(grid, below, axis=1)
     ever, first = passed.any(axis=1), passed.argmax(axis=1)
     rows = np.arange(len(passed))
     middle = 0.5 * (grid[rows, first] + grid[rows, np.maximum(first - 1, 0)])

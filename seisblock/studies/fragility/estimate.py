@@ -40,6 +40,8 @@ class Passed:
         Intensities; the same for all motions unless nothing was scaled.
     values : sequence of (m,) arrays
         Intensity of each motion as it is, in each of the measures compared, the curve's own first.
+    answers : (m, n, v) array of bool or None
+        Runs that have an answer; the others passed nothing and are left out. None: all have one.
     """
 
     body: str
@@ -47,6 +49,12 @@ class Passed:
     passed: BoolArray
     levels: FloatArray
     values: Sequence[FloatArray]
+    answers: BoolArray | None = None
+
+    @property
+    def answered(self) -> BoolArray:
+        """Runs that have an answer, (m, n, v)."""
+        return np.ones(self.passed.shape[:3], dtype=np.bool_) if self.answers is None else self.answers
 
 
 @dataclass(frozen=True)
@@ -84,17 +92,17 @@ def estimate(runs: Passed, suite: Suite, rules: Rules) -> list[tuple[Fragility, 
     suite : Suite
     rules : Rules
     """
-    states = at_least(runs.passed)
+    states, answered = at_least(runs.passed), runs.answered
     dice = np.random.default_rng(rules.seed)
     weights = np.vstack([np.ones(len(suite.motions)), suite.weights(rules.bootstrap, dice)])
     shown = rules.measures[0].shown()
-    problems = [_problem(rules.method, runs.levels, states[..., k], shown) for k in range(len(runs.limits))]
+    problems = [_problem(rules.method, runs.levels, states[..., k], answered, shown) for k in range(len(runs.limits))]
     good = [k for k, problem in enumerate(problems) if problem is None]
-    alone = [_fitted(rules.method, runs.levels, states[..., [k]], weights) for k in good]
-    together = _fitted(rules.method, runs.levels, states[..., good], weights) if len(good) > 1 else None
+    alone = [_fitted(rules.method, runs.levels, states[..., [k]], answered, weights) for k in good]
+    together = _fitted(rules.method, runs.levels, states[..., good], answered, weights) if len(good) > 1 else None
     found: list[tuple[Fragility, Band]] = []
     for k, problem in enumerate(problems):
-        firsts = _firsts(states[..., k], runs.levels)
+        firsts = _firsts(states[..., k], answered, runs.levels)
         counted = _counted_curve(runs, suite, rules, states[..., k], k, firsts)
         if problem is not None:
             found.append((replace(counted, problem=problem), None))
@@ -110,8 +118,8 @@ def estimate(runs: Passed, suite: Suite, rules: Rules) -> list[tuple[Fragility, 
                 fitted,
                 median_alone=None if together is None else float(own[0, 0]),
                 beta_alone=None if together is None else float(own[1, 0]),
-                dispersion=_dispersion(rules.method, runs.levels, states[..., k]),
-                goodness=_goodness(rules.method, fitted.curve, runs.levels, states[..., k], firsts, dice),
+                dispersion=_dispersion(rules.method, runs.levels, states[..., k], answered),
+                goodness=_goodness(rules.method, fitted.curve, runs.levels, states[..., k], answered, firsts, dice),
                 measures=tuple(_efficiencies(runs, suite, rules, states[..., k], firsts)),
             )
         found.append((fitted, band))
@@ -132,8 +140,9 @@ def _counted_curve(runs: Passed, suite: Suite, rules: Rules, passed: BoolArray, 
         motions=len(suite.motions),
         non_monotone_records=np.unique(suite.owner[jumps]).size,
         non_monotone_motions=int(jumps.sum()),
-        censored_motions=int((~passed.any(axis=(1, 2))).sum()),
-        levels=tuple(_counted(rules.method, runs.levels, passed)),
+        censored_motions=int((~passed.any(axis=(1, 2)) & runs.answered.any(axis=(1, 2))).sum()),
+        levels=tuple(_counted(rules.method, runs.levels, passed, runs.answered)),
+        no_answer=int((~runs.answered).sum()),
     )
 
 
@@ -168,27 +177,31 @@ def _rows(passed: BoolArray) -> BoolArray:
     return np.asarray(passed.transpose(0, 2, 1).reshape(motions * versions, levels))
 
 
-def _firsts(passed: BoolArray, levels: FloatArray) -> Capacities:
+def _firsts(passed: BoolArray, answered: BoolArray, levels: FloatArray) -> Capacities:
     """Return when it happened first, as the logarithm of the intensity, for each motion and version."""
-    return capacities(_rows(passed), np.log(np.repeat(levels, passed.shape[2], axis=0)))
+    return capacities(_rows(passed), np.log(np.repeat(levels, passed.shape[2], axis=0)), _rows(answered))
 
 
-def _problem(method: str, levels: FloatArray, passed: BoolArray, shown: tuple[float, str]) -> Said | None:
+def _problem(method: str, levels: FloatArray, passed: BoolArray, answered: BoolArray, shown: tuple[float, str]) -> Said | None:
     """Return why no curve follows from the runs of one limit, in the user's unit; None where one does."""
     flat = levels[0] if method != CLOUD else levels[:, 0]
-    counts = passed.sum(axis=(0, 2)) if method != CLOUD else passed.sum(axis=(1, 2))
-    size = passed.shape[2] * (len(passed) if method != CLOUD else 1)
-    return no_curve(flat, counts.astype(np.float64), np.full(flat.size, float(size)), shown, scaled=method != CLOUD, first=method == IDA)
+    over = (0, 2) if method != CLOUD else (1, 2)
+    counts, sizes = (each.sum(axis=over).astype(np.float64) for each in (passed, answered))
+    known = sizes > 0.0
+    if not known.any():
+        return said("no run has an answer: all were given up")
+    return no_curve(flat[known], counts[known], sizes[known], shown, scaled=method != CLOUD, first=method == IDA)
 
 
-def _fitted(method: str, levels: FloatArray, states: BoolArray, weights: FloatArray) -> FloatArray:
+def _fitted(method: str, levels: FloatArray, states: BoolArray, answered: BoolArray, weights: FloatArray) -> FloatArray:
     """Return medians and betas, (2, b, k), of some limits, with one beta where there are several, fitted to samples of motions."""
     limits = range(states.shape[3])
     if method == IDA:
         top = math.log(float(levels.max()))
         grid = np.log(np.repeat(levels, states.shape[2], axis=0))
-        every = np.repeat(weights, states.shape[2], axis=1)
-        found = [moments(capacities(_rows(states[..., k]), grid).log_factor, every, top) for k in limits]
+        known = _rows(answered)
+        every = np.repeat(weights, states.shape[2], axis=1) * known.any(axis=1)
+        found = [moments(capacities(_rows(states[..., k]), grid, known).log_factor, every, top) for k in limits]
         medians, betas = (np.stack(column, axis=1) for column in zip(*found, strict=True))
         if len(found) > 1:
             # one beta for all: the root of the mean square
@@ -197,10 +210,10 @@ def _fitted(method: str, levels: FloatArray, states: BoolArray, weights: FloatAr
     if method == CLOUD:
         # each motion is a level of its own
         counts = np.stack([weights * states[:, 0, :, k].sum(axis=1) for k in limits], axis=1)
-        used = (levels[:, 0], counts, weights * states.shape[2])
+        used = (levels[:, 0], counts, weights * answered[:, 0].sum(axis=1))
     else:
         counts = np.stack([weights @ states[..., k].sum(axis=2) for k in limits], axis=1)
-        used = (levels[0], counts, np.tile(weights.sum(axis=1, keepdims=True) * states.shape[2], (1, levels.shape[1])))
+        used = (levels[0], counts, weights @ answered.sum(axis=2))
     if len(limits) == 1:
         medians, betas = curves(used[0], used[1][:, 0], used[2])
         return np.array([medians[:, None], betas[:, None]])
@@ -208,16 +221,16 @@ def _fitted(method: str, levels: FloatArray, states: BoolArray, weights: FloatAr
     return np.array([medians, np.tile(beta[:, None], (1, len(limits)))])
 
 
-def _counted(method: str, levels: FloatArray, passed: BoolArray) -> list[FragilityLevel]:
+def _counted(method: str, levels: FloatArray, passed: BoolArray, answered: BoolArray) -> list[FragilityLevel]:
     """Return the counts at each level; of each motion where nothing was scaled, in the order of their intensities."""
     if method == CLOUD:
         order = np.argsort(levels[:, 0], kind="stable")
-        return [FragilityLevel(float(levels[m, 0]), passed.shape[2], int(passed[m].sum())) for m in order]
-    counts, size = passed.sum(axis=(0, 2)), passed.shape[0] * passed.shape[2]
-    return [FragilityLevel(float(level), size, int(count)) for level, count in zip(levels[0], counts, strict=True)]
+        return [FragilityLevel(float(levels[m, 0]), int(answered[m].sum()), int(passed[m].sum())) for m in order]
+    counts, sizes = passed.sum(axis=(0, 2)), answered.sum(axis=(0, 2))
+    return [FragilityLevel(float(level), int(size), int(count)) for level, size, count in zip(levels[0], sizes, counts, strict=True)]
 
 
-def _dispersion(method: str, levels: FloatArray, passed: BoolArray) -> Dispersion | None:
+def _dispersion(method: str, levels: FloatArray, passed: BoolArray, answered: BoolArray) -> Dispersion | None:
     """Return the parts of the scatter by the law of total variance (derived here).
 
     Given a version v of the body, ln(intensity) has the mean mu_v and the standard deviation beta_v over the motions. Over both,
@@ -227,7 +240,8 @@ def _dispersion(method: str, levels: FloatArray, passed: BoolArray) -> Dispersio
     versions = passed.shape[2]
     if versions < 2:
         return None
-    fits = [_fitted(method, levels, passed[:, :, [v], None], np.ones((1, len(passed)))) for v in range(versions)]
+    alone = np.ones((1, len(passed)))
+    fits = [_fitted(method, levels, passed[:, :, [v], None], answered[:, :, [v]], alone) for v in range(versions)]
     medians, betas = np.array(fits)[:, :, 0, 0].T
     good = np.isfinite(medians)
     if good.sum() < 2:
@@ -238,17 +252,33 @@ def _dispersion(method: str, levels: FloatArray, passed: BoolArray) -> Dispersio
 
 
 def _goodness(
-    method: str, curve: Lognormal, levels: FloatArray, passed: BoolArray, firsts: Capacities, dice: np.random.Generator
+    method: str,
+    curve: Lognormal,
+    levels: FloatArray,
+    passed: BoolArray,
+    answered: BoolArray,
+    firsts: Capacities,
+    dice: np.random.Generator,
 ) -> Goodness:
-    """Return how well a curve fits."""
+    """Return how well a curve fits, from the shares of the runs that have an answer."""
     versions = passed.shape[2]
     if method == IDA:
-        means = firsts.log_factor if versions == 1 else firsts.log_factor.reshape(-1, versions).mean(axis=1)
+        known: BoolArray = np.asarray(answered.any(axis=1))
+        logs = np.where(known, firsts.log_factor.reshape(-1, versions), 0.0)
+        means = (logs.sum(axis=1) / np.maximum(known.sum(axis=1), 1))[known.any(axis=1)]
         return goodness_of_capacities(curve, means, math.log(float(levels.max())), dice)
     if method == CLOUD:
-        return goodness_of_cloud(curve, levels[:, 0], passed.sum(axis=(1, 2)).astype(np.float64), float(versions), dice)
-    counts = passed.sum(axis=(0, 2)) / versions
-    return goodness_of_stripes(curve, levels[0], counts, float(len(passed)), len(passed), dice)
+        some, counts = _shared(passed, answered, (1, 2), versions)
+        return goodness_of_cloud(curve, levels[some, 0], counts, float(versions), dice)
+    some, counts = _shared(passed, answered, (0, 2), len(passed))
+    return goodness_of_stripes(curve, levels[0, some], counts, float(len(passed)), len(passed), dice)
+
+
+def _shared(passed: BoolArray, answered: BoolArray, over: tuple[int, int], runs: int) -> tuple[BoolArray, FloatArray]:
+    """Return which levels, or motions, have an answer, and of so many runs the share there that passed."""
+    counts, sizes = passed.sum(axis=over), answered.sum(axis=over)
+    known = sizes > 0
+    return known, counts[known] * runs / sizes[known]
 
 
 def _efficiencies(runs: Passed, suite: Suite, rules: Rules, passed: BoolArray, firsts: Capacities) -> list[Efficiency]:
@@ -258,11 +288,12 @@ def _efficiencies(runs: Passed, suite: Suite, rules: Rules, passed: BoolArray, f
     properties = (("ln(pgv/pga)", suite.shapes), ("magnitude", suite.magnitudes))
     own = rules.measures[0]
     factors = (firsts.log_factor.reshape(len(passed), -1) - np.log(runs.values[0])[:, None]) / own.power
-    happened = passed.sum(axis=(1, 2)).astype(np.float64)
+    some, happened = _shared(passed, runs.answered, (1, 2), passed.shape[2])
+    known = tuple((name, given[some]) for name, given in properties)
     found = []
     for measure, values in zip(rules.measures, runs.values, strict=True):
         each = (
-            efficiency_of_cloud(measure, values, happened, float(passed.shape[2]), properties)
+            efficiency_of_cloud(measure, values[some], happened, float(passed.shape[2]), known)
             if rules.method == CLOUD
             else efficiency_of_capacities(measure, values, factors, properties)
         )

@@ -11,7 +11,7 @@ import numpy as np
 from seisblock.bodies.block import Block
 from seisblock.bodies.sliding_base import SlidingBase
 from seisblock.dynamics import follow_many
-from seisblock.errors import ParameterError
+from seisblock.errors import ParameterError, SolverError
 from seisblock.records import Motion
 from seisblock.records.given import vertical_gain
 from seisblock.solvers.respond.many import respond_many
@@ -28,7 +28,7 @@ from seisblock.studies.rocking.perturb import Spread, changed_rockers, draws_of
 from seisblock.studies.rocking.verdicts import all_verdicts
 from seisblock.studies.runs import in_batches, in_threads
 from seisblock.studies.standing.probability import Versions, changed_settings
-from seisblock.typing import FloatArray
+from seisblock.typing import BoolArray, FloatArray
 
 Draws = FloatArray | None
 """Draws of the samples of a body, (v, 7), each uniform in [-1, 1]; None for the body as it is."""
@@ -59,7 +59,7 @@ def _rock(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) -> 
     unit = np.array(bodies.gains() if isinstance(bodies, Rockers) else bodies[0].gains())
     gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
     found = all_verdicts(bodies, motion, gains)
-    return Ends(overturned=found.overturned, lean=found.max_rotation_ratio)
+    return Ends(overturned=found.overturned, lean=found.max_rotation_ratio, gave_up=found.gave_up)
 
 
 def _respond(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) -> Ends:
@@ -77,9 +77,9 @@ def _respond(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) 
         settings = changed_settings(placed.body, VERSIONS, every, **options)
         alphas = settings.blocks.slendernesses.min(axis=1)
     gains = np.repeat(factors, 1 if draws is None else len(draws))[:, None] * unit
-    fates = respond_many(settings, motion, gains=gains, settle_s=settle).answered()
+    fates = respond_many(settings, motion, gains=gains, settle_s=settle)
     slip = np.where(fates.overturned, np.inf, np.abs(fates.final_displacement_m))
-    return Ends(fates.overturned, fates.max_rotation_rad / alphas, slip)
+    return Ends(fates.overturned, fates.max_rotation_rad / alphas, slip, fates.gave_up)
 
 
 def _slide(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) -> Ends:
@@ -90,30 +90,37 @@ def _slide(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) ->
     unit = np.array(check(motion, options.get("vertical", False), gravity))
     p = parameters(base, gravity)
 
-    def some(part: slice) -> FloatArray:
-        """Return the largest slips of some runs."""
-        many = follow_many(SLIDE, motion, [p] * len(factors[part]), np.zeros(4), STICK, gains=factors[part][:, None] * unit)
+    def some(part: slice) -> tuple[FloatArray, BoolArray]:
+        """Return the largest slips of some runs, and which were given up."""
+        gains = factors[part][:, None] * unit
+        many = follow_many(SLIDE, motion, [p] * len(gains), np.zeros(4), STICK, gains=gains, allow_failures=True)
         for row in np.flatnonzero(many.final_mode == UNDEFINED)[:1]:
             refuse_lift_off(motion, float(many.end_time[row]))
         ends: list[float] = [
-            abs(slip_at_rest(state, mode, p)) for state, mode in zip(many.final.tolist(), many.final_mode.tolist(), strict=True)
+            math.nan if failed else abs(slip_at_rest(state, mode, p))
+            for state, mode, failed in zip(many.final.tolist(), many.final_mode.tolist(), many.failed.tolist(), strict=True)
         ]
-        return np.maximum(np.maximum(many.extrema[:, 0, 0], -many.extrema[:, 0, 2]), ends)
+        return np.maximum(np.maximum(many.extrema[:, 0, 0], -many.extrema[:, 0, 2]), ends), many.failed
 
-    return Ends(slip_m=np.concatenate(list(in_batches(some, factors.size, size=ROWS))))
+    slips, failed = zip(*in_batches(some, factors.size, size=ROWS), strict=True)
+    return Ends(slip_m=np.concatenate(slips), gave_up=np.concatenate(failed))
 
 
 def _stack(placed: Placed, motion: Motion, factors: FloatArray, draws: Draws) -> Ends:
     """Return the ends of a pile: whether a stone fell, and how far the one that slid most lies from its place."""
 
     def one(factor: float) -> tuple[bool, float]:
-        """Return the end of one run."""
+        """Return the end of one run; its slip is NaN where it was given up."""
         scaled = Motion(motion.acceleration * factor, motion.dt, motion.name, motion.start_s, motion.record)
-        outcome = solve_stack(placed.body, scaled, **placed.options).outcome
+        try:
+            outcome = solve_stack(placed.body, scaled, **placed.options).outcome
+        except SolverError:
+            return False, math.nan
         return outcome.overturned_any, math.inf if outcome.overturned_any else max(outcome.residual_slip_m.values())
 
     ends = list(in_threads(one, factors.tolist()))
-    return Ends(overturned=np.array([fell for fell, _ in ends]), slip_m=np.array([slip for _, slip in ends]))
+    slips = np.array([slip for _, slip in ends])
+    return Ends(overturned=np.array([fell for fell, _ in ends]), slip_m=slips, gave_up=np.isnan(slips))
 
 
 FOLLOWERS: dict[str, Follow] = {"respond": _respond, "rock": _rock, "slide": _slide, "stack": _stack}

@@ -30,11 +30,14 @@ class Ends:
         Largest lean over the slenderness alpha of its side.
     slip_m : float, m
         How far the object was moved; infinite where it fell.
+    gave_up : bool
+        Runs without an answer; None where there is none of them.
     """
 
     overturned: BoolArray | None = None
     lean: FloatArray | None = None
     slip_m: FloatArray | None = None
+    gave_up: BoolArray | None = None
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,12 @@ import numpy as np
 from seisblock.bodies.called import said_name
 from seisblock.studies.batch.models import Placed
 from seisblock.studies.fragility.answer import Fragility
-from seisblock.studies.fragility.estimate import CLOUD, IDA, Rules
-from seisblock.studies.fragility.intensity import factors_for
+from seisblock.studies.fragility.estimate import CLOUD, IDA, Passed, Rules
+from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for
 from seisblock.studies.fragility.limits import said_limit
+from seisblock.studies.fragility.suite import Suite
 from seisblock.typing import FloatArray
-from seisblock.words import Said, said
+from seisblock.words import Said, listed, said
 
 LARGE = 10.0
 """Records scaled by more than this are hardly the records any more."""
@@ -68,6 +69,43 @@ def _of(curve: Fragility, values: FloatArray, rules: Rules, *, several: bool) ->
             size, unit = measure.shown()
             text = "{curve}: at the median, {median}, half of the records are scaled by {factor:.3g} and more: take stronger ones"
             yield said(text, curve=what, median=f"{curve.median / size:.4g} {unit}".strip(), factor=factor)
+
+
+NAMED = 3
+"""Runs without an answer that are named, at most."""
+
+
+def unanswered(every: Sequence[Passed], suite: Suite, measure: IntensityMeasure) -> list[Said]:
+    """Return a sentence for each body some of whose runs were given up, with the first of them by name.
+
+    Parameters
+    ----------
+    every : sequence of Passed
+        One for each body.
+    suite : Suite
+    measure : IntensityMeasure
+        Of the levels.
+    """
+    size, unit = measure.shown()
+    sentences = []
+    for runs in every:
+        lost = np.argwhere(~runs.answered)
+        if not len(lost):
+            continue
+        places = list(dict.fromkeys((int(motion), int(level)) for motion, level, _ in lost))
+        names = [f"{_where(suite, m)} {runs.levels[m, n] / size:.4g} {unit}".strip() for m, n in places[:NAMED]]
+        text = (
+            "{body}: {count} of {all} runs were given up and are left out: {names}"
+            if len(places) <= NAMED
+            else "{body}: {count} of {all} runs were given up and are left out: {names} and others"
+        )
+        sentences.append(said(text, body=said_name(runs.body), count=len(lost), all=runs.answered.size, names=listed(names)))
+    return sentences
+
+
+def _where(suite: Suite, motion: int) -> str:
+    """Return the file and the component of a motion."""
+    return f"{suite.records[suite.owner[motion]].source.rsplit('/', 1)[-1]} {suite.motions[motion].name}".strip()
 
 
 def ranges_noted(bodies: Sequence[Placed], solver: str) -> list[Said]:

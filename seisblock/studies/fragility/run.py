@@ -27,7 +27,7 @@ from seisblock.studies.fragility.followers import FOLLOWERS, PERTURBED, Draws, v
 from seisblock.studies.fragility.intensity import IntensityMeasure, factors_for, intensity_measure
 from seisblock.studies.fragility.levels import STEPS, chosen_levels, levels_of
 from seisblock.studies.fragility.limits import LimitState, limit_states, said_limit
-from seisblock.studies.fragility.notes import notes_on, ranges_noted
+from seisblock.studies.fragility.notes import notes_on, ranges_noted, unanswered
 from seisblock.studies.fragility.suite import Suite, read_suite, suite_of
 from seisblock.studies.intervals import CONFIDENCE
 from seisblock.typing import ArrayLike, BoolArray, FloatArray, Progress
@@ -65,14 +65,25 @@ class Study:
     values: Sequence[Sequence[FloatArray]]
     draws: Draws
 
-    def passed(self, body: int, motion: int, factors: FloatArray, draws: Draws) -> BoolArray:
-        """Return which limits a body passes under a motion, in any of its directions, times some factors, (n, v, k)."""
+    def passed(self, body: int, motion: int, factors: FloatArray, draws: Draws) -> tuple[BoolArray, BoolArray]:
+        """Return which limits a body passes under a motion times some factors, (n, v, k), and which runs have an answer, (n, v).
+
+        A limit is passed where it is in any direction. One direction without an answer leaves the run without one, unless the last limit
+        is passed in another.
+        """
         versions, placed = 1 if draws is None else len(draws), self.bodies[body]
         found = np.zeros((factors.size, versions, len(self.limits)), dtype=np.bool_)
+        gave_up = np.zeros((factors.size, versions), dtype=np.bool_)
         for each in self.suite.directions(motion, placed.body):
             ends = FOLLOWERS[self.solver](replace(placed, body=along(placed.body, each)), each, factors, draws)
-            found |= np.stack([limit.passed(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
-        return found
+            passed = np.stack([limit.passed(ends).reshape(factors.size, versions) for limit in self.limits], axis=-1)
+            if ends.gave_up is not None:
+                without = ends.gave_up.reshape(factors.size, versions)
+                passed &= ~without[..., None]
+                gave_up |= without
+            found |= passed
+        answered = ~gave_up | found[..., -1]
+        return found & answered[..., None], answered
 
 
 def run_fragility(
@@ -193,7 +204,14 @@ def run_fragility(
     directions = (said(AROUND, step=STEP_DEG),) if suite.around else ()
     ranges = ranges_noted(stand, solver) if perturb else []
     upstairs = (said("the bodies stand on a storey; the intensities are those of the ground under it"),) if preparation.floor else ()
-    notes = (*left_out, *directions, *upstairs, *notes_on(curves, [value[0] for value in values], rules), *ranges)
+    notes = (
+        *left_out,
+        *directions,
+        *upstairs,
+        *unanswered(every, suite, measures[0]),
+        *notes_on(curves, [value[0] for value in values], rules),
+        *ranges,
+    )
     return FragilityStudy(curves, measures[0], solver, method, confidence, bands, range_, suite.records, notes, preparation.floor)
 
 
@@ -225,13 +243,15 @@ def _grids(study: Study, rules: Rules, levels: ArrayLike | None, steps: int) -> 
     if levels is None:
 
         def shares_at(level: float) -> FloatArray:
-            """Return in which share of the motions each body passes each limit."""
-            passed = [
-                study.passed(b, m, factors_for(np.array([level]), values[0][m], rules.measures[0]), None)[0, 0]
+            """Return in which share of the motions that have an answer each body passes each limit."""
+            runs = [
+                study.passed(b, m, factors_for(np.array([level]), values[0][m], rules.measures[0]), None)
                 for b, values in enumerate(study.values)
                 for m in range(motions)
             ]
-            return np.asarray(np.reshape(passed, (len(study.bodies), motions, -1)).mean(axis=1))
+            passed = np.reshape([each[0, 0] for each, _ in runs], (len(study.bodies), motions, -1))
+            answers = np.reshape([each[0, 0] for _, each in runs], (len(study.bodies), motions)).sum(axis=1)
+            return np.asarray(passed.sum(axis=1) / np.maximum(answers, 1)[:, None])
 
         grid = chosen_levels(shares_at, math.exp(float(np.mean([np.log(values[0]).mean() for values in study.values]))), steps)
     else:
@@ -248,11 +268,12 @@ def _follow(study: Study, rules: Rules, grids: list[FloatArray], progress: Progr
     check_budget(noted("runs"), total * directions, "SEISBLOCK_CELLS")
     found, done = [], 0
     for b, (body, grid, values) in enumerate(zip(study.bodies, grids, study.values, strict=True)):
-        passed = []
+        runs = []
         for m in range(len(study.suite.motions)):
-            passed.append(study.passed(b, m, factors_for(grid[m], values[0][m], rules.measures[0]), study.draws))
+            runs.append(study.passed(b, m, factors_for(grid[m], values[0][m], rules.measures[0]), study.draws))
             done += each
             if progress is not None:
                 progress(done, total)
-        found.append(Passed(body.name, study.limits, np.stack(passed), grid, values))
+        passed, answered = (np.stack(column) for column in zip(*runs, strict=True))
+        found.append(Passed(body.name, study.limits, passed, grid, values, answered))
     return found

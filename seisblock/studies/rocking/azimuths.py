@@ -35,6 +35,8 @@ class RockAzimuth:
         Largest lean over alpha of the side concerned.
     slenderness_rad : float
         alpha of the side to which it falls more easily.
+    gave_up : bool
+        Whether the run was given up, so that there is no answer in this direction, and the largest lean stands at 0.
     """
 
     azimuth_deg: float
@@ -43,6 +45,7 @@ class RockAzimuth:
     overturning_time_s: float | None
     max_rotation_ratio: float
     slenderness_rad: float
+    gave_up: bool = False
 
 
 def rock_directions(
@@ -88,13 +91,17 @@ def rock_directions(
             after = solve_rock(block, motion_of(record, f"{azimuth:g}"), **options).outcome.overturning_time_s
         else:
             after = around.motion.start_s + time if fallen else None
+        gave_up = bool(found.gave_up[row])
+        ratio = 0.0 if gave_up else float(found.max_rotation_ratio[row])
         towards = ("+x" if found.towards[row] > 0 else "-x") if fallen else None
-        directions.append(RockAzimuth(azimuth, fallen, towards, after, float(found.max_rotation_ratio[row]), block.slenderness))
+        directions.append(RockAzimuth(azimuth, fallen, towards, after, ratio, block.slenderness, gave_up))
     return sorted(directions, key=_severity, reverse=True)
 
 
 def _severity(each: RockAzimuth) -> tuple[bool, float]:
     """Return what makes one direction worse than another."""
+    if each.gave_up:
+        return False, -1.0
     if each.overturned:
         return True, -(each.overturning_time_s if each.overturning_time_s is not None else np.inf)
     return False, round(each.max_rotation_ratio, 12)

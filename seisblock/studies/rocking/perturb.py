@@ -76,6 +76,8 @@ class Perturbation:
     seed : int
     ranges : Ranges or None
         Prior of the worn edges of the block's kind, from which they were drawn instead of varying by a share.
+    no_answer : tuple of int
+        Numbers, from 1, of the versions that were given up, which are not among `runs`.
     """
 
     runs: int
@@ -86,6 +88,7 @@ class Perturbation:
     seed: int
     interval_of: str = OWN_SCATTER
     ranges: Ranges | None = None
+    no_answer: tuple[int, ...] = ()
 
 
 def perturb(
@@ -139,15 +142,16 @@ def perturb(
     # +x turned clockwise, seen from above
     gains = np.column_stack([factor * np.cos(angle), -factor * np.sin(angle), factor * some.vertical])
     found = all_verdicts(some, motion, gains, progress=progress)
-    count = int(found.overturned.sum())
+    count, answered = int(found.overturned.sum()), int((~found.gave_up).sum())
     return Perturbation(
-        runs,
+        answered,
         count,
-        count / runs,
-        wilson_interval(count, runs),
+        count / answered,
+        wilson_interval(count, answered),
         spread,
         seed,
         ranges=block.ranges and block.ranges.without("width_m", "height_m", "mu"),
+        no_answer=tuple((np.flatnonzero(found.gave_up) + 1).tolist()),
     )
 
 

@@ -16,15 +16,18 @@ from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_motion, vertical_gain
-from seisblock.solvers.respond.many import KINDS, Fates, respond_many
+from seisblock.solvers.respond.many import KINDS, Fates, no_answer, respond_many
 from seisblock.solvers.respond.settings import Settings
 from seisblock.solvers.respond.tale import FLIGHT, OVERTURNED, REST, ROCK, SLIDE, SLIDE_ROCK
 from seisblock.typing import ArrayLike, FloatArray, IntArray, Progress
 from seisblock.units import STANDARD_GRAVITY
 from seisblock.words import noted
 
-GOVERNING = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT, OVERTURNED)
-"""Modes from the mildest to the worst; a body is told by the worst that one could see."""
+NO_ANSWER = noted("no answer")
+"""Body whose run was given up."""
+
+GOVERNING = (REST, SLIDE, ROCK, SLIDE_ROCK, FLIGHT, OVERTURNED, NO_ANSWER)
+"""Modes from the mildest to the worst, of which the worst visible one stands for a body; at the end, bodies without an answer."""
 
 SEEN_M = 5e-4
 """Slip of a rocking body, or rise of one that flies, that one could see, m."""
@@ -46,7 +49,8 @@ class ModeMap:
     mu : (k,) array, 1
     governing : (n, k) array of int
         The worst mode, an index into ``GOVERNING``: overturned; flight, where one lasted as long as a rise of half a millimetre takes;
-        slide-rock, where it rocked and slid half a millimetre in all; rock; slide; rest, where nothing moved at all.
+        slide-rock, where it rocked and slid half a millimetre in all; rock; slide; rest, where nothing moved at all; no answer, where the
+        run was given up: then lean and displacements are those of that instant.
     max_rotation_ratio : (n, k) array
         Largest lean over alpha.
     slip_path_m, final_displacement_m : (n, k) arrays, m
@@ -133,14 +137,17 @@ def mode_map(
     up = vertical_gain(motion, vertical)
     ratio, time = loading(motion, vertical=vertical, gravity=gravity)
     seen_s = math.sqrt(8.0 * SEEN_M / gravity)
-    table = np.empty((cells, 4))
+    table, gave_up = np.empty((cells, 4)), 0
     for first in range(0, cells, AT_ONCE):
         part = slice(first, min(first + AT_ONCE, cells))
-        fates = respond_many(settings[part], motion, gains=(1.0, 0.0, up), settle_s=settle_s).answered()
+        fates = respond_many(settings[part], motion, gains=(1.0, 0.0, up), settle_s=settle_s)
+        gave_up += int(fates.gave_up.sum())
         lean = fates.max_rotation_rad / alphas[part]
         table[part] = np.column_stack([_worst(fates, seen_s), lean, fates.slip_path_m, fates.final_displacement_m])
         if progress is not None:
             progress(part.stop, cells)
+    if gave_up == cells:
+        raise no_answer(cells, cells, int(fates.impacts.min()))
     worst, lean, path, end = table.T.reshape(4, len(blocks), mu.size)
     needed = [None if math.isinf(ratio) else friction_to_rock(block, ratio) for block in blocks]
     return ModeMap(
@@ -175,7 +182,7 @@ def _worst(fates: Fates, seen_s: float) -> IntArray:
     _, slid, rocked, skidded, flew = (fates.time_in_mode_s[:, i] > 0.0 for i in range(len(KINDS)))
     turned = rocked | skidded | flew
     return np.select(
-        [fates.overturned, fates.longest_flight_s >= seen_s, turned & (fates.slip_path_m >= SEEN_M), turned, slid],
-        [GOVERNING.index(mode) for mode in (OVERTURNED, FLIGHT, SLIDE_ROCK, ROCK, SLIDE)],
+        [fates.gave_up, fates.overturned, fates.longest_flight_s >= seen_s, turned & (fates.slip_path_m >= SEEN_M), turned, slid],
+        [GOVERNING.index(mode) for mode in (NO_ANSWER, OVERTURNED, FLIGHT, SLIDE_ROCK, ROCK, SLIDE)],
         GOVERNING.index(REST),
     )

@@ -21,7 +21,7 @@ from seisblock.errors import ParameterError
 from seisblock.limits import check_budget
 from seisblock.records import Motion
 from seisblock.records.given import Factor, check_call, vertical_gain
-from seisblock.solvers.respond.many import respond_many
+from seisblock.solvers.respond.many import Fates, no_answer, respond_many
 from seisblock.solvers.respond.settings import Settings
 from seisblock.solvers.respond.solve import make_setting
 from seisblock.studies.intervals import clopper_pearson
@@ -89,6 +89,7 @@ class Probability:
     Parameters
     ----------
     runs : int
+        Versions that have an answer.
     overturned, moved : float
         Shares that fall, and that end more than `moved_m` from where they stood, or fall.
     interval : (float, float), 1
@@ -101,6 +102,8 @@ class Probability:
     seed : int
     ranges : Ranges or None
         Priors of the body's kind, edges and friction, from which samples were drawn instead of varying by shares.
+    no_answer : tuple of int
+        Numbers, from 1, of the versions that were given up. They are not among `runs`: whether they would fall is not known.
     """
 
     runs: int
@@ -112,6 +115,7 @@ class Probability:
     versions: Versions
     seed: int
     ranges: Ranges | None = None
+    no_answer: tuple[int, ...] = ()
 
 
 def respond_probability(
@@ -153,7 +157,7 @@ def respond_probability(
     ParameterError
         If there are no runs, or a number lies outside its range.
     SolverError
-        If a version hops without end.
+        If every version hops without end.
 
     Examples
     --------
@@ -191,27 +195,31 @@ def respond_probability(
         tenon=tenon,
     )
     gains = _gains(motion, versions, draws, vertical)
-    fallen, shifts = [], []
+    parts: list[Fates] = []
     for first in range(0, runs, AT_ONCE):
         part = slice(first, first + AT_ONCE)
-        fates = respond_many(settings[part], motion, gains=gains[part], settle_s=settle_s).answered()
-        fallen.append(fates.overturned)
-        shifts.append(fates.final_displacement_m)
+        parts.append(respond_many(settings[part], motion, gains=gains[part], settle_s=settle_s))
         if progress is not None:
             progress(min(first + AT_ONCE, runs), runs)
-    falls, shift = np.concatenate(fallen), np.concatenate(shifts)
+    gave_up, fallen, shifts = (
+        np.concatenate([getattr(fates, name) for fates in parts]) for name in ("gave_up", "overturned", "final_displacement_m")
+    )
+    if gave_up.all():
+        raise no_answer(runs, runs, min(int(fates.impacts.min()) for fates in parts))
+    falls, shift = fallen[~gave_up], shifts[~gave_up]
     standing = np.quantile(shift[~falls], QUANTILES) if not falls.all() else ()
     count = int(falls.sum())
     return Probability(
-        runs,
-        count / runs,
+        falls.size,
+        count / falls.size,
         float(np.mean(falls | (np.abs(shift) > moved_m))),
-        clopper_pearson(count, runs),
+        clopper_pearson(count, falls.size),
         moved_m,
         {f"q{round(100 * share):02d}": float(value) for share, value in zip(QUANTILES, standing, strict=False)},
         versions,
         seed,
         block.ranges and block.ranges.priors,
+        tuple((np.flatnonzero(gave_up) + 1).tolist()),
     )
 
 

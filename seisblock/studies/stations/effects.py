@@ -28,7 +28,8 @@ from seisblock.studies.batch.task import Plan, rows_under
 from seisblock.studies.cemetery.judgement import Method, overturned
 from seisblock.studies.cemetery.rate import rate_of
 from seisblock.studies.cemetery.shaking import Shaking
-from seisblock.studies.standing.azimuths import respond_directions
+from seisblock.studies.runs import left_out_versions
+from seisblock.studies.standing.azimuths import left_out_directions, respond_directions
 from seisblock.studies.standing.probability import MOVED_M, respond_probability
 from seisblock.words import said
 
@@ -53,6 +54,8 @@ class StationEffect:
         Furthest displacement of the body from where it stood; of a jump that of all its chains together.
     max_uplift_m : float or None
         How far a corner of a body on springs rose.
+    remarks : tuple of str
+        Directions and versions of the body that have no answer.
     """
 
     azimuth_deg: float | None = None
@@ -62,6 +65,7 @@ class StationEffect:
     probability: float | None = None
     max_slip_m: float | None = None
     max_uplift_m: float | None = None
+    remarks: tuple[str, ...] = ()
 
     @property
     def falls_nominally(self) -> bool:
@@ -183,21 +187,24 @@ class StandingBody:
 
     def _stood(self, record: Record) -> StationEffect:
         """Return what became of a free-standing body in the worst direction; the share is that of its versions there."""
-        worst = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)[0]
-        share = None
+        found = respond_directions(self.body, record, vertical=self.vertical, step_deg=self.step_deg, **self.options)
+        worst, share, remarks = found[0], None, left_out_directions(found)
         if self.runs:
             motion = motion_of(record, f"{worst.azimuth_deg:g}")
             block = along(self.body, motion)
             assert isinstance(block, Block)
-            share = respond_probability(
+            chance = respond_probability(
                 block, motion, vertical=self.vertical, runs=self.runs, seed=self.seed, moved_m=MOVED_M, **self.options
-            ).overturned
+            )
+            share, warning = chance.overturned, left_out_versions(chance.no_answer, chance.runs)
+            remarks += [] if warning is None else [warning]
         return StationEffect(
             worst.azimuth_deg,
             happened=worst.overturned,
             overturned=worst.overturned,
             probability=share,
             max_slip_m=worst.max_displacement_m,
+            remarks=tuple(remarks),
         )
 
 

@@ -58,7 +58,7 @@ class StationAnswer:
     failure : str or None
         Why there is no answer, or no effect.
     doubts : tuple of str
-        What a careful reader notices about the record.
+        What a careful reader notices about the record, and which directions or versions of the body have no answer.
     history : tuple of str
         What was done to it, the storey on which a body stands among it.
     earthquake : Earthquake or None
@@ -251,6 +251,7 @@ def _answer(
         effect, failure = subject.under(prepared) if subject is not None else StationEffect(), None
     except SeisblockError as error:
         effect, failure = StationEffect(), error.said
+    where["doubts"] = (*sentences([prepared]), *effect.remarks)
     return StationAnswer(name, **where, **measured, effect=effect, failure=failure)  # type: ignore[arg-type]
 
 
