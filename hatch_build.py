@@ -1,18 +1,32 @@
-"""What the wheel holds and the tree does not: the compiled catalogues of translations."""
+"""Build hook of the wheel: compile the translation catalogues."""
 
+from datetime import UTC, datetime
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 from babel.messages.mofile import write_mo
 from babel.messages.pofile import read_po
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from hatchling.builders.utils import get_reproducible_timestamp
 
 
 class Catalogues(BuildHookInterface):
-    """Compiles every catalogue beside its source, for a wheel and for an editable installation alike."""
+    """Compile each catalogue beside its source, for a wheel and for an editable installation."""
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Compile before the files are gathered."""
-        for written in sorted(Path(self.root, "seisblock", "locale").rglob("*.po")):
-            with written.open("rb") as source, written.with_suffix(".mo").open("wb") as target:
-                write_mo(target, read_po(source))
+        """Compile the catalogues before the files of the wheel are collected."""
+        # SOURCE_DATE_EPOCH, else hatchling's fixed date: Babel would write the current minute into the header
+        date = datetime.fromtimestamp(get_reproducible_timestamp(), UTC)
+        for source in sorted(Path(self.root, "seisblock", "locale").rglob("*.po")):
+            with source.open("rb") as stream:
+                catalogue = read_po(stream)
+            catalogue.creation_date = date
+            compiled = BytesIO()
+            write_mo(compiled, catalogue)
+            target = source.with_suffix(".mo")
+            # an identical file is kept: another build of the same tree may be reading it
+            if not target.is_file() or target.read_bytes() != compiled.getvalue():
+                target.write_bytes(compiled.getvalue())
+            # the package reads the compiled catalogue only where it is newer than its source
+            target.touch()

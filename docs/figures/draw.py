@@ -23,7 +23,7 @@ FLOORS = (
 def text(x, y, words, *, size=15, weight="normal", fill=INK, anchor="start", style=""):
     """Return one line of text."""
     return (
-        f'<text x="{x}" y="{y}" font-size="{size}" font-weight="{weight}" fill="{fill}" text-anchor="{anchor}" {style}>'
+        f'<text x="{x:.6g}" y="{y:.6g}" font-size="{size}" font-weight="{weight}" fill="{fill}" text-anchor="{anchor}" {style}>'
         + words.replace("&", "&amp;").replace("<", "&lt;")
         + "</text>"
     )

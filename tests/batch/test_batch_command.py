@@ -100,7 +100,7 @@ def test_parquet_is_the_same_table(folder):
     """Cell by cell, with the types kept."""
     pandas = pytest.importorskip("pandas")
     assert run(LINE).exit_code == 0 and run(LINE.replace("t.csv", "t.parquet")).exit_code == 0
-    text, kept = pandas.read_csv("t.csv"), pandas.read_parquet("t.parquet")
+    text, kept = pandas.read_csv("t.csv", float_precision="round_trip"), pandas.read_parquet("t.parquet")
     assert list(text.columns) == list(kept.columns)
     assert kept["overturned"].tolist() == text["overturned"].tolist()
     assert kept["max_rotation_rad"].tolist() == text["max_rotation_rad"].tolist()

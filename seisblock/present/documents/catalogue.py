@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 import re
 from collections.abc import Iterator
 from typing import Any
@@ -94,7 +95,8 @@ def _explain(definition: dict[str, Any]) -> None:
 
 def _read(docstring: str) -> tuple[str, dict[str, str]]:
     """Return the first line of a numpydoc docstring, and what its Parameters say."""
-    text = re.sub(r":\w+:`~?(?:[\w.]+\.)?(\w+)`", r"\1", docstring.replace("]_", "]"))
+    # Python 3.13 and later strip the indentation when they compile, earlier ones do not
+    text = re.sub(r":\w+:`~?(?:[\w.]+\.)?(\w+)`", r"\1", inspect.cleandoc(docstring).replace("]_", "]"))
     summary, _, rest = text.partition("\n")
     section = re.split(r"\n\s*\w+\n\s*-{3,}\n", rest.partition("Parameters\n")[2].lstrip(" -\n"))[0]
     return summary.strip(), dict(_told(section))
@@ -102,7 +104,7 @@ def _read(docstring: str) -> tuple[str, dict[str, str]]:
 
 def _told(section: str) -> Iterator[tuple[str, str]]:
     """Yield each name of a Parameters section with its text."""
-    for names, text in re.findall(r"^ {0,4}(\w[\w, ]*?)(?: : .*)?\n((?: {5,}.*\n?)*)", section.rstrip() + "\n", re.MULTILINE):
+    for names, text in re.findall(r"^(\w[\w, ]*?)(?: : .*)?\n((?: {4,}.*\n?)*)", section.rstrip() + "\n", re.MULTILINE):
         for name in names.split(", "):
             if text.strip():
                 yield name, " ".join(text.split())
